@@ -10,7 +10,6 @@ from multiprocessing import get_context
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.processes import main_unnamed
 from lyapcheck.report.claim_row import ClaimRow
@@ -26,7 +25,6 @@ from lyapcheck.report.drawings import (
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
 from lyapcheck.report.jobs import gains_job, map_job, proofs_job, with_the_map
-from lyapcheck.report.kept import question, read, written
 from lyapcheck.report.model import behind
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending, work_in
@@ -44,7 +42,7 @@ WORKERS = 2
 
 
 def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
-    """The long computations, from the store if all that they decided is decided so again.
+    """The long computations: a process for each core; what can be drawn of one is drawn when it is done.
 
     Args:
         subject: arm, members and gains.
@@ -52,16 +50,6 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         gate: the gate's results, for a figure.
         progress: receives the fraction done and a few words.
     """
-    return store.remembered(
-        question(subject),
-        lambda kept: read(kept, subject),
-        lambda: _afresh(subject, notes, gate, progress),
-        written,
-    )
-
-
-def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
-    """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:

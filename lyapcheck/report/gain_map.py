@@ -58,13 +58,14 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
 
     So one tree of boxes is judged for many places.
     """
-    from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.answers.epsilon.kept import kept_epsilon
+    from lyapcheck.answers.epsilon.options import Options
 
     cells: list[JudgedCell] = []
     served: DecreaseProof | None = None
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
-        result = epsilon(gains, model, max_boxes=BOXES)
+        result = kept_epsilon(gains, model, Options(max_boxes=BOXES))
         known = None if served is None else served.for_smaller(gains.kv)
         if known is not None and known.accepted() and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
             result = replace(result, certified=known.loop.eps0, proof=known)

@@ -6,14 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lyapcheck._types import Array, Progress, part, silent
-from lyapcheck.answers.bounds.kept import kept_bounds
 from lyapcheck.robots.vary import corners, only_varied
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.decay.bounds import disturbance_bound, settling_bound
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
@@ -119,17 +119,11 @@ def compare(
         controlled.require_friction()
         arms = [arm for _, arm in corners(*varied)]
     friction = tuple(dry) if dry is not None else coulomb(model) if varied is None else most_coulomb(ranged)
-    settling, left = kept_bounds(
-        controlled,
-        task.step,
-        task.w0,
-        delta,
-        torque,
-        friction,
-        max_boxes=max_boxes,
-        jobs=jobs,
-        on_progress=part(progress, 0, 0.9) if varied is None else part(progress, 0.4, 0.8),
-    )
+    share = part(progress, 0, 0.9) if varied is None else part(progress, 0.4, 0.8)
+    start = controlled, task.step, task.w0
+    budget: dict[str, Any] = {"max_boxes": max_boxes, "jobs": jobs}
+    settling = settling_bound(*start, delta, on_progress=part(share, 0, 0.5), **budget)
+    left = disturbance_bound(*start, torque, friction, on_progress=part(share, 0.5, 1), **budget)
     runs = []
     for index, arm in enumerate(arms):
         progress(0.9 if varied is None else 0.8 + 0.2 * index / len(arms), "simulation")
