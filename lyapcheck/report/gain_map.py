@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.files.decimals import significant_down
+from lyapcheck.output.digits import at_least
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.plain import read
 
@@ -106,7 +106,7 @@ def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence
 
 def map_eps0(value: Fraction) -> str:
     """The largest decimal of three digits that is not above it."""
-    return f"{float(significant_down(value, DIGITS)):.{DIGITS}g}"
+    return at_least(value, DIGITS)
 
 
 def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[JudgedCell]:

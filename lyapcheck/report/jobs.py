@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.files.decimals import significant_down, significant_up
+from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
@@ -166,7 +166,7 @@ def rounded(value: Fraction | None, up: bool) -> str | None:
     """A positive number to ``DIGITS`` significant digits, not above it, or not below it with ``up``."""
     if value is None:
         return None
-    return f"{float((significant_up if up else significant_down)(value, DIGITS)):.{DIGITS}g}"
+    return (at_most if up else at_least)(value, DIGITS)
 
 
 def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
