@@ -16,8 +16,6 @@ from lyapcheck.report.subject import Subject
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
 
-PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")
-
 
 def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     """Compute a report.
@@ -57,7 +55,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         map=result.cells,
         figures=dict(sorted(result.figures.items())),
         certificates=dict(sorted(result.certificates.items())),
-        versions={name: version(name) for name in PACKAGES},
+        versions={name: version(name) for name in result.packages},
         seed=SEED,
     )
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -13,6 +14,7 @@ from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
+from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
@@ -39,6 +41,8 @@ OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.fa
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
+MODULES = {"python-flint": "flint"}
+"""How a package is imported, where that is not its name."""
 SHOWN = 6
 """Significant digits of what floating point computes."""
 
@@ -59,6 +63,20 @@ class GainData:
     run: Run
     row: RunRow
     certificates: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a computation hands back, and the packages that its process had loaded at its end."""
+
+    result: Any
+    packages: frozenset[str]
+
+
+def done(work: Callable[..., Any], *arguments: Any) -> Done:
+    """A computation in its own process, whose packages are those that it, or one before it, has asked for."""
+    result = work(*arguments)
+    return Done(result, frozenset(name for name in BEHIND if MODULES.get(name, name) in sys.modules))
 
 
 def _claims(proof: str, ms: Sequence[int], robot: str, gains: str, only: Sequence[str] = ()) -> ProofData:

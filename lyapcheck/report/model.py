@@ -114,7 +114,7 @@ class Report:
         map: places over m and k_v; empty where no map was made.
         figures: SVG text, PNG and CSV by file name.
         certificates: by their paths, those that the checker has accepted.
-        versions: the software that was used.
+        versions: of the packages that the computations loaded.
         seed: the seed of every random search.
     """
 
