@@ -40,28 +40,7 @@ HEADLINES = {
         "tree of boxes",
     ),
     "ε₀ along the links": ("Decreasing", "M positive and V decreasing", "links", "bounds along the links"),
-    "how near an arm comes, and when": (
-        "Settling",
-        "falling levels",
-        "M positive and V decreasing",
-        "links",
-        "tree of boxes",
-        "dominant diagonal",
-    ),
-    "when errors are small, in phases": (
-        "StaysWithin",
-        "falling levels in phases",
-        "bisection",
-        "tree of boxes",
-    ),
-    "how near an arm of many joints comes, and when": (
-        "Settling",
-        "falling levels",
-        "M positive and V decreasing",
-        "links",
-        "bounds along the links",
-        "energy along the links",
-    ),
+    "where an arm comes to rest": ("Resting", "h at the bounds"),
     "a property of the closed loop": ("Property", "obligations", *OF_OBLIGATIONS),
     "a theorem about a closed loop": ("Stable", "obligations", *OF_OBLIGATIONS, "leading term"),
 }
@@ -136,8 +115,7 @@ PURPOSES = {
     "`kinds/`, every n": "every_n bound_every_n",
     "`kinds/`, one arm": "inertia coriolis coriolis_below gravity compared chain chain_coriolis "
     "chain_identity",
-    "`kinds/`, motions": "decreasing nearby damping link_bounds settling phases stopping resting "
-    "of_loop at_corners",
+    "`kinds/`, motions": "decreasing damping link_bounds resting of_loop at_corners",
     "`kinds/`, theorems": "stability stable_arm property",
 }
 
