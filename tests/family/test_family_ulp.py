@@ -16,7 +16,14 @@ from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 
 MEMBERS = (1, 2, 3, 5, 10, 50, 100, 317, 513, 1000)
-FORMS = {"h": balls.h, "dh": balls.dh, "potential": balls.potential, "secant": balls.secant}
+
+
+def secant(m, x):
+    """h_m(x)/x, and h_m'(0) at x = 0."""
+    return balls.h(m, x) / x if x != 0 else balls.dh(m, x)
+
+
+FORMS = {"h": balls.h, "dh": balls.dh, "potential": balls.potential, "secant": secant}
 BORDER = 0.8813735870195430
 LIMIT = 4.0
 
