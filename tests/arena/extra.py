@@ -59,7 +59,7 @@ from lyapcheck.check.kinds.inertia import (
     MassBelow,
     PostureWitness,
 )
-from lyapcheck.check.kinds.link_bounds import EnergyBelow, LinkBounds, Shown
+from lyapcheck.check.kinds.link_bounds import EnergyBelow, LinkBounds
 from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.phases import DiesOut, FallingPhases, Phase, StaysWithin
@@ -71,11 +71,10 @@ from lyapcheck.check.kinds.trigonometric import TrigonometricBound, Trigonometri
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.decay.margin import Margin
-from lyapcheck.check.loop.inertia import inertia_of
+from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
-from lyapcheck.constants.products import products_below
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.branch_and_bound import certify
@@ -144,9 +143,6 @@ def of_the_arm() -> Iterator[Row]:
         MassBelow(ranged, ((F(1), F(2)),), F(5, 2)),
         PostureWitness((F(0),), (F(2),), (F(1),)),
     )
-    products = products_below(inertia_of(MASS, ()), F(5, 3))
-    assert products is not None
-    yield "coriolis-products", CoriolisBelow(MASS, (), F(5, 3)), products
     yield "coriolis-range", CoriolisBelow(ranged, ((F(1), F(2)),), F(1)), HarmonicSizes()
     yield "gravity-boxes", GravityBelow(1, ((*SINE, *COSINE),), (), F(3, 2)), Bisection()
     yield (

@@ -42,8 +42,8 @@ class ByLimits(Proposed):
     """dV/dt < 0 within limits of speed and of error."""
 
 
-class ByMotion(Proposed):
-    """‖C(q, x)x‖ below a bound by forms of the motion."""
+class ByRates(Proposed):
+    """‖C(q, x)x‖ below a bound by rates of M along the links."""
 
 
 class Altered(Proposed):

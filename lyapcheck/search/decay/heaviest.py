@@ -12,9 +12,10 @@ from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.check.kinds.inertia import Bisection, Dominance
-from lyapcheck.check.kinds.link_bounds import EnergyBelow, Shown
+from lyapcheck.check.kinds.link_bounds import EnergyBelow
 from lyapcheck.check.loop.corners import at_corners, corners_of, is_affine
 from lyapcheck.check.loop.field import size_of
+from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.statement import Proof
 from lyapcheck.control.judgement import proves
 from lyapcheck.robots.dynamics import FEW_JOINTS
