@@ -124,10 +124,6 @@ class Family(ABC):
         """A ball that contains U over the ball x; by default that of the checker."""
         return self.checked.potential(x)
 
-    def ball_secant(self, x: arb) -> arb:
-        """A ball that contains h(x)/x over the ball x; by default that of the checker."""
-        return self.checked.secant(x)
-
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The x > 0 at which h, and those at which h', may stop being monotone; none by default."""
         return (), ()

@@ -12,7 +12,6 @@ Soundness: none; what is found is a candidate for `lyapcheck.check.loop.states`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -115,17 +114,10 @@ def level_states(controlled: ControlledArm, starts: States) -> States:
     return _unit(controlled, States(result[:, :n], np.zeros_like(result[:, :n]), result[:, n:]))
 
 
-def finite_states(
-    controlled: ControlledArm,
-    starts: States,
-    errors: Sequence[float] = (),
-    rates: Sequence[float] = (),
-) -> States:
-    """Where the finite program ends from each start, within bounds of |e_i| and |w_i| where there are any."""
+def finite_states(controlled: ControlledArm, starts: States) -> States:
+    """Where the finite program ends from each start."""
     x = expressions(controlled)
     bound = _bound(controlled.n, _FASTEST)
-    bound[controlled.n : 2 * controlled.n] = errors or _LONGEST_ERROR
-    bound[2 * controlled.n :] = rates or _FASTEST
     first = quadratic(controlled, starts).reciprocal()
     return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), controlled.n))
 

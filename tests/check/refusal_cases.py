@@ -16,7 +16,6 @@ FREE, MOVING = "with-premises.sca.arms.all.m1", "with-premises.tra.21.m1"
 LASALLE, ARM = "with-premises.lib.P", "with-premises.lib.P.pelican"
 EXPONENTIAL, CASCADE = "with-premises.slo.P", "with-premises.slo.convergence"
 ISS = "with-premises.slo.P.disturbed"
-PHASES = "ext.phases"
 ZERO, ONE, TWO, X = ["num", "0"], ["num", "1"], ["num", "2"], ["var", "x"]
 SQUARE = ["pow", X, 2]
 Changed = Callable[[Document], Edits]
@@ -217,22 +216,7 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     ("ext.chain-k_c", [((P, "rates", 0, "prices"), ["0", "0"])], "do not show the bounds of the rates of M"),
     ("ext.chain-k_c", [((S, "high"), "1")], "must be at least"),
     ("ext.links", massless, "have one without energy about its own axis"),
-    *((base, one_parameter, "must be none") for base in ("ext.links", "ext.dominant", "ext.energy-below")),
-    # motions
-    (PHASES, [((S, "kp"), "1")], "must be a list"),
-    (PHASES, [((S, "within", 0), ["0"])], "must have 2 entries"),
-    (PHASES, [((S, "within"), [])], "must have a time"),
-    (PHASES, [((S, "within", 0, 0), "-1")], "must not be negative"),
-    (PHASES, [((S, "within", 0, 1), ["1", "1"])], "must be 1, one a joint"),
-    (PHASES, [((S, "within", 0, 1), ["-1"])], "must be from 0 to"),
-    (PHASES, [((S, "within", 1, 0), "100")], "must begin when the last phase ends"),
-    (PHASES, [((S, "after", "sizes"), [])], "must be 1, one a joint"),
-    (PHASES, [((S, "after", "sizes"), ["1/10"])], "allows at most"),
-    (PHASES, [((S, "after", "scale"), "0")], "must be positive"),
-    (PHASES, [((S, "family"), "arctan")], "is not of this family"),
-    (PHASES, [((P, "lightest"), [])], "must be 1, one a joint"),
-    (PHASES, [((P, "lightest"), ["0"]), ((P, "lightness"), [])], "needs a bound of M from below"),
-    (PHASES, [((P, "phases", 0, "envelope"), [["0", "1/4"]])], "must have a band to fall through"),
+    ("ext.links", one_parameter, "must be none"),
     # theorems
     (ARM, [((P, "met"), {"rule": "witness", "point": [], "bits": 192})], "are met by the numbers"),
     (MOVING, [((*ARGUMENT, "gravity"), True)], "has no energy where q_d(t) moves"),
@@ -325,16 +309,9 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     ),
     ("ext.linked", [((P, "rate", "arms"), [])], "do not make M(q) at the corners"),
     ("ext.linked", [((S, "coupling"), ["1", "1"])], "must be none"),
-    ("ext.nearby", [((S, "everywhere", "coupling"), ["1"])], "must be empty"),
-    ("ext.nearby", [((S, "speeds"), []), ((S, "errors"), [])], "must be there: of speed"),
-    ("ext.nearby", [((S, "speeds", 0), "0")], "must be above 0 and at most"),
-    ("ext.nearby", [((S, "energy"), "0")], "must be above 0, up to"),
-    ("ext.nearby", [((S, "speeds"), ["1", "1"])], "must be none or 1, one a joint"),
     ("ext.equal-entries", [((S, "power"), 1)], "must be 0"),
     ("arc.slope", [((S, "power"), 0)], "must be 1"),
     ("ext.supremum", [((S, "component"), ["atan", X])], "is neither h_m(x) nor h_m'(x)"),
-    ("ext.phases", [((S, "within", 1, 0), "0")], "must be after 0"),
-    ("ext.phases", [((S, "after", "scale"), "1/100")], "is shorter than what is shown"),
     ("eve.E.gamma.falls", [((P, "multiples", 0, "weight"), "-1")], "must be positive"),
     (
         "pub.2.8",
@@ -421,8 +398,6 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     (FREE, [((*SYSTEM, "gains", 0), "M")], "is taken"),
     (FREE, [((*SYSTEM, "gains", 0), "K_p")], "must have no underscore"),
     (FREE, [((*SYSTEM, "functions", 0, "of"), "v")], "which is no state"),
-    ("ext.phases", [((P, "phases", 0, "rate"), LINKED)], "must not be bounded"),
-    ("ext.nearby", [((S, "energy"), "9/20")], "is not shown to keep |e_i|"),
     (
         "ext.the-origin-is-an-equilibrium",
         property_of(ISS, "the origin is an equilibrium"),

@@ -26,20 +26,12 @@ class ByLinks(Proposed):
     """dV/dt < 0 by bounds along the links."""
 
 
-class ByCorners(Proposed):
-    """dV/dt < 0 by a tree of boxes at each corner of the ranges of M's parameters."""
-
-
 class ByLargerKv(Proposed):
     """dV/dt < 0 by a proof for a larger K_v."""
 
 
 class ByMassAtCorners(Proposed):
     """M ≻ 0 at each corner of the ranges of its parameters."""
-
-
-class ByLimits(Proposed):
-    """dV/dt < 0 within limits of speed and of error."""
 
 
 class ByRates(Proposed):

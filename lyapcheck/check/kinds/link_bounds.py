@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lyapcheck.check.kinds.inertia import MassAbove, shifted
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.boxes import Box, leaves
 from lyapcheck.check.loop.chain import RigidLink
@@ -18,33 +17,8 @@ from lyapcheck.check.loop.links import makes
 from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import Accepted, rule
 
 BITS = 64
-
-
-@dataclass(frozen=True)
-class EnergyBelow(Proof):
-    """Links whose M(q) is ≺ diag(u), and what shows that, of diag(u) − M(q) ≻ 0; u are its prices."""
-
-    rule = "energy along the links"
-    links: tuple[RigidLink, ...]
-    bound: Shown
-
-
-@rule(MassAbove, EnergyBelow)
-def by_energy(statement: MassAbove, proof: EnergyBelow) -> Accepted:
-    """Soundness: diag(u) less this matrix is M of the links, with xᵀMx < Σ u_i x_i² for x ≠ 0."""
-    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
-    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
-    prices, n = proof.bound.prices, len(statement.mass)
-    require(len(prices) == n, "prices", len(prices), f"must be {n}, one a joint")
-    made = makes(proof.links, shifted(statement.mass, -1, prices, 0))
-    require(made, "links", len(proof.links), "do not make diag(u) less this matrix")
-    held = proof.bound.holds([storage.energy(proof.links, 1)], 2)
-    require(held, "forms", "", "do not show that the energy is below that of diag(u)")
-    return Accepted("proved", "enclosure")
 
 
 @dataclass(frozen=True)
@@ -72,7 +46,6 @@ class LinkBounds(RateProof):
         """Judge links, bounds and boxes one after the other."""
         n = loop.n
         require(not loop.coupling, "weights", loop.coupling, "must be none")
-        require(not loop.within, "errors", loop.within, "must not be bounded: ε is ε₀/(1 + ‖e‖)")
         require(loop.admissible, "gains, friction or ε₀", "", "must be positive, M = Mᵀ")
         masses = masses_at_corners(loop.arm.mass, loop.parameters)
         made = len(self.arms) == len(masses) and all(map(makes, self.arms, masses))
