@@ -11,6 +11,8 @@ LAST_READ_BY = {
     "falling energy": "0.1.0",
     "falling levels": "0.1.0",
     "falling levels in phases": "0.1.0",
+    "forms of the motion": "0.1.0",
+    "products of rates": "0.1.0",
     "slower and nearer": "0.1.0",
 }
 """Names of kinds and of rules, one a line."""

@@ -76,7 +76,7 @@ def expressions(controlled: ControlledArm) -> Expressions:
     """a₀, a₁, a₂ of `lyapcheck.search.sample` and wᵀSw/(1 + r) as CasADi expressions."""
     n = controlled.n
     q, e, w = (ca.SX.sym(name, n) for name in "qew")
-    forms, rates = controlled.family.casadi_smooth(e), controlled.family.casadi_smooth(w)
+    forms, rates = controlled.family.casadi(e), controlled.family.casadi(w)
     h, dh = forms.h, forms.dh
     r = ca.sqrt(ca.dot(e, e) + 1e-24)
     s, ew = 1 / (1 + r), ca.dot(e, w) / r
@@ -133,7 +133,7 @@ def slow_states(controlled: ControlledArm, starts: States, radius: float) -> Sta
     unit = radius / _LONGEST_ERROR
     lengths = _length(controlled.family.h(starts.e))[:, None]
     e = unit * d
-    w = ca.sqrt(ca.sumsqr(controlled.family.casadi_smooth(e).h) + 1e-300) * u
+    w = ca.sqrt(ca.sumsqr(controlled.family.casadi(e).h) + 1e-300) * u
     inner = ca.substitute([x.a0, x.a1, x.a2], [x.e, x.w], [e, w])
     program = _reciprocal_program(
         replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), _bound(n, _FASTEST)

@@ -65,11 +65,9 @@ from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.inertia import inertia_of
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
-from lyapcheck.constants.products import products_below
 from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.error_boxes import ErrorBoxes
@@ -136,9 +134,6 @@ def of_the_arm() -> Iterator[Row]:
         MassBelow(ranged, ((F(1), F(2)),), F(5, 2)),
         PostureWitness((F(0),), (F(2),), (F(1),)),
     )
-    products = products_below(inertia_of(MASS, ()), F(5, 3))
-    assert products is not None
-    yield "coriolis-products", CoriolisBelow(MASS, (), F(5, 3)), products
     yield "coriolis-range", CoriolisBelow(ranged, ((F(1), F(2)),), F(1)), HarmonicSizes()
     yield "gravity-boxes", GravityBelow(1, ((*SINE, *COSINE),), (), F(3, 2)), Bisection()
     yield (

@@ -22,7 +22,6 @@ from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.constants.storage import coriolis_bound, motion, storage_proof
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
@@ -34,7 +33,6 @@ from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
 from tests.arena.attacks import encoded, sealed
 from tests.arena.run import ARENA
-from tests.helpers.forgotten import forget_bounds
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
@@ -180,51 +178,3 @@ def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) ->
     first = kept_constants(load("reyes-kelly2"), 500, None)
     monkeypatch.setattr(kept_arm, "arm_constants", never)
     assert kept_constants(load("reyes-kelly2"), 500, None) == first
-
-
-def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    forget_bounds()
-    first = storage_proof(chain, "k_c")
-    forget_bounds()
-    with monkeypatch.context() as patch:
-        patch.setattr(motion, "solve", never)
-        assert first is not None
-        assert storage_proof(chain, "k_c") == first
-
-    def shortened(answer: list[Any] | str) -> None:
-        if isinstance(answer, list):
-            answer[0].pop()
-
-    forget_bounds()
-    rewritten(place, shortened)
-    assert storage_proof(chain, "k_c") == first
-    forget_bounds()
-
-
-def test_the_bound_of_k_c_is_kept_without_its_proof(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    shown = storage_proof(chain, "k_c")
-    monkeypatch.setattr("lyapcheck.constants.storage.bounds.coriolis_forms", never)
-    assert shown is not None
-    assert coriolis_bound(chain) == shown.statement
-
-
-def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    forget_bounds()
-    first = storage_proof(chain, "k_c")
-    forget_bounds()
-
-    def halved(answer: list[Any] | str) -> None:
-        if isinstance(answer, list):
-            answer[0][0] /= 2
-
-    rewritten(place, halved)
-    second = storage_proof(chain, "k_c")
-    assert first is not None
-    assert second is None or second.bound >= first.bound * Fraction(99, 100)
-    forget_bounds()

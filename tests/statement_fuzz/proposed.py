@@ -34,8 +34,8 @@ class ByMassAtCorners(Proposed):
     """M ≻ 0 at each corner of the ranges of its parameters."""
 
 
-class ByMotion(Proposed):
-    """‖C(q, x)x‖ below a bound by forms of the motion."""
+class ByRates(Proposed):
+    """‖C(q, x)x‖ below a bound by rates of M along the links."""
 
 
 class Altered(Proposed):

@@ -19,7 +19,6 @@ from tests.statement_fuzz.judge import Judged, judge
 from tests.statement_fuzz.oracle.kinds import confirms, known, objection
 from tests.statement_fuzz.report import markdown
 from tests.statement_fuzz.run import Run, Tally, run
-from tests.statement_fuzz.shrink import shrunk
 from tests.statement_fuzz.subject import CoriolisBelow, Decreasing, decide
 
 FEW = 40
@@ -249,13 +248,6 @@ def test_an_unknown_kind_is_no_problem() -> None:
 
 
 # How faults are told ---------------------------------------------------------------------------------------
-
-
-def test_a_fault_is_made_short_and_stays_the_same_fault() -> None:
-    statement = Constant(expr(Fraction(1, 3)) + 2 * sqrt(3) + sqrt(5) ** 2 < 1)
-    judged = judge(Made(statement, "by hand"), 0, by=credulous)
-    assert judged.fault
-    assert shrunk(judged).signature == judged.signature
 
 
 def test_the_page_has_the_counts_and_the_faults() -> None:

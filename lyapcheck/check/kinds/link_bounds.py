@@ -5,7 +5,6 @@ References: ``reyes2019family`` (11), (12), (15).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lyapcheck.check.loop import storage
@@ -13,31 +12,13 @@ from lyapcheck.check.loop.boxes import Box, leaves
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
 from lyapcheck.check.loop.corners import masses_at_corners
-from lyapcheck.check.loop.error_form import SCALE, BoxForm, Row
+from lyapcheck.check.loop.error_form import SCALE, BoxForm
 from lyapcheck.check.loop.links import makes
+from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import require
 
 BITS = 64
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A diagonal bound, and the storage forms that show it for the links at each corner of the ranges."""
-
-    prices: Row
-    forms: tuple[storage.Forms, ...]
-
-    def holds(self, chains: Sequence[Sequence[storage.Stage]], vectors: int) -> bool:
-        """Whether the forms show it for the costs of every chain."""
-        n, count = len(self.prices), vectors * (3 * vectors + 1) // 2
-        fits = len(self.forms) == len(chains) and all(len(stages) == n for stages in chains)
-        return fits and all(
-            len(forms) == n
-            and all(len(row) == count for row in forms)
-            and storage.shows(stages, [storage.invariant_form(row, vectors) for row in forms], self.prices)
-            for stages, forms in zip(chains, self.forms, strict=True)
-        )
 
 
 @dataclass(frozen=True)
