@@ -19,8 +19,18 @@ class AllOf(Total):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require(len(self.parts) > 0, "parts", "none", "a conjunction needs at least one part")
-        for _, part in self.parts:
+        said: dict[str, tuple[str, object]] = {}
+        for name, part in self.parts:
             part.require_well_formed()
+            for fact, value in part.which_arm.items():
+                before, other = said.setdefault(fact, (name, value))
+                rule = f"has another {fact} than {before}: state what is about another arm by itself"
+                require(value == other, "part", name, rule)
+
+    @property
+    def which_arm(self) -> dict[str, object]:
+        """What the parts say together."""
+        return {fact: value for _, part in self.parts for fact, value in part.which_arm.items()}
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
