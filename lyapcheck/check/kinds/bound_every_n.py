@@ -176,7 +176,7 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     """Soundness: entries at one n that meet all that is supposed, and the left side exceeds the right.
 
     Functions of time are there at some instant, see :func:`moved_at`; a bound that holds strictly there, or
-    in which nothing moves, holds also just before and after it.
+    in which nothing moves, holds also just before and after it. Numbers that are 0 may be taken a little above.
     """
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, equations = at_size(statement, proof.n)
@@ -184,8 +184,7 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     point = coordinates(proof.point, names_at(statement, proof.n, [sides, *equations, *bounds]))
     moved = moved_at(statement.identity, proof.n, point)
     for name in sorted(statement.numbers):
-        least = point[name] > 0 or (point[name] == 0 and name not in moved)
-        require(least, name, point[name], "must not be negative, nor 0 where it moves")
+        require(point[name] >= 0, name, point[name], "must not be negative")
     for tree in chain(sides, *equations, *bounds, beside(statement.identity, proof.n)):
         require_defined_at(tree, point)
     given = all(compared(*pair, point) == 0 for pair in equations)
