@@ -176,7 +176,8 @@ def by_entries(statement: BoundEveryN, proof: EntriesWitness) -> Accepted:
     """Soundness: entries at one n that meet all that is supposed, and the left side exceeds the right.
 
     Functions of time are there at some instant, see :func:`moved_at`; a bound that holds strictly there, or
-    in which nothing moves, holds also just before and after it. Numbers that are 0 may be taken a little above.
+    in which nothing moves, holds also just before and after it. Numbers that are 0
+    may be taken a little above.
     """
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, equations = at_size(statement, proof.n)
