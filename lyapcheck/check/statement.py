@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
@@ -75,11 +75,6 @@ class Statement(ABC):
     def granted(self) -> tuple[str, ...]:
         """What a proof of it takes for granted about the world, in sentences."""
         return ()
-
-    @property
-    def which_arm(self) -> Mapping[str, object]:
-        """What it says of which arm it is about, by name: parts of one statement say the same."""
-        return {}
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:

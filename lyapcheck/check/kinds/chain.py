@@ -45,11 +45,6 @@ class OfLinks(Total):
             require(link.fits, "link", "", "must have a unit axis, a rotation, mass and inertia ⪰ 0")
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """The links stand for M, and have no parameters."""
-        return {"number of joints": len(self.links), "M": self.links, "range of parameters": ()}
-
-    @property
     def over(self) -> str:
         """``for all q, …``."""
         entries = [f"link {k + 1}: {_link_text(link)}" for k, link in enumerate(self.links)]
@@ -139,11 +134,6 @@ class ChainGravityBelow(OfChain):
         known = len(self.joints) > 0 and all(1 <= i <= len(self.links) for i in self.joints)
         require(rising and known, "joints", self.joints, "must be some joints, each once, in order")
         require(self.high >= 0, "high", self.high, "must not be negative")
-
-    @property
-    def which_arm(self) -> dict[str, object]:
-        """With its free fall."""
-        return {**super().which_arm, "free fall": self.fall}
 
     def text(self) -> str:
         """``‖(g1, …)‖ ≤ high …``."""

@@ -47,12 +47,6 @@ class GravityBelow(BoundedAbove):
         require(self.high >= 0, "high", self.high, "must not be negative")
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """The parameters; g where there is one entry a joint, as others may be those of a derivative."""
-        known = {"number of joints": self.joints, "range of parameters": self.parameters}
-        return known | ({"g": self.gravity} if 1 < self.joints == len(self.gravity) else {})
-
-    @property
     def entries(self) -> list[Uncertain]:
         """The g_i."""
         return [by_parameters(entry, self.joints) for entry in self.gravity]
@@ -115,12 +109,6 @@ class GravityOfPotential(Compared):
     def joints(self) -> int:
         """As many as entries."""
         return len(self.gravity)
-
-    @property
-    def which_arm(self) -> dict[str, object]:
-        """g, its potential and the parameters."""
-        known = {"number of joints": self.joints, "range of parameters": self.parameters}
-        return {**known, "g": self.gravity, "potential": self.potential}
 
     def gaps(self) -> Iterator[Gap]:
         """g_i − ∂U/∂q_i."""

@@ -219,11 +219,6 @@ class OfArm(Total):
         return len(self.mass)
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """M and its parameters."""
-        return {"number of joints": self.joints, "M": self.mass, "range of parameters": self.parameters}
-
-    @property
     def inertia(self) -> Inertia:
         """M(q)."""
         return inertia_of(self.mass, self.parameters)

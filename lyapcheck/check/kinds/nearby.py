@@ -10,7 +10,6 @@ References: ``reyes2019family`` (11), (12), (13); ``khalil2002nonlinear``, theor
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -61,11 +60,6 @@ class DecreasingNearby(Total):
                 require(0 < value <= LARGEST, subject, value, f"must be above 0 and at most {LARGEST}")
         if self.energy is not None:
             require(0 < self.energy <= LARGEST, "energy", self.energy, f"must be above 0, up to {LARGEST} J")
-
-    @property
-    def which_arm(self) -> Mapping[str, object]:
-        """That of ``everywhere``."""
-        return self.everywhere.which_arm
 
     @property
     def granted(self) -> tuple[str, ...]:

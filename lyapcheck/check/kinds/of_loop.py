@@ -57,11 +57,6 @@ class OfLoop(Statement):
                 require(0 <= value <= LARGEST, subject, value, f"must be from 0 to {LARGEST}")
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """M, B and the parameters; gains and the torques that may act beside them are not of the arm."""
-        return {**self.mass_positive.which_arm, "B": self.viscous}
-
-    @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot under the controller (6)."""
         exact = all(low == high for low, high in (*self.parameters, *self.viscous))

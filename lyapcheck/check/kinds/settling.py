@@ -58,11 +58,6 @@ class Settling(OfLoop, Total):
             require(above > below, "level", below, f"must be below {above}")
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """With its dry friction."""
-        return {**super().which_arm, "dry friction": self.dry}
-
-    @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
         friction = "dry friction opposes each joint's motion, or holds it, with at most the torque stated"

@@ -110,13 +110,6 @@ class StableArm(Total):
         return name in {*known, *self.argument.system.constants}
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """M, B and the energy of gravity."""
-        friction = tuple((b, b) for b in self.arm.viscous)
-        of_mass = MassAbove(self.arm.mass, (), Fraction(0)).which_arm
-        return {**of_mass, "B": friction, "potential": self.arm.potential}
-
-    @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
         """That of the argument."""
         return Stable(self.argument).theorems

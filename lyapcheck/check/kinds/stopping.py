@@ -45,11 +45,6 @@ class ComesToRest(OfLoop, Total):
         self.resting.require_well_formed()
 
     @property
-    def which_arm(self) -> dict[str, object]:
-        """With its dry friction."""
-        return {**super().which_arm, "dry friction": self.dry}
-
-    @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot."""
         return (
