@@ -525,7 +525,7 @@ def arms() -> dict[str, tuple[Part, Part]]:
     both = GravityBelow(2, (ACROSS, ()), (), F(1)), HarmonicSizes()
     return {
         "M": (mass, (MassBelow(double, (), F(12)), Bisection())),
-        "number of joints": (mass, (MassAbove(((UNIT,),), (), F(0)), Bisection())),
+        "number of joints": (mass, (GravityBelow(1, (SINE,), (), F(1)), HarmonicSizes())),
         "range of parameters": ((ranged[0], corners), (ranged[1], corners)),
         "B": ((one, damped), (other, damped)),
         "B nearby": ((NEARBY, nearer()), (other, damped)),
