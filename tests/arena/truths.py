@@ -15,6 +15,9 @@ from dataclasses import replace
 from fractions import Fraction as F
 from importlib.metadata import version
 
+from lyapcheck.check.kinds.nearby import DecreasingNearby
+from lyapcheck.check.kinds.stopping import EnergyFalls
+
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
@@ -45,10 +48,8 @@ from lyapcheck.check.kinds.inertia import (
     MassBelow,
     PostureWitness,
 )
-from lyapcheck.check.kinds.nearby import DecreasingNearby
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.resting import Resting, RestWitness
-from lyapcheck.check.kinds.stopping import EnergyFalls
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
 from lyapcheck.check.verify import verify, weakest
