@@ -15,9 +15,6 @@ from dataclasses import replace
 from fractions import Fraction as F
 from importlib.metadata import version
 
-from lyapcheck.check.kinds.nearby import DecreasingNearby
-from lyapcheck.check.kinds.stopping import EnergyFalls
-
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
@@ -57,19 +54,15 @@ from tests.arena.extra import (
     AT,
     COSINE,
     EPS,
-    LEVELS,
     LINKS,
     MASS,
     MINUS,
-    NEARBY,
     RANGING,
     RATES,
     RESTING,
-    SETTLING,
     SINE,
     SPLIT,
     STILL,
-    STOPPING,
     SYMBOLS,
     UNIT,
     A,
@@ -79,7 +72,6 @@ from tests.arena.extra import (
     Y,
     Z,
     decreasing,
-    nearer,
     num,
     vector,
 )
@@ -444,40 +436,20 @@ def on_states() -> dict[str, Case]:
     driven = replace(slow, viscous=((F(-5), F(1)),))
     weighed = replace(slow, mass=RANGING["mass"], parameters=((F(9, 10), F(1)),))
     heavy = replace(moving, parameters=(F(1000),), e=(F(-1),), w=(F(-3),))
-    late = replace(decreasing(UNIT, F(2)), family="hyperbolic", m=2)
-    near = DecreasingNearby(late, (), (F(1, 4),), None)
     light = PostureWitness((F(0),), (F(-1),), (F(1),))
     lighter = ((F(-1), F(1)),)
     everywhere = replace(weighed, parameters=lighter)
-    closer = replace(NEARBY, everywhere=weighed, energy=None)
     one = Resting(RESTING.family, RESTING.m, RESTING.kp[:1], RESTING.torque[:1], RESTING.errors[:1])
     damped = PositiveAndDecreasing(Bisection(), BoxTree("."))
     needed = DampingBelow(((UNIT,),), ((F(1), F(1)),), (), "tanh", None, (F(1),), (F(1),), num(1))
     above = DampingAbove(F(1), F(1, 10), ExactNumbers(), damped)
     true, false = (Constant(less(num(k), "<", num(1))) for k in (0, 2))
-    rest, error = STOPPING, F(1, 2)
     return {
         "a small ε₀": (slow, quick, moving),
         "the weights of h": (replace(quick, coupling=(F(1, 100),)), quick, moving),
         "the friction": (slow, driven, replace(moving, viscous=(F(-5),), w=(F(3),))),
         "a parameter of the loop": (weighed, replace(weighed, parameters=((F(9, 10), F(1000)),)), heavy),
         "an arm with mass": (weighed, everywhere, light),
-        "an arm with mass, nearby": (closer, replace(closer, everywhere=everywhere), light),
-        "the limit of speed": (
-            NEARBY,
-            replace(NEARBY, speeds=(F(4),), energy=None),
-            replace(moving, w=(F(4),)),
-        ),
-        "the limit of error": (
-            near,
-            replace(near, errors=(F(1),)),
-            replace(moving, e=(F(-3, 4),), w=(F(-4),)),
-        ),
-        "the friction nearby": (
-            NEARBY,
-            replace(NEARBY, everywhere=driven, energy=None),
-            replace(moving, viscous=(F(-5),)),
-        ),
         "the torque at rest": (one, replace(one, torque=(F(10),)), RestWitness(0, F(1))),
         "the error at rest": (one, replace(one, errors=(F(2, 5),)), RestWitness(0, F(1, 2))),
         "the stiffness at rest": (one, replace(one, kp=(F(2),)), RestWitness(0, F(1))),
@@ -492,8 +464,6 @@ def on_states() -> dict[str, Case]:
             replace(RESTING, torque=(F(10), F(5))),
             RestWitness(0, F(1)),
         ),
-        "the dry friction": (rest, replace(rest, dry=(F(1),)), RestWitness(0, F(7, 10))),
-        "the error under dry friction": (rest, replace(rest, errors=(F(2, 5),)), RestWitness(0, error)),
         "V that falls": (replace(needed, viscous=((F(-5), F(1)),)), needed, above),
         "M ≻ 0 where V falls": (replace(needed, mass=((MINUS,),)), needed, above),
         "the bound of the damping": (replace(needed, bound=num(3)), needed, above),
@@ -529,8 +499,6 @@ def arms() -> dict[str, tuple[Part, Part]]:
         "number of joints": (mass, (GravityBelow(1, (SINE,), (), F(1)), HarmonicSizes())),
         "range of parameters": ((ranged[0], corners), (ranged[1], corners)),
         "B": ((one, damped), (other, damped)),
-        "B nearby": ((NEARBY, nearer()), (other, damped)),
-        "dry friction": ((SETTLING, LEVELS), (STOPPING, EnergyFalls(Bisection()))),
         "M of links": ((ChainAbove(LINKS, F(0)), OwnMoments()), (ChainAbove(heavy, F(0)), OwnMoments())),
         "M or links": (mass, (ChainIdentity(heavy, "rate"), ByDefinition())),
         "free fall": ((still[0], NoTorque()), (still[1], NoTorque())),
