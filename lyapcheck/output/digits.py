@@ -6,7 +6,6 @@ import math
 from fractions import Fraction
 
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.files.decimals import significant_down, significant_up
 
 
 def decimals(number: Enclosure, digits: int) -> tuple[str, str]:
@@ -36,18 +35,6 @@ def correct_digits(number: Enclosure, digits: int) -> str:
         if low == high and low != 0:
             return _decimal(low, places)
     return "[{}, {}]".format(*written)
-
-
-def at_least(value: Fraction, digits: int) -> str:
-    """A bound from below, to so many significant digits: the decimal printed is never above it."""
-    rounded = significant_down(value, digits) if value >= 0 else -significant_up(-value, digits)
-    return f"{float(rounded):.{digits}g}"
-
-
-def at_most(value: Fraction, digits: int) -> str:
-    """A bound from above, to so many significant digits: the decimal printed is never below it."""
-    rounded = significant_up(value, digits) if value >= 0 else -significant_down(-value, digits)
-    return f"{float(rounded):.{digits}g}"
 
 
 def _places(number: Enclosure, digits: int) -> int:

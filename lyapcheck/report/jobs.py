@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.output.digits import at_least, at_most
+from lyapcheck.files.decimals import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read

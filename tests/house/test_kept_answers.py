@@ -1,4 +1,4 @@
-"""ε₀ and k_c from the store: the same answer, judged again, and never believed."""
+"""ε₀ from the store: the same answer, judged again, and never believed."""
 
 from __future__ import annotations
 
@@ -18,12 +18,10 @@ from lyapcheck.answers.epsilon import EpsilonResult, epsilon, kept
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.epsilon.options import Options
-from lyapcheck.constants.storage import coriolis_bound, motion, storage_proof
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
 from tests.arena.attacks import encoded, sealed
-from tests.helpers.forgotten import forget_bounds
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
@@ -135,51 +133,3 @@ def test_what_is_true_of_other_gains_is_asked_again(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(kept, "four", never)
     with pytest.raises(AssertionError, match="computed again"):
         kept_epsilon(other, model, options)
-
-
-def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    forget_bounds()
-    first = storage_proof(chain, "k_c")
-    forget_bounds()
-    with monkeypatch.context() as patch:
-        patch.setattr(motion, "solve", never)
-        assert first is not None
-        assert storage_proof(chain, "k_c") == first
-
-    def shortened(answer: list[Any] | str) -> None:
-        if isinstance(answer, list):
-            answer[0].pop()
-
-    forget_bounds()
-    rewritten(place, shortened)
-    assert storage_proof(chain, "k_c") == first
-    forget_bounds()
-
-
-def test_the_bound_of_k_c_is_kept_without_its_proof(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    shown = storage_proof(chain, "k_c")
-    monkeypatch.setattr("lyapcheck.constants.storage.bounds.coriolis_forms", never)
-    assert shown is not None
-    assert coriolis_bound(chain) == shown.statement
-
-
-def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    forget_bounds()
-    first = storage_proof(chain, "k_c")
-    forget_bounds()
-
-    def halved(answer: list[Any] | str) -> None:
-        if isinstance(answer, list):
-            answer[0][0] /= 2
-
-    rewritten(place, halved)
-    second = storage_proof(chain, "k_c")
-    assert first is not None
-    assert second is None or second.bound >= first.bound * Fraction(99, 100)
-    forget_bounds()

@@ -15,7 +15,7 @@ from lyapcheck.answers.sweep.page import files
 from lyapcheck.answers.sweep.result import SweepAnswer
 from lyapcheck.answers.sweep.tally import Tally
 from lyapcheck.answers.table import build_table
-from lyapcheck.output.digits import at_least, at_most
+from lyapcheck.files.decimals import at_least, at_most
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.model import Report
 from lyapcheck.report.notes import published_notes

@@ -14,7 +14,6 @@ from lyapcheck.answers.epsilon.assembled import put_together
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.compute import four
 from lyapcheck.answers.epsilon.forms import by_forms
-from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.check.certificate import Certificate
@@ -46,29 +45,19 @@ BESIDE = ("boxes", "certified_by", "seed")
 def kept_epsilon(
     gain_set: GainSet, model: RobotModel, options: Options, on_progress: Progress = silent
 ) -> EpsilonResult:
-    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds.
-
-    What is asked within limits is not kept.
-    """
+    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds."""
     if options.seconds is not None:  # another run of so many seconds may find a larger one
         return four(gain_set, model, options, on_progress)
     # all that the four depend on; not the name of the gain set
-    gains, limits = (
-        (gain_set.family, gain_set.m, gain_set.kp, gain_set.kv, gain_set.angle_unit),
-        options.limits,
-    )
+    gains = gain_set.family, gain_set.m, gain_set.kp, gain_set.kv, gain_set.angle_unit
     budget = {name: getattr(options, name) for name in ("max_boxes", "ranges", "weights", "starts", "seed")}
-    result = remembered(
+    return remembered(
         {"epsilon": store.exact(gains, model), **budget},
         lambda kept: _rebuilt(kept, ControlledArm(gain_set, model, options.ranges), model.assumptions),
-        lambda: four(gain_set, model, replace(options, limits=None), on_progress),
+        lambda: four(gain_set, model, options, on_progress),
         _written,
         options.jobs,
     )
-    if limits is None:
-        return result
-    near = nearby(gain_set, model, limits, result.certified, options, on_progress)
-    return replace(result, nearby=near)
 
 
 def _written(result: EpsilonResult) -> KeptCertificates | None:

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.answers.sweep.question import Row
-from lyapcheck.output.digits import at_least, at_most
+from lyapcheck.files.decimals import at_least, at_most
 
 MOST_CELLS = 3_000
 """Of one map; a larger one could not be read."""
@@ -45,13 +45,11 @@ MEASURES = (
     Measure("least margin of the gate's conditions, as a share of the limit", "margin", min),
     Measure("certified ε₀", "eps0", min),
     Measure("simulated settling time in s", "settling", max),
-    Measure("certified settling time in s", "settling_certified", max),
 )
 ASKED = {
     "margin": ("gate",),
     "eps0": ("epsilon",),
     "settling": ("simulate", "bounds"),
-    "settling_certified": ("bounds",),
 }
 """Which questions fill a column."""
 
