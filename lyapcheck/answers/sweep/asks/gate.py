@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from lyapcheck.answers.gate.answer import GateAnswer
-from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
+from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.answers.gate.whole import whole
 from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import Answered, Question, answered
@@ -15,7 +15,7 @@ from lyapcheck.control.arm_limits import arm_limits, varied_limits
 from lyapcheck.control.conditions import UNDECIDED
 from lyapcheck.control.gains import GainFile
 
-OPTIONS = {"condition": DECIDING, "gamma": "true"}
+OPTIONS: dict[str, Any] = {"condition": (), "gamma": "true"}
 DIGITS = 6
 
 
@@ -26,7 +26,8 @@ def ask(questions: Sequence[Question], known: UncertainArm, options: Mapping[str
         known.limits[robot] = varied_limits(robot, ranges) if ranges else arm_limits(robot)
     sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
     file = GainFile("plan", robot, sets)
-    results = judged_sets(file, None, options["condition"], options["gamma"], arms=known.limits, explained=0)
+    asked = options["condition"] or None
+    results = judged_sets(file, None, asked, options["gamma"], arms=known.limits, explained=0)
     return [
         _answered(question, result, data)
         for question, result, data in zip(
