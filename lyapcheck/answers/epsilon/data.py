@@ -32,6 +32,7 @@ def result_data(result: FourEpsilons) -> dict[str, Any]:
         "nearby": None if result.nearby is None else _nearby(result.nearby),
         "ranges": result.ranges,
         "unvaried": exact(result.unvaried),
+        "outside": list(result.outside),
         "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,
         "findings": list(result.findings),

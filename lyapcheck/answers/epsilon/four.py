@@ -50,7 +50,9 @@ class FourEpsilons:
         assumptions: what is taken for granted about the arm.
         seed: of the sampled states.
         nearby: the ε₀ of states within limits of speed and of error, where they were asked for.
-        unvaried: what is certified at nominal numbers, where that was asked for beside ranges.
+        unvaried: what is certified at the numbers of the file, where these lie within the ranges.
+        outside: the numbers whose value in the file lies outside the ranges.
+        uncertain: whether the arm has ranges of M, potential or friction, asked for or not.
     """
 
     gains: GainSet
@@ -74,6 +76,8 @@ class FourEpsilons:
     seed: int = 0
     nearby: NearbyResult | None = None
     unvaried: Fraction | None = None
+    outside: tuple[str, ...] = ()
+    uncertain: bool = False
 
     @property
     def name(self) -> str:
@@ -91,6 +95,13 @@ class FourEpsilons:
         if self.scalar is None:
             return None
         return "no certificate" if self.scalar_proof is None else "enclosure"
+
+    @property
+    def extent(self) -> str:
+        """For which arms the numbers are; empty where the arm has no ranges."""
+        if self.ranges:
+            return "for all values in its ranges"
+        return "at its nominal numbers" if self.uncertain else ""
 
     @property
     def ratio(self) -> Fraction | None:
