@@ -59,7 +59,7 @@ def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     )
     assert "(19) keeps k_v of base, shoulder, elbow from being larger" in str(tuned)
     assert "m = 1: worst ratio" in str(tuned)
-    assert "The viscous friction of base, elbow is assumed." in " ".join(str(tuned).split())
+    assert "The viscous friction of base, shoulder, elbow is assumed." in " ".join(str(tuned).split())
 
 
 @pytest.mark.slow

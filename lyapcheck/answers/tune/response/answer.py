@@ -183,10 +183,14 @@ class BenchTuning(Answer):
         if best is None:
             return f"? {self.robot}: no gains"
         if self.good:
-            mark = "!" if self.dry else "✓"
-            return f"{mark} simulated: {best.gains.name} meets the targets on {self.robot} in {self.scope}"
+            return f"{self._mark} simulated: {best.gains.name} meets the targets on {self.robot} in {self.scope}"
         missed = "; ".join(self.missed(best)) or "has no proof of stability"
         return f"? simulated: no set meets the targets on {self.robot}; the best, {best.gains.name}: {missed}"
+
+    @property
+    def _mark(self) -> str:
+        """Of a set that meets the targets, perhaps only without the dry friction of the file."""
+        return "!" if self.dry else "✓"
 
     def _assumed(self) -> str:
         """Which friction of the arm is only assumed, as a sentence."""
@@ -215,7 +219,7 @@ class BenchTuning(Answer):
             trial, worst = one.trial, one.trial.worst(self.bench.wishes)
             rows.append(
                 (
-                    ("✓" if self.met(one) else "✗" if one.stable else "?") if one.way else "",
+                    (self._mark if self.met(one) else "✗" if one.stable else "?") if one.way else "",
                     one.gains.name + (f", {one.source}" if one.source else ""),
                     NONE if one.gains.m is None else str(one.gains.m),
                     one.stable or NONE,
