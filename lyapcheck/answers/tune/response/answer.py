@@ -103,7 +103,7 @@ class BenchTuning(Answer):
     @property
     def dry(self) -> bool:
         """Whether the arm file gives dry friction, which the simulated motions ignore."""
-        return any(number is not None and number.bounds[1] > 0 for number in self.model.coulomb)
+        return self.model.dry
 
     @property
     def scope(self) -> str:
@@ -183,7 +183,9 @@ class BenchTuning(Answer):
         if best is None:
             return f"? {self.robot}: no gains"
         if self.good:
-            return f"{self._mark} simulated: {best.gains.name} meets the targets on {self.robot} in {self.scope}"
+            return (
+                f"{self._mark} simulated: {best.gains.name} meets the targets on {self.robot} in {self.scope}"
+            )
         missed = "; ".join(self.missed(best)) or "has no proof of stability"
         return f"? simulated: no set meets the targets on {self.robot}; the best, {best.gains.name}: {missed}"
 
