@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TypeAlias
 
 from flint import arb
 
@@ -16,7 +17,7 @@ SHOWN = 4
 """Significant digits that people see, the same in every command."""
 PLAIN = range(-6, 15)
 """Powers of ten whose numbers are written without an exponent."""
-Exact = Fraction | int | float | arb | Enclosure
+Exact: TypeAlias = "Fraction | int | float | arb | Enclosure"
 
 
 def at_most(x: Exact, digits: int = SHOWN) -> str:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.digits import at_most, decimals
+from lyapcheck.output.digits import at_least, at_most, decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.four import FourEpsilons
@@ -77,6 +77,8 @@ def _one(result: FourEpsilons) -> str:
     return f"✓ ε₀ = {exact(result.certified)} is certified for {result.name}"
 
 
+DEGREES = Fraction("57.295779513082320")
+"""A little less than 180/π."""
 FASTEST = 100
 """rad/s, beyond which no arm turns."""
 BUYS = (
@@ -141,8 +143,8 @@ def limits_text(limits: StateLimits) -> str:
 
 
 def _degrees(values: Sequence[Fraction]) -> str:
-    """One number where all are equal, else all of them in brackets."""
-    shown = [f"{math.degrees(x):.5g}" for x in values]
+    """Angles of rad, rounded down: one number where all are equal, else all of them in brackets."""
+    shown = [at_least(x * DEGREES, 5) for x in values]
     return shown[0] if len(set(shown)) == 1 else f"({', '.join(shown)})"
 
 

@@ -14,6 +14,7 @@ from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.control.arm_limits import arm_limits, varied_limits
 from lyapcheck.control.conditions import UNDECIDED
 from lyapcheck.control.gains import GainFile
+from lyapcheck.output.digits import at_least
 
 OPTIONS: dict[str, Any] = {"condition": (), "gamma": "true"}
 DIGITS = 6
@@ -43,7 +44,7 @@ def _answered(question: Question, result: GateResult, data: dict[str, object]) -
 
 
 def _margin(result: GateResult) -> float | None:
-    """The least (limit − value)/limit of what decides; below 0 where a condition is broken."""
+    """The least (limit − value)/limit of what decides, rounded down; below 0 where a condition is broken."""
     shares = [
         check.margin / abs(check.limit.lower)
         for check in result.checks
@@ -52,4 +53,4 @@ def _margin(result: GateResult) -> float | None:
         and check.limit is not None
         and check.limit.lower != 0
     ]
-    return round(float(min(shares)), DIGITS) if shares else None
+    return float(at_least(min(shares), DIGITS)) if shares else None
