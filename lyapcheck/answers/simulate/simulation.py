@@ -130,7 +130,8 @@ class Simulation(Answer, Generic[Result]):
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, robot, kind, …}], notes``: degrees, N·m, s, J; ``None`` without a number."""
-        return {"results": [self.plain_data(one) for one in self.results], "notes": self._notes()}
+        results = [self.plain_data(one) for one in self.results]
+        return {"results": results, "arms": self.arms or None, "notes": self._notes()}
 
     def records(self) -> list[dict[str, Any]]:
         """The rows of every gain set."""
