@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainSet
+from typing import Protocol
 
 DECIDING = ("10p", "19")
 """The paper's tuning rules, for a gain set that names no conditions."""
@@ -16,7 +13,15 @@ KNOWN = ("10", "10p", "10i", "19", *CERTIFICATES)
 """Every condition that may decide."""
 
 
-def deciding_for(gains: GainSet, asked: Sequence[str] | None = None) -> tuple[str, ...]:
+class Conditioned(Protocol):
+    """A gain set that may name its conditions."""
+
+    @property
+    def condition(self) -> tuple[str, ...]:
+        """The conditions; empty where the set names none."""
+
+
+def deciding_for(gains: Conditioned, asked: Sequence[str] | None = None) -> tuple[str, ...]:
     """Return the conditions that decide about a gain set.
 
     Args:
