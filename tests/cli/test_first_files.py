@@ -43,7 +43,7 @@ def test_init_starts_files_that_the_gate_takes_and_keeps_what_is_there(
 def test_the_gains_of_init_are_gains_that_tune_would_recommend(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The gate accepts them by the conditions that they name, and they meet the targets that the file names."""
+    """The gate accepts them by their conditions, and they meet the targets that the file names."""
     assert leaves(monkeypatch, "init", str(tmp_path)) == 0
     (result,) = gate(tmp_path / "gains.toml")
     assert (result.verdict, result.deciding) == ("accepted", ("10p", "scalar"))

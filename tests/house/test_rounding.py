@@ -30,12 +30,6 @@ ROUNDING = ("round", "significant_text")
 TAKING = ("cell", "format")
 """Functions that take such a specification."""
 BESIDE_PROOF = {
-    "answers/bounds/answer.py:_errors": "degrees that the user gave",
-    "answers/bounds/answer.py:_phases": "one simulated run",
-    "answers/bounds/answer.py:_rest": "one simulated run",
-    "answers/bounds/answer.py:_caption": "degrees that the user gave",
-    "answers/bounds/certificates.py:certificates": "the name of a certificate",
-    "answers/bounds/words.py:provenance_text": "shares of the search",
     "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
     "answers/robot/data.py:constant_data": "the gap of numeric ends, for programs",
     "report/bench.py:_cell": "rounded down before",
