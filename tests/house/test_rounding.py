@@ -30,6 +30,7 @@ ROUNDING = ("round", "significant_text")
 TAKING = ("cell", "format")
 """Functions that take such a specification."""
 BESIDE_PROOF = {
+    "answers/bounds/answer.py:_times": "degrees that the user gave, of simulated runs",
     "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
     "answers/robot/data.py:constant_data": "the gap of numeric ends, for programs",
     "report/bench.py:_cell": "rounded down before",
