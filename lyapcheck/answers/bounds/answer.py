@@ -32,7 +32,7 @@ LEGEND = (
     "simulated: {}, in floating point, with that dry friction.",
 )
 ONE_RUN = "one run at nominal numbers"
-CORNERS = "the worst of one run at each corner of {}, which proves nothing of what lies between"
+CORNERS = "the worst of one run at {}, for {}, which proves nothing of what lies between"
 NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
 
 
@@ -55,7 +55,8 @@ class Comparisons(Answer):
         behind = (Section(result.gains.name, tuple(_behind(result))) for result in self.results)
         assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
         varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
-        runs = CORNERS.format(varies) if varies else ONE_RUN
+        tried = ", ".join(dict.fromkeys(result.corners for result in self.results if result.corners))
+        runs = CORNERS.format(tried, varies) if varies else ONE_RUN
         notes = (LEGEND[0], LEGEND[1].format(runs), *(f"{text}." for text in assumed))
         return Document(title(self.results), (*behind, _times(self.results)), notes)
 

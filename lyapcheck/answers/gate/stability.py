@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from lyapcheck.answers.gate.bench import damping_lines
 from lyapcheck.answers.gate.friction import friction_lines, held
-from lyapcheck.answers.gate.judge import CERTIFICATES, GateResult
+from lyapcheck.answers.gate.judge import GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
+from lyapcheck.control.deciding import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
 
 _NO_ARM = (

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.output.digits import at_most
 
 if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
@@ -45,7 +46,9 @@ class Wishes:
             if not 0 < value <= top:
                 rule = "is a share, above 0 and at most 1" if name == "peak_share" else "must be positive"
                 option = "--" + name.replace("_", "-")
-                problems.append(Problem("argument", None, option, f"{value:g}", rule, "correct the value"))
+                problems.append(
+                    Problem("argument", None, option, at_most(value, 6), rule, "correct the value")
+                )
         if problems:
             raise InputError(problems)
 
@@ -58,12 +61,12 @@ class Wishes:
     def text(self) -> str:
         """What is asked, in one line."""
         forms = {
-            "overshoot": "overshoot at most {:g} %",
-            "settle": "settled (2 %) within {:g} s",
-            "peak_share": "at most {:g} of each torque limit",
-            "rest_error": "dry friction leaves at most {:g}°",
+            "overshoot": "overshoot at most {} %",
+            "settle": "settled (2 %) within {} s",
+            "peak_share": "at most {} of each torque limit",
+            "rest_error": "dry friction leaves at most {}°",
         }
-        return "; ".join(forms[name].format(value) for name, value in self.given.items())
+        return "; ".join(forms[name].format(at_most(value, 6)) for name, value in self.given.items())
 
 
 @dataclass(frozen=True)
