@@ -32,7 +32,7 @@ class Letters:
         root: √ln(1 + sinh^(2m) e_i) elementwise, as (12) prints it.
         U: U(e_i), elementwise.
         slope: diag(h'(e_i)).
-        Ch: C h.
+        Ch: C h, and ``hCh`` is hᵀ(C + Cᵀ)h.
         unit: e/r.
         near: 1/(1 + r).
         eps: ε = ε₀/(1 + r).
@@ -54,6 +54,7 @@ class Letters:
     Kv: Any
     B: Any
     Ch: Any
+    hCh: Any
     unit: Any
     near: Any
     eps: Any
@@ -77,7 +78,7 @@ def matrices() -> Letters:
     w, e, h, hw, root, U, kp = (sp.MatrixSymbol(name, n, 1) for name in vectors)
     slope, M, C, Kp, Kv, B = (sp.MatrixSymbol(name, n, n) for name in ("H", "M", "C", "K_p", "K_v", "B"))
     ratios = e / R, 1 / (1 + R), EPS, 1 / (2 * sp.Symbol("m"))
-    return Letters(n, w, e, h, hw, root, U, kp, slope, M, C, Kp, Kv, B, C * h, *ratios)
+    return Letters(n, w, e, h, hw, root, U, kp, slope, M, C, Kp, Kv, B, C * h, h.T * (C + C.T) * h, *ratios)
 
 
 def entries(n: int, M: Any = None, C: Any = None) -> Letters:
@@ -92,9 +93,10 @@ def entries(n: int, M: Any = None, C: Any = None) -> Letters:
     w, e, h, hw, root, U, kp, slope, kv, b = (column(name, n) for name in names)
     M = symmetric("M", n) if M is None else M
     C = sp.Matrix(n, n, lambda i, j: sp.Symbol(f"C{i}_{j}")) if C is None else C
-    diagonals = (sp.diag(*x) for x in (kp, kv, b))
+    Kp, Kv, B = (sp.diag(*x) for x in (kp, kv, b))
     ratios = e * INVERSE, NEAR, EPS0 * NEAR, SHARE
-    return Letters(n, w, e, h, hw, root, U, kp, sp.diag(*slope), M, C, *diagonals, C * h, *ratios)
+    known = (n, w, e, h, hw, root, U, kp, sp.diag(*slope), M, C, Kp, Kv, B)
+    return Letters(*known, C * h, form(h, C + C.T, h), *ratios)
 
 
 def column(name: str, n: int) -> Any:
@@ -121,7 +123,7 @@ def value_13(x: Letters) -> Any:
 def terms_15(x: Letters) -> list[Any]:
     """The eleven terms of (15), in printed order, (1, 1) each."""
     w, h, eps, dh = x.w, x.h, x.eps, x.slope * x.w
-    turn = x.near * x.along
+    turn = x.near * x.along.T
     return [
         -form(w, x.Kv, x.hw),
         -form(w, x.B, w),
@@ -131,7 +133,7 @@ def terms_15(x: Letters) -> list[Any]:
         -eps * form(h, x.Kp, h),
         eps * form(h, x.B, w),
         eps * form(h, x.Kv, x.hw),
-        eps**2 / 2 * (h.T * x.Ch + x.Ch.T * h),
+        eps**2 / 2 * x.hCh,
         eps**2 * turn * form(h, x.M, h),
         -(eps**2) * form(dh, x.M, h),
     ]

@@ -1,9 +1,9 @@
-"""The operations beyond + - * / that numeric forms need, for floats, NumPy arrays and CasADi graphs."""
+"""The operations beyond + - * / that formulas need, for floats, NumPy arrays and CasADi graphs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -24,6 +24,19 @@ class Arithmetic:
     """The nearest whole number (any of two at a tie)."""
     two_to: Callable[[Any], Any]
     """2 to the power of a whole number, exactly."""
+    sin: Callable[[Any], Any]
+    cos: Callable[[Any], Any]
+    expm1: Callable[[Any], Any]
+    log1p: Callable[[Any], Any]
+    copysign: Callable[[Any, Any], Any]
+    lift: Callable[[Any], Any] = float
+    """An exact number as a value."""
+    names: Callable[[Sequence[Any]], list[Any]] = list
+    """Values that are used more than once: as they are, but where formulas are written down."""
+
+    def name(self, value: Any) -> Any:
+        """A value that is used more than once."""
+        return self.names([value])[0]
 
 
 FLOATS = Arithmetic(
@@ -36,6 +49,11 @@ FLOATS = Arithmetic(
     arctan=math.atan,
     nearest=lambda a: float(round(a)),
     two_to=lambda k: math.ldexp(1.0, int(k)),
+    sin=math.sin,
+    cos=math.cos,
+    expm1=math.expm1,
+    log1p=math.log1p,
+    copysign=math.copysign,
 )
 """Python floats: for a handful of numbers faster than arrays."""
 
@@ -55,6 +73,11 @@ def arrays() -> Arithmetic:
         arctan=np.arctan,
         nearest=np.rint,
         two_to=lambda k: np.ldexp(1.0, k.astype(np.int32)),
+        sin=np.sin,
+        cos=np.cos,
+        expm1=np.expm1,
+        log1p=np.log1p,
+        copysign=np.copysign,
     )
 
 
@@ -73,4 +96,9 @@ def graphs() -> Arithmetic:
         arctan=ca.atan,
         nearest=lambda a: ca.floor(a + 0.5),
         two_to=lambda k: ca.constpow(2.0, k),
+        sin=ca.sin,
+        cos=ca.cos,
+        expm1=ca.expm1,
+        log1p=ca.log1p,
+        copysign=ca.copysign,
     )

@@ -90,10 +90,16 @@ def _vector(expression: Any) -> AnyVector:
     scalar, parts = _factors(expression)
     result = _vector(parts[-1])
     for part in reversed(parts[:-1]):
-        turned = isinstance(part, sp.Transpose)
-        matrix: AnyMatrix = LETTERS[part.arg.name if turned else part.name]
-        result = (matrix.T if turned else matrix) @ result
-    return result if scalar == 1 else _scalar(scalar) * result
+        result = _matrix(part) @ result
+    return result if scalar == 1 else result.times(_scalar(scalar))
+
+
+def _matrix(expression: Any) -> AnyMatrix:
+    if isinstance(expression, sp.MatAdd):
+        return reduce(add, map(_matrix, expression.args))
+    if isinstance(expression, sp.Transpose):
+        return _matrix(expression.arg).T
+    return cast("AnyMatrix", LETTERS[expression.name])
 
 
 def _scalar(expression: Any) -> Expr:
@@ -101,7 +107,7 @@ def _scalar(expression: Any) -> Expr:
     if expression.is_Rational:
         return expr(str(expression))
     if expression.is_Symbol:
-        return LETTERS[expression.name]
+        return cast("Expr", LETTERS[expression.name])
     if expression.is_Pow:
         return _scalar(expression.base) ** int(expression.exp)
     return reduce(add if expression.is_Add else mul, map(_scalar, expression.args))
