@@ -36,8 +36,8 @@ VECTORS = X86 and platform.libc_ver() >= ("glibc", "2.35")
 def prelude() -> str:
     """The functions that loops call, one declared after the other.
 
-    Without the attribute, or where the C library has none for vectors, they are called one lane at a time. The
-    name in quotes hides them from what the compiler knows of sin and cos: it would join the two.
+    Where the C library has none for vectors, they are called one lane at a time. The name in quotes keeps the
+    compiler from joining sin and cos of one angle.
     """
     simd = ' __attribute__((const, simd("notinbranch")))' if VECTORS else ""
     named = (

@@ -1,4 +1,4 @@
-"""Formulas of many lanes compiled into one C loop: printed by SymPy, kept under the digest of the question."""
+"""Formulas of many lanes as one C loop, printed by SymPy and kept under the digest of the question."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ class Loop:
         self._run, self.outputs = run, outputs
 
     def __call__(self, *arrays: Array, out: Array | None = None) -> Array:
-        """The outputs (outputs, lanes) of arrays (entries, lanes), with any strides; ``out`` is filled if given."""
+        """The outputs (outputs, lanes) of arrays (entries, lanes) with any strides, in ``out`` if given."""
         lanes = arrays[0].shape[1]
         out = np.empty((self.outputs, lanes)) if out is None else out
         every = (*arrays, out)
-        at = (ctypes.c_void_p * len(every))(*(x.ctypes.data for x in every))
+        at = (ctypes.c_void_p * len(every))(*(x.__array_interface__["data"][0] for x in every))
         steps = (ctypes.c_long * (2 * len(every)))(*(s // 8 for x in every for s in x.strides))
 
         def share(start: int, stop: int) -> int:
@@ -62,37 +62,37 @@ def loop(question: Sequence[object], sizes: Sequence[int], outputs: int, formula
         outputs: how many numbers come out a lane.
         formula: writes the statements; asked only where the loop is not kept already.
     """
+    made: list[Loop | None] = _made(_key(question, sizes), str(store.home()), compiler())
+    if not made:
+        known = compiled((*question, *sizes), lambda: source(sizes, outputs, formula))
+        if known is not None:
+            known.run.restype = None
+            known.run.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
+        made.append(None if known is None else Loop(known.run, outputs))
+    return made[0]
+
+
+def compiled(question: Sequence[object], write: Callable[[], str | None]) -> ctypes.CDLL | None:
+    """The library of the C text that answers a question; none where there is no compiler or no text.
+
+    Args:
+        question: all that the text depends on besides the source of lyapcheck.
+        write: the text; asked only where nothing is kept under the question.
+    """
     command = compiler()
     if command is None:
         return None
-    key = store.exact(tuple(question), tuple(sizes), store.source_digest(), machine(command))
-    return _loop(key, command, str(store.home()), tuple(sizes), outputs, _Formula(formula))
+    return library(store.exact(_key(question), machine(command)), command, write)
 
 
-class _Formula:
-    """A formula, equal to every other: it follows from the key beside it."""
-
-    def __init__(self, write: Formula) -> None:
-        self.write = write
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Formula)
-
-    def __hash__(self) -> int:
-        return 0
+def _key(*question: object) -> str:
+    return store.exact(*question, store.source_digest())
 
 
 @lru_cache(maxsize=64)
-def _loop(
-    key: str, command: str, home: str, sizes: tuple[int, ...], outputs: int, formula: _Formula
-) -> Loop | None:
-    """One loop a key and cache; ``home`` only tells caches apart."""
-    known = library(key, command, lambda: source(sizes, outputs, formula.write))
-    if known is None:
-        return None
-    known.run.restype = None
-    known.run.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
-    return Loop(known.run, outputs)
+def _made(key: str, home: str, command: str | None) -> list[Loop | None]:
+    """A place for the loop of a question, cache and compiler; empty until it is made."""
+    return []
 
 
 def source(sizes: Sequence[int], outputs: int, formula: Formula) -> str | None:

@@ -109,8 +109,8 @@ def number(value: Fraction | int | float) -> Any:
     return sp.Integer(int(value)) if value == int(value) else sp.Float(float(value), precision=53)
 
 
-class _Printer(C99CodePrinter):
-    """Whole powers as products, and doubles exactly: a call of ``pow`` would keep a loop from being a vector."""
+class _Printer(C99CodePrinter):  # type: ignore[misc]
+    """Doubles exactly, and whole powers as products: one call of ``pow``, and no loop is a vector."""
 
     def _print_Pow(self, expr: Any) -> str:
         power = int(expr.exp)

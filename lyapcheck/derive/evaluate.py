@@ -89,7 +89,7 @@ OUTPUTS: dict[str, Callable[[Letters], list[Any]]] = {
 }
 
 
-class _Products(StrPrinter):
+class _Products(StrPrinter):  # type: ignore[misc]
     """Small powers as products: a power takes longer than a product, and no other arithmetic need have it."""
 
     def _print_Pow(self, expr: Any, rational: bool = False) -> str:

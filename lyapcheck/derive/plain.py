@@ -4,8 +4,8 @@ With g = expm1|x|, E = 1/(1 + g) = e^(−|x|), D = gE(1 + E) = 1 − E², F = 1 
 
     sinh|x| = D/2E,   cosh x = F/2E,   sinh²x = A/Q,
 
-so that what SymPy has derived in sinh x and cosh x over 1 + sinh^(2m)x = 1/(Q^m R), R = 1/(A^m + Q^m), becomes
-polynomials in A and Q times powers of R, none of which overflows:
+so that what SymPy has derived over 1 + sinh^(2m)x = 1/(Q^m R), R = 1/(A^m + Q^m), becomes polynomials in A
+and Q times powers of R, none of which overflows:
 
     h = ± D F A^(m−1) R,   h' = R² Σ c_k A^k Q^(2m−k) of the numerator Σ c_k sinh^(2k)x in (8),
     U = ln(1 + p^(2m))/(2m) + max(0, ln sinh|x|),   p the smaller of sinh|x| and its inverse.
@@ -74,7 +74,7 @@ def slope_terms(m: int) -> tuple[tuple[int, int, int], ...]:
 class Hyperbolic:
     """The hyperbolic family, member m.
 
-    Soundness: some 4m units in the last place; near the zero of h' that is of its largest term. NaN stays NaN.
+    Soundness: some 4m units in the last place, near the zero of h' of its largest term. NaN stays NaN.
     """
 
     def __init__(self, m: int, of: Arithmetic, x: Any) -> None:
@@ -112,9 +112,9 @@ class Hyperbolic:
     @cached_property
     def potential(self) -> Any:
         """U(x)."""
-        of, twice = self.of, of_double(self.E)
+        of, twice = self.of, 2.0 * self.E
         self._powers["p", 1] = of.name(of.smaller(self.D, twice) / of.larger(self.D, twice))
-        log_sinh = (self.a - LN2) + of.log(self.D)
+        log_sinh = (self.a - LN2) + of.log(of.larger(self.D, 1e-300))
         rest = of.log1p(self.power("p", 2 * self.m)) * (1.0 / (2 * self.m))
         return of.name(rest + of.larger(log_sinh, 0.0))
 
@@ -132,8 +132,3 @@ class Hyperbolic:
         """A^j Q^k."""
         parts = [self.power(name, power) for name, power in (("A", j), ("Q", k)) if power]
         return parts[0] if len(parts) == 1 else parts[0] * parts[1] if parts else 1
-
-
-def of_double(x: Any) -> Any:
-    """2x."""
-    return 2.0 * x

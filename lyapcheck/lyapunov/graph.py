@@ -44,9 +44,8 @@ def lyapunov_graph(model: Plant, family: Family) -> LyapunovGraph:
     eps0, at = ca.SX.sym("eps0"), at_symbols(model, q, e, w, kp, kv, family.casadi)
 
     def function(name: str, value: Any) -> ca.Function:
-        return ca.Function(
-            name, [q, e, w, kp, kv, eps0], [value], ["q", "e", "w", "kp", "kv", "eps0"], [name]
-        )
+        inputs = {"q": q, "e": e, "w": w, "kp": kp, "kv": kv, "eps0": eps0}
+        return ca.Function(name, [*inputs.values()], [value], [*inputs], [name])
 
     return LyapunovGraph(
         V=function("V", at.value(eps0)),
@@ -71,9 +70,8 @@ def at_symbols(
         kink: put under the root of ‖e‖, for optimisers that cross e = 0.
     """
     own: Arithmetic = replace(graphs(), lift=lambda x: ca.SX(float(x)), sqrt=lambda x: ca.sqrt(x + kink))
-    vectors = (ca.vertsplit(x) for x in (q, e, w, kp, kv))
-    viscous = [float(number.value) for number in model.viscous]
-    return AtState(model.fixed(), own, forms, *vectors, viscous)
+    rows, friction = ca.vertsplit, [float(number.value) for number in model.viscous]
+    return AtState(model.fixed(), own, forms, rows(q), rows(e), rows(w), rows(kp), rows(kv), friction)
 
 
 def _along(at: AtState, q: Any, e: Any, w: Any, eps0: Any) -> Any:

@@ -97,11 +97,13 @@ class LyapunovNumeric:
 
     def V(self, q: Array, e: Array, w: Array) -> Array:
         """V = ½ (w − ε h)ᵀ M (w − ε h) + Σ k_pi U(e_i), J; states (..., n) in rad and rad/s."""
-        return self._at("value", q, e, w)[0]
+        (values,) = self._at("value", q, e, w)
+        return np.asarray(values)
 
     def rate(self, q: Array, e: Array, w: Array) -> Array:
         """dV/dt along (11) at q, e = q_d − q and w = q̇, W; states (..., n) in rad and rad/s."""
-        return self._at("rate", q, e, w)[0]
+        (values,) = self._at("rate", q, e, w)
+        return np.asarray(values)
 
     def coefficients(self, q: Array, e: Array, w: Array, large: int = LARGE) -> Array:
         """a₀, a₁, a₂ of dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀², (3, ...), W; compiled from so many states on."""
@@ -109,9 +111,9 @@ class LyapunovNumeric:
 
     def at_columns(self, q: Array, e: Array, w: Array) -> AtState:
         """What else is known at states (count, n), as columns of NumPy."""
-        columns = (list(np.ascontiguousarray(x.T)) for x in (q, e, w))
-        forms = array_forms(self.family)
-        return AtState(self.model, arrays(), forms, *columns, self.kp, self.kv, self.viscous)
+        forms, columns = array_forms(self.family), [list(np.ascontiguousarray(x.T)) for x in (q, e, w)]
+        gains = self.kp, self.kv, self.viscous
+        return AtState(self.model, arrays(), forms, columns[0], columns[1], columns[2], *gains)
 
     def engine(self, count: int = LARGE) -> Literal["compiled", "numpy"]:
         """What serves a batch of ``count`` states; asking about a large one compiles what it needs."""

@@ -77,7 +77,8 @@ def expressions(controlled: ControlledArm) -> Expressions:
     q, e, w = (ca.SX.sym(name, n) for name in "qew")
     gains = ca.DM(controlled.kp), ca.DM(controlled.kv)
     at = at_symbols(controlled.fixed, q, e, w, *gains, forms, kink=1e-24)
-    return Expressions(q, e, w, *at.coefficients(), ca.bilin(graph.matrix(at.fast()), w, w))
+    a0, a1, a2 = at.coefficients()
+    return Expressions(q, e, w, a0, a1, a2, ca.bilin(graph.matrix(at.fast()), w, w))
 
 
 def fast_states(controlled: ControlledArm, starts: States) -> States:

@@ -1,6 +1,6 @@
 """Many initial value problems at once by the method of Dormand and Prince of order 8(5, 3).
 
-All runs under way take a step together, each of its own size; one that has ended leaves. Sums over the stages are
+All runs under way take a step together, each of its own size; one that has ended leaves. Sums over stages are
 taken term by term, so that the bits of a run do not depend on its company.
 
 References: ``hairer1993solving``, Section II.5; the coefficients are those of SciPy's DOP853.

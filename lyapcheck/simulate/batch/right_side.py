@@ -51,8 +51,9 @@ class RightSide:
         if self._loops is not None:
             return self._loops[place](y, parameters, out=out)
         at = _at(self.model, arrays(), array_forms(self.family), list(y), list(parameters))
-        for row, value in zip(out, _FORMULAS[place](at, parameters[-1]), strict=True):
-            row[:] = value
+        with np.errstate(all="ignore"):
+            for row, value in zip(out, _FORMULAS[place](at, parameters[-1]), strict=True):
+                row[:] = value
         return out
 
     @cached_property

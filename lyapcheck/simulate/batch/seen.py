@@ -19,7 +19,7 @@ from lyapcheck.simulate.batch.right_side import RightSide
 PARTS = 4
 """Of each step, at the ends of which everything is looked at."""
 CUTS, ROUNDS, SHARP = 20, 12, 1e-13
-"""Golden sections of a part that holds a largest torque; steps towards a zero in one, and when that is found."""
+"""Golden sections of the part of a largest torque; steps towards a zero in one, and when it is found."""
 GOLDEN = (0.3819660112501051, 0.6180339887498949)
 
 Whole = NDArray[np.intp]
@@ -137,8 +137,8 @@ class Seen:
     def columns(self, chosen: Flags) -> Array:
         """(2n + 4, R) of some runs that are over, without their torques.
 
-        The largest −sign(e_i(0)) e_i, rad; when each |e_i| came into its band for good, s, NaN where it did not;
-        in J the largest rise of V above what it had been, of |V + D − V(0)|, of |V| and of the energy lost, D.
+        The largest −sign(e_i(0)) e_i, rad; when each |e_i| came into its band for good, s, NaN where it did
+        not; in J the largest rise of V above what it had been, of |V + D − V(0)|, of |V| and of the energy D.
         """
         settled = np.where(self.outside, np.nan, self.settled)
         rest = (self.beyond, settled, self.rise, self.error, self.energy, self.lost)
