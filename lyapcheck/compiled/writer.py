@@ -88,7 +88,6 @@ class Writer:
             log=of("v_log"),
             arctan=of("v_atan"),
             nearest=of("rint"),
-            two_to=of("exp2"),
             sin=of("v_sin"),
             cos=of("v_cos"),
             expm1=of("v_expm1"),

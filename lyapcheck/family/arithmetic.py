@@ -1,8 +1,7 @@
-"""The operations beyond + - * / that formulas need, for floats, NumPy arrays and CasADi graphs."""
+"""The operations beyond + - * / that formulas need, for NumPy arrays, CasADi graphs and written code."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -22,8 +21,6 @@ class Arithmetic:
     arctan: Callable[[Any], Any]
     nearest: Callable[[Any], Any]
     """The nearest whole number (any of two at a tie)."""
-    two_to: Callable[[Any], Any]
-    """2 to the power of a whole number, exactly."""
     sin: Callable[[Any], Any]
     cos: Callable[[Any], Any]
     expm1: Callable[[Any], Any]
@@ -37,25 +34,6 @@ class Arithmetic:
     def name(self, value: Any) -> Any:
         """A value that is used more than once."""
         return self.names([value])[0]
-
-
-FLOATS = Arithmetic(
-    where=lambda condition, yes, no: yes if condition else no,
-    fabs=abs,
-    smaller=lambda a, b: a if a < b else b,
-    larger=lambda a, b: a if a > b else b,
-    sqrt=math.sqrt,
-    log=math.log,
-    arctan=math.atan,
-    nearest=lambda a: float(round(a)),
-    two_to=lambda k: math.ldexp(1.0, int(k)),
-    sin=math.sin,
-    cos=math.cos,
-    expm1=math.expm1,
-    log1p=math.log1p,
-    copysign=math.copysign,
-)
-"""Python floats: for a handful of numbers faster than arrays."""
 
 
 @cache
@@ -72,7 +50,6 @@ def arrays() -> Arithmetic:
         log=np.log,
         arctan=np.arctan,
         nearest=np.rint,
-        two_to=lambda k: np.ldexp(1.0, k.astype(np.int32)),
         sin=np.sin,
         cos=np.cos,
         expm1=np.expm1,
@@ -95,7 +72,6 @@ def graphs() -> Arithmetic:
         log=ca.log,
         arctan=ca.atan,
         nearest=lambda a: ca.floor(a + 0.5),
-        two_to=lambda k: ca.constpow(2.0, k),
         sin=ca.sin,
         cos=ca.cos,
         expm1=ca.expm1,
