@@ -91,7 +91,7 @@ class _March:
         self.paths = Paths(path, seen, np.zeros(runs, np.int32), np.zeros(runs, np.int32))
         self.who = np.arange(runs)
         self.p, self.y = np.ascontiguousarray(of.parameters.T), np.array(of.y0.T, order="C")
-        self.t, self.sample, self.rejected = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
+        self.t, self.sample, self.stopped_short = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
         self.k = np.empty((16, size, runs))
         side.rate(self.y, self.p, self.k[0])
         self.h = self._first_step()
@@ -113,12 +113,12 @@ class _March:
         self.t = np.where(good, self.t + self.h, self.t)
         np.copyto(self.y, new, where=good)
         np.copyto(self.k[0], self.k[12], where=good)
-        most = np.where(good & ~self.rejected, 10.0, 1.0)
+        most = np.where(good & ~self.stopped_short, 10.0, 1.0)
         wanted = np.where(error < np.inf, 0.9 / np.maximum(error, 1e-300) ** 0.125, 0.2)
         following = self.h * np.maximum(0.2, np.minimum(wanted, most))
         left = self.T - self.t
         self.h = np.where(left - following < 1e-12 * self.T, left, np.minimum(following, left))
-        self.rejected = ~good
+        self.stopped_short = ~good
         self.paths.steps[self.who] += 1
         self._settle(following)
 
@@ -175,7 +175,7 @@ class _March:
         self.paths.seen[self.who[reached], self.side.model.n :] = self.seen.columns(reached).T
         on = ~over
         self.seen.keep(on)
-        for name in ("who", "t", "h", "sample", "rejected"):
+        for name in ("who", "t", "h", "sample", "stopped_short"):
             setattr(self, name, getattr(self, name)[on])
         self.p, self.y, rate = (np.compress(on, x, axis=1) for x in (self.p, self.y, self.k[0]))
         self.k = np.empty((16, *rate.shape))
