@@ -19,6 +19,7 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
@@ -83,6 +84,11 @@ class ControlledArm:
     def numeric(self) -> NumericModel:
         """The arm in NumPy."""
         return NumericModel(self.model)
+
+    @cached_property
+    def lyapunov(self) -> LyapunovNumeric:
+        """V and dV/dt in floating point, with ε₀ = 0."""
+        return LyapunovNumeric(self.model, self.family, list(self.kp), list(self.kv))
 
     @cached_property
     def fixed(self) -> Plant:

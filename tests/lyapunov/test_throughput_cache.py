@@ -14,19 +14,21 @@ from lyapcheck.compiled import compiler as compiler_module
 from lyapcheck.compiled import library as library_module
 from lyapcheck.compiled import store
 from lyapcheck.compiled.compiler import OFF, compile_library, compiler
-from lyapcheck.compiled.library import library
+from lyapcheck.compiled.loop import compiled
 
 COMPILES = compiler() is not None
-SOURCE = "int64_t seven(void) { return 7; }\n"
+SOURCE = "int seven(void) { return 7; }\n"
+
+
+def library(source: str = SOURCE):
+    return compiled((source,), lambda: source)
 
 
 @pytest.fixture
 def cache(tmp_path, monkeypatch):
     """An empty cache, and nothing remembered from the user's own."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    library_module._loaded.cache_clear()
-    yield tmp_path / "cache" / "lyapcheck" / "kernels"
-    library_module._loaded.cache_clear()
+    return tmp_path / "cache" / "lyapcheck" / "kernels"
 
 
 @pytest.fixture
@@ -43,7 +45,6 @@ def compilations(monkeypatch):
 
 
 def works() -> bool:
-    library_module._loaded.cache_clear()
     result = library(SOURCE)
     return (result is not None and result.seven() == 7) if COMPILES else result is None
 
@@ -146,7 +147,10 @@ def test_nothing_is_compiled_when_that_is_off(cache, compilations, monkeypatch):
 
 @pytest.mark.slow
 def test_many_processes_at_once_leave_one_whole_library(cache):
-    code = f"from lyapcheck.compiled.library import library; print(library({SOURCE!r}) is not None)"
+    code = (
+        "from lyapcheck.compiled.loop import compiled\n"
+        f"print(compiled(('one',), lambda: {SOURCE!r}) is not None)"
+    )
     command, environment = [sys.executable, "-c", code], dict(os.environ)
     running = [
         subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) for _ in range(3)
