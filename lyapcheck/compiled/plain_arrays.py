@@ -17,8 +17,6 @@ _OPERATIONS: dict[str, Callable[..., Any]] = {
     "copysign": np.copysign,
     "smaller": np.minimum,
     "larger": np.maximum,
-    "rint": np.rint,
-    "exp2": np.exp2,
     "exp_of_negative": lambda a: np.exp(-a),
     "one_minus_exp": lambda a: -np.expm1(-a),
     "log_one_plus": np.log1p,

@@ -157,6 +157,14 @@ def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints: int, 
     assert shown.bound < F(1, 500)
 
 
+def test_a_last_body_without_mass_changes_little(tmp_path: Path) -> None:
+    links = arm_of("pelican2", tmp_path).chain.links
+    last = replace(links[1], mass=F(0), com=NOWHERE, inertia=(NOWHERE,) * 3)
+    bounds = [storage_proof(Chain(chain, NOWHERE), "k_c") for chain in (links, (*links, last))]
+    first, second = (shown.bound for shown in bounds if shown is not None)
+    assert first <= second <= first * F(1001, 1000)
+
+
 def test_one_joint_has_no_coriolis_torque(tmp_path: Path) -> None:
     links = arm_of("pelican2", tmp_path).chain.links[:1]
     shown = storage_proof(Chain(links, NOWHERE), "k_c")
