@@ -1,7 +1,7 @@
 """Elementary functions and norms over intervals.
 
-The sin and cos of the platform are taken to be right within 2⁻⁴⁹ relatively (eight units in the last place), a
-family within what `lyapcheck.intervals.family` says; tests compare them with balls at many points.
+The sin and cos of the platform are taken to be right within 2⁻⁴⁹ relatively (eight units in the last place),
+a family within what `lyapcheck.intervals.family` says. Tests compare them with balls at many points.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""``recheck`` as a command, the same behind ``lyapcheck recheck`` and ``python -m lyapcheck.check``."""
+"""``recheck`` as a command, the same behind ``lyapcheck recheck`` and ``python -P -m lyapcheck.check``."""
 
 from __future__ import annotations
 

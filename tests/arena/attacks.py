@@ -164,6 +164,18 @@ ON_DECREASING: list[Attack] = [
         [(at(P, "rate", k, 0, "prices", 0), "-1") for k in ("rising", "falling")],
         "Q < 0",
     ),
+    (
+        "loop-ranges-high",
+        "ext.boxes",
+        [(at(S, "viscous", 0), ["1", "100"])],
+        "more friction than K_p pays for",
+    ),
+    (
+        "linked-ranges-high",
+        "ext.linked",
+        [(at(S, "viscous", 0), ["5", "600"])],
+        "more friction than K_p pays for",
+    ),
     ("loop-ranges", "ext.boxes", [(at(S, "viscous", 0), ["1/1000000", "1000000"])], "far more arms"),
     ("state-origin", "ext.eps0-too-large", [(at(P, "w", 0), "0")], "the origin"),
     ("state-eps0", "ext.eps0-too-large", [(at(S, "eps0"), "1/10")], "an ε₀ at which V falls"),

@@ -19,6 +19,7 @@ the names begin the names of the files:
     python -m tests.arena.extra OUT/ext
     python -m tests.arena.plant OUT/arc OUT/asy OUT/eve OUT/pub OUT/rob OUT/sca OUT/tra OUT/ext
     python -m tests.arena.library OUT/lib, and so on: see there
+    python -m tests.arena.truths
 """
 
 from __future__ import annotations

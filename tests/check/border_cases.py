@@ -329,6 +329,15 @@ def rests_beyond(error: str, bound: str | None = "1/2", joint: int = 0) -> Edits
 
 
 TOO_LARGE = "is not shown to be as large"
+NOT_SHOWN = "has a box on which P ≻ 0 is not shown"
+OF_LOOPS: list[Row] = [
+    ("ext.boxes", [((S, "viscous", 0), ["1", "20"])], ACCEPTED),
+    ("ext.boxes", [((S, "viscous", 0), ["1", "100"])], NOT_SHOWN),
+    ("ext.linked", [((S, "viscous", 0), ["5", "13/2"])], ACCEPTED),
+    ("ext.linked", [((S, "viscous", 0), ["5", "600"])], "do not show dV/dt < 0"),
+    ("ext.larger-kv", [((P, "kv"), ["2"])], ACCEPTED),
+    ("ext.larger-kv", [((P, "kv"), ["40"])], "K̃ and ε₀ must be positive"),
+]
 RESTS: list[Row] = [
     ("ext.resting", rests("hyperbolic", 2, "99/100", "6/5"), ACCEPTED),
     ("ext.resting", rests("hyperbolic", 2, "1", "6/5"), TOO_LARGE),
@@ -342,5 +351,5 @@ RESTS: list[Row] = [
     ("ext.not-resting", rests_beyond("21/40", bound=None), "must be beyond the bound"),
     *(("ext.not-resting", rests_beyond("21/40", joint=joint), "must be from 0 to 0") for joint in (-1, 1)),
 ]
-BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N, *SIGNS, *RESTS]
+BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N, *SIGNS, *OF_LOOPS, *RESTS]
 """A good certificate of the arena, what stands in its place, and words of the reason why it is refused."""

@@ -217,6 +217,9 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     ("ext.chain-k_c", [((S, "high"), "1")], "must be at least"),
     ("ext.links", massless, "have one without energy about its own axis"),
     ("ext.links", one_parameter, "must be none"),
+    # loops
+    ("ext.boxes", [((S, "kp"), "1")], "must be a list"),
+    ("ext.boxes", [((S, "viscous", 0), ["1"])], "must have 2 entries"),
     # theorems
     (ARM, [((P, "met"), {"rule": "witness", "point": [], "bits": 192})], "are met by the numbers"),
     (MOVING, [((*ARGUMENT, "gravity"), True)], "has no energy where q_d(t) moves"),

@@ -514,7 +514,7 @@ def test_the_checker_imports_only_the_standard_library_and_flint(folder):
 @pytest.mark.slow
 def test_the_module_has_the_exit_codes_of_the_command(folder):
     def code(*arguments):
-        words = [sys.executable, "-m", "lyapcheck.check", *map(str, arguments)]
+        words = [sys.executable, "-P", "-m", "lyapcheck.check", *map(str, arguments)]
         return subprocess.run(words, capture_output=True, check=False).returncode
 
     assert code(folder, "--format", "json") == 0
