@@ -3,7 +3,7 @@
 A kept file is its content followed by the SHA-256 of that, written beside its place and moved there in one
 step: a killed run leaves no half file, and a damaged one is not found. Keys of answers are digests of the
 question, of the versions behind it and of the source of lyapcheck itself, so that another version asks anew.
-Whoever takes an answer that holds verdicts has the checker judge its certificates again.
+Answers that hold verdicts are taken through `lyapcheck.kept`, which has their certificates judged again.
 """
 
 from __future__ import annotations
@@ -14,17 +14,15 @@ import json
 import os
 import stat
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from lyapcheck.control.paper import proofs_folder
 from lyapcheck.temporary import pending
-
-T = TypeVar("T")
 
 OFF = "LYAPCHECK_NO_STORE"
 """Set in the environment, so that worker processes know it too, where nothing is to be taken or kept."""
@@ -36,6 +34,11 @@ _DIGEST = hashlib.sha256().digest_size
 def switch_off() -> None:
     """Take and keep nothing, in this process and those that it starts."""
     os.environ[OFF] = "1"
+
+
+def off() -> bool:
+    """Whether nothing is to be taken or kept."""
+    return bool(os.environ.get(OFF))
 
 
 def home() -> Path:
@@ -72,7 +75,7 @@ def keep(kind: str, name: str, body: bytes) -> Path | None:
 
 def take(question: Mapping[str, Any]) -> Any | None:
     """The answer kept for a question, as plain data; none if there is none, or it is damaged."""
-    if os.environ.get(OFF):
+    if off():
         return None
     body = kept(ANSWERS, key_of(question))
     try:
@@ -81,38 +84,11 @@ def take(question: Mapping[str, Any]) -> Any | None:
         return None
 
 
-def has(question: Mapping[str, Any]) -> bool:
-    """Whether there is anything under a question, or nothing is to be kept."""
-    return bool(os.environ.get(OFF)) or (home() / ANSWERS / key_of(question)).is_file()
-
-
 def put(question: Mapping[str, Any], answer: Any) -> None:
     """Keep the answer to a question, plain data; without a word where that is not possible."""
-    if not os.environ.get(OFF):
+    if not off():
         text = json.dumps(answer, ensure_ascii=False, separators=(",", ":"))
         keep(ANSWERS, key_of(question), gzip.compress(text.encode(), 3, mtime=0))
-
-
-def remembered(
-    question: Mapping[str, Any],
-    read: Callable[[Any], T | None],
-    compute: Callable[[], T],
-    written: Callable[[T], Any],
-) -> T:
-    """The answer to a question: what is kept, where it is read as one, else computed now and kept.
-
-    Args:
-        question: plain data.
-        read: what is kept, judged again; ``None`` where it does not hold.
-        compute: the answer.
-        written: an answer as plain data.
-    """
-    answer = take(question)
-    result = None if answer is None else read(answer)
-    if result is None:
-        result = compute()
-        put(question, written(result))
-    return result
 
 
 def key_of(question: Mapping[str, Any]) -> str:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.files.decimals import significant_down, significant_up
+from lyapcheck.files.decimals import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
+from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.report.bench import JudgedCell
+    from lyapcheck.report.gain_map import JudgedCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
@@ -39,6 +41,8 @@ OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.fa
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
+MODULES = {"python-flint": "flint"}
+"""How a package is imported, where that is not its name."""
 SHOWN = 6
 """Significant digits of what floating point computes."""
 
@@ -59,6 +63,20 @@ class GainData:
     run: Run
     row: RunRow
     certificates: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a computation hands back, and the packages that its process had loaded at its end."""
+
+    result: Any
+    packages: frozenset[str]
+
+
+def done(work: Callable[..., Any], *arguments: Any) -> Done:
+    """A computation in its own process, whose packages are those that it, or one before it, has asked for."""
+    result = work(*arguments)
+    return Done(result, frozenset(name for name in BEHIND if MODULES.get(name, name) in sys.modules))
 
 
 def _claims(proof: str, ms: Sequence[int], robot: str, gains: str, only: Sequence[str] = ()) -> ProofData:
@@ -136,10 +154,11 @@ def _rest(gain_set: GainSet, model: RobotModel) -> float | None:
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRow, dict[str, str]]:
     """The four ε₀, rounded to the safe side, and why one is missing; and their certificates."""
-    from lyapcheck.answers.epsilon import epsilon
     from lyapcheck.answers.epsilon.certificates import certificates
+    from lyapcheck.answers.epsilon.kept import kept_epsilon
+    from lyapcheck.answers.epsilon.options import Options
 
-    result = epsilon(gain_set, model, max_boxes=BOXES, seed=seed)
+    result = kept_epsilon(gain_set, model, Options(max_boxes=BOXES, seed=seed))
     low, high = rounded(result.certified, up=False), rounded(result.falsified, up=True)
     files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
     row = EpsilonRow(
@@ -165,7 +184,7 @@ def rounded(value: Fraction | None, up: bool) -> str | None:
     """A positive number to ``DIGITS`` significant digits, not above it, or not below it with ``up``."""
     if value is None:
         return None
-    return f"{float((significant_up if up else significant_down)(value, DIGITS)):.{DIGITS}g}"
+    return (at_most if up else at_least)(value, DIGITS)
 
 
 def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
@@ -197,7 +216,7 @@ class MapData:
 def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:
     """The map over m and k_v, computed or that of the study."""
     from lyapcheck.check.verify import each_once
-    from lyapcheck.report.bench import for_the_sets, gain_map, kept_map
+    from lyapcheck.report.gain_map import for_the_sets, gain_map, kept_map
     from lyapcheck.robots import load
 
     model = load(robot)

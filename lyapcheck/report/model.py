@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.answer import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
-    from lyapcheck.report.bench import Bench
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
+    from lyapcheck.report.map_cell import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.report.study import StudyRow
     from lyapcheck.robots import RobotModel
@@ -111,10 +111,10 @@ class Report:
         runs: simulated runs, one a gain set, the PD baseline last.
         sensitivity: the printed experiment on the arms that are assumed possible; none if there is none.
         findings: the heaviest first.
-        bench: what the page needs to try gains.
+        map: places over m and k_v; empty where no map was made.
         figures: SVG text, PNG and CSV by file name.
         certificates: by their paths, those that the checker has accepted.
-        versions: the software that was used.
+        versions: of the packages that the computations loaded.
         seed: the seed of every random search.
     """
 
@@ -130,7 +130,7 @@ class Report:
     runs: tuple[RunRow, ...]
     sensitivity: StudyRow | None
     findings: tuple[Finding, ...]
-    bench: Bench
+    map: tuple[MapCell, ...]
     figures: Mapping[str, str | bytes] = field(repr=False)
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
