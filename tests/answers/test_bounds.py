@@ -182,7 +182,7 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
 def test_it_is_said_at_how_many_corners_runs_were_made(tmp_path: Path) -> None:
     path = tmp_path / "gains.toml"
     path.write_text('robot = "reyes-kelly2"\n[[gains]]\nname = "a"\nm = 1\nkp = [20, 5]\nkv = [0.1, 0.1]\n')
-    text = invoke("bounds", str(path), "--time", "1", "--vary", "viscous=-10%..+10%").stdout
+    text = lyapcheck("bounds", path, "--target", "45,45", "--vary", "viscous=-10%..+10%").stdout
     assert "the worst of one run at all 4 corners of the ranges, for viscous=-10%..10%" in " ".join(
         text.split()
     )
