@@ -8,16 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from lyapcheck.check.kinds.resting import AtBounds, Resting, rests_within
+from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.kinds.stopping import ComesToRest, EnergyFalls
-from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.control.resting import rest_error
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.decay.digits import short_above
 from lyapcheck.search.decay.results import AtRest, accepted
-
-HALVINGS = 50
-FARTHEST = 2**10
-"""rad: larger bounds are as good as none."""
 
 
 def resting(controlled: ControlledArm, torque: Sequence[Fraction], dry: Sequence[Fraction]) -> AtRest | None:
@@ -26,9 +21,9 @@ def resting(controlled: ControlledArm, torque: Sequence[Fraction], dry: Sequence
     With dry friction alone every motion ends there; with a torque of any sign it is about states of rest.
     """
     gains = controlled.gains
-    h, kp = member(gains.family, gains.m), tuple(gains.kp)
+    kp = tuple(gains.kp)
     held = tuple(a + b for a, b in zip(torque, dry, strict=True))
-    errors = tuple(_error(h, d / k) for d, k in zip(held, kp, strict=True))
+    errors = tuple(rest_error(gains.family, gains.m, d / k) for d, k in zip(held, kp, strict=True))
     if all(x is None for x in errors):
         return None
     shown = AtRest(Resting(gains.family, gains.m, kp, held, errors), AtBounds())
@@ -36,19 +31,3 @@ def resting(controlled: ControlledArm, torque: Sequence[Fraction], dry: Sequence
         whole = ComesToRest.about(controlled.loop(Fraction(1)), dry=held, errors=errors)
         shown = AtRest(whole, EnergyFalls(controlled.inertia_proof))
     return shown if accepted(shown.statement, shown.proof) else None
-
-
-def _error(h: Member, ratio: Fraction) -> Fraction | None:
-    """The least error that |h| ≤ ratio is shown to imply, nearly."""
-    low, high = Fraction(0), Fraction(1)
-    if rests_within(h, ratio, low):
-        return low
-    while not rests_within(h, ratio, high):
-        low, high = high, 2 * high
-        if high > FARTHEST:
-            return None
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (low, middle) if rests_within(h, ratio, middle) else (middle, high)
-    rounded = short_above(high)
-    return rounded if rests_within(h, ratio, rounded) else None
