@@ -19,6 +19,7 @@ from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
+    from lyapcheck.check.kinds.gravity import GravityBelow
     from lyapcheck.control.judgement import JudgedStatement
     from lyapcheck.robots import RobotModel
 
@@ -151,7 +152,7 @@ def _judged(model: RobotModel, i: int, bound: Fraction) -> tuple[RefutedBound | 
     return RefutedBound(i, bound, refuted, reached, False), "is kept by the nominal arm, not over its ranges"
 
 
-def _statement(model: RobotModel, i: int, bound: Fraction):  # type: ignore[no-untyped-def]
+def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:
     from lyapcheck.check.kinds.gravity import GravityBelow
 
     ranges = tuple(number.bounds for number in model.parameters.values())
@@ -203,11 +204,15 @@ def steep_postures(model: RobotModel, i: int) -> Iterator[tuple[Point, Point]]:
     choices = [(0.0, 1.0, 2.0, 3.0)] * model.n + [(1.0, 0.0)] * len(ends)
     start = [0.0] * model.n + [1.0] * len(ends)
     if model.n <= FEW_POSTURES and len(ends) <= FEW_POSTURES:
-        start = list(max(product(*choices), key=size))
-    best = _climbed(start, size, lambda x, k: choices[k])
-    quarter, step = best, 0.5
+        start = max(map(list, product(*choices)), key=size)
+    quarter = _climbed(start, size, lambda x, k: choices[k])
+    best, step = quarter, 0.5
     while step > FINEST:
-        finer = _climbed(best, size, lambda x, k: (x + step, x - step) if k < model.n else choices[k])
+
+        def near(x: float, k: int, step: float = step) -> Sequence[float]:
+            return (x + step, x - step) if k < model.n else choices[k]
+
+        finer = _climbed(best, size, near)
         step, best = (step / 2 if finer == best else step), finer
     for place in (quarter, best):
         turns = tuple(Fraction(round(x * DIGITS), DIGITS) for x in place[: model.n])

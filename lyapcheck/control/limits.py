@@ -31,6 +31,7 @@ class Limits:
         model: the arm; ``None`` where the gain file gives all numbers itself.
         varied: whether proofs about the arm are to hold for all of its ranges, not at its nominal numbers.
         refuted: stated bounds of gravity that the arm itself breaks, which are not among ``gravity``.
+        gravity_notes: what there is to say of ``gravity``.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -44,6 +45,7 @@ class Limits:
     model: RobotModel | None = field(default=None, compare=False, repr=False)
     varied: bool = False
     refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
+    gravity_notes: tuple[str, ...] = ()
 
     @property
     def n(self) -> int:
@@ -77,7 +79,8 @@ def limits_for(
         premise = (
             f"premise: gravity exerts at most ({told}) N·m, by [bounds] gravity; no model of the arm shows it"
         )
-        return Limits(bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n), (premise,))
+        numbers = bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n)
+        return Limits(*numbers, (premise,), gravity_notes=(premise,))
     known = {} if arms is None else arms
     if name not in known:
         with arm_named_in(gain_file, robot):
@@ -99,6 +102,7 @@ def limits_for(
         model=arm.model,
         varied=arm.varied,
         refuted=gravity.refuted,
+        gravity_notes=gravity.notes,
     )
 
 

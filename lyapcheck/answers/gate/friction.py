@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 
+ANYWHERE = Fraction(10**6)
+
+
 def held(gains: GainSet, model: RobotModel) -> dict[int, JudgedStatement]:
     """The joints, from 0, that dry friction is proved to hold wherever they stop."""
     gamma = gamma_of(gains)
@@ -60,18 +63,23 @@ def resting(gains: GainSet, model: RobotModel) -> JudgedStatement | None:
     )
 
 
-def farthest(gains: GainSet, model: RobotModel) -> str:
-    """In a few words how far from the goal dry friction may leave the joints; empty without any."""
+Fact = tuple[Fraction, str]
+"""How far from the goal, rad, and in words."""
+
+
+def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
+    """How far from the goal dry friction may leave the joints; ``None`` without any, or an h unknown here."""
     if not any(dry_friction(model)):
-        return ""
+        return None
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
-    stuck, result = held(gains, model), resting(gains, model)
-    joints = [joint for i, joint in enumerate(model.joints) if i in stuck]
-    if joints:
-        return f"dry friction{assumed} may hold {', '.join(joints)} anywhere"
+    result, stuck = resting(gains, model), held(gains, model)
+    if stuck:
+        joints = ", ".join(model.joints[i] for i in stuck)
+        return ANYWHERE, f"dry friction{assumed} may hold {joints} anywhere"
     if result is None or result.verdict != ACCEPTED or None in _errors(result):
-        return f"dry friction{assumed} may leave it off its goal"
-    return f"dry friction{assumed} leaves at most {degrees_above(max(filter(None, _errors(result))))}"
+        return ANYWHERE, f"dry friction{assumed} may leave it off its goal"
+    error = max(x for x in _errors(result) if x is not None)
+    return error, f"dry friction{assumed} leaves at most {degrees_above(error)}"
 
 
 def _errors(result: JudgedStatement) -> tuple[Fraction | None, ...]:
@@ -85,11 +93,11 @@ def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> l
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
     lines = []
     for i in stuck:
-        number = model.coulomb[i]
+        number, most, k = model.coulomb[i], decimal_text(friction[i]), decimal_text(gains.kp[i])
         upto, may = ("up to ", "may rest") if number is not None and number.ranged else ("", "rests")
         lines.append(
-            f"γ k_p of {model.joints[i]} does not exceed its dry friction of {upto}{decimal_text(friction[i])} "
-            f"N·m{assumed}: the joint {may} wherever it stops; k_p = {decimal_text(gains.kp[i])} is in N·m"
+            f"γ k_p of {model.joints[i]} does not exceed its dry friction of {upto}{most} N·m{assumed}: "
+            f"the joint {may} wherever it stops; k_p = {k} is in N·m"
         )
     result = resting(gains, model)
     if result is not None and result.verdict == ACCEPTED:

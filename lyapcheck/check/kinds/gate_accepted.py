@@ -1,4 +1,4 @@
-"""The gate's verdict on one gain set: gravity of the arm, the torques of the motors and (19) in one statement.
+"""The gate's verdict on one gain set: gravity of the arm, torques of the motors and (19) in one statement.
 
 With √n γ = N: (10) λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − ‖k_g‖)/N, (10p) k_pi + k_vi < (τmax_i − k_gi)/N,
 (10i) k_pi + k_vi ≤ (τmax_i − k_gi)/γ and (19) k_vi < λmin(B)/N.
@@ -17,8 +17,15 @@ from flint import arb
 from lyapcheck.check.expressions.text import diagonal_text, list_text, number_text
 from lyapcheck.check.granted import TORQUE
 from lyapcheck.check.kinds.compared import SameHarmonics
-from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, gravity_text
-from lyapcheck.check.kinds.inertia import OfArm, PostureWitness, require_posture
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.inertia import (
+    OfArm,
+    PostureWitness,
+    polynomial_text,
+    require_posture,
+    variable_names,
+    written_out,
+)
 from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.limits import LARGEST, MAX_ARM
 from lyapcheck.check.loop.field import value_at
@@ -84,12 +91,16 @@ class GateAccepted(Total):
             part.require_well_formed()
 
     def _is_about(self, part: Statement) -> bool:
-        """Whether a statement is about M(q) of as many joints in these ranges, or of one arm, and this loop."""
+        """Whether a statement is about as many joints in these ranges, or one arm, and about this loop."""
         if not isinstance(part, OfArm | OfLoop) or len(part.mass) != self.joints:
             return False
-        loop = "family", "m", "kp", "kv"
-        same = isinstance(part, OfArm) or all(getattr(part, name) == getattr(self, name) for name in loop)
-        return same and part.parameters in ((), self.parameters)
+        same = part.parameters in ((), self.parameters)
+        if isinstance(part, OfLoop):
+            pairs = zip(part.viscous, self.viscous, strict=False)
+            same = same and all(low <= a and b <= high for (a, b), (low, high) in pairs)
+            loop = "family", "m", "kp", "kv"
+            same = same and all(getattr(part, name) == getattr(self, name) for name in loop)
+        return same
 
     @property
     def gradient(self) -> GravityOfPotential:
@@ -140,20 +151,23 @@ class GateAccepted(Total):
     def text(self) -> str:
         """The statement in one line."""
         limits = ", ".join("none" if x is None else number_text(x) for x in self.limits)
-        friction = ", ".join(f"{number_text(a)} … {number_text(b)}" for a, b in self.viscous)
+        ranges = [f"{number_text(a)} … {number_text(b)}" for a, b in (*self.viscous, *self.parameters)]
         function = self.family if self.m is None else f"{self.family}_{self.m}"
-        conditions = " and ".join(f"({name})" for name in self.conditions)
-        shown = "|g_i(q)| ≤ k_gi for all q; " if self.gravity else "if |g_i(q)| ≤ k_gi for all q: "
-        over = gravity_text(self.gravity, self.joints, self.parameters) if self.gravity else ""
         words = [
-            f"{shown}{conditions or 'no condition'} with these k_gi",
+            f"|g_i(q)| ≤ k_gi for all q{'' if self.gravity else ', a premise'}",
+            *(f"({name}) with these k_gi" for name in self.conditions),
             *(["|τ_i| ≤ τmax_i at every state"] if set(TORQUES) & set(self.conditions) else []),
             *(part.text() for part in self.stability),
         ]
+        names = variable_names(self.joints, len(self.parameters))
+        pairs = zip(names[2 * self.joints :], ranges[self.joints :], strict=True)
+        over = [f"{name} in {text}" for name, text in pairs]
+        entries = [f"g{i} = {polynomial_text(g, names)}" for i, g in enumerate(self.gravity, 1)]
+        over += [written_out(entries, "g(q)", self.gravity, ())] if self.gravity else []
         return (
-            f"{'; '.join(words)}: for every arm with k_g = ({list_text(self.k_g)}), τmax = ({limits}), "
-            f"B = diag({friction}), under h = {function}, K_p = {diagonal_text(self.kp)}, "
-            f"K_v = {diagonal_text(self.kv)}{', ' if over else ''}{over}"
+            f"{'; '.join(words)}: for every arm with k_g = {list_text(self.k_g)}, τmax = ({limits}), "
+            f"B = diag({', '.join(ranges[: self.joints])}), under h = {function}, "
+            f"{', '.join([f'K_p = {diagonal_text(self.kp)}', f'K_v = {diagonal_text(self.kv)}', *over])}"
         )
 
 
@@ -219,7 +233,7 @@ def by_parts(statement: GateAccepted, proof: GateParts) -> Accepted:
 
 @rule(GateAccepted, SaturatingState)
 def by_saturation(statement: GateAccepted, proof: SaturatingState) -> Accepted:
-    """Soundness: |(k_pi + k_vi) h(x) + g_i(q)| > τmax_i at one state, so that (10i) fails, and so does (10p)."""
+    """Soundness: |(k_pi + k_vi) h(x) + g_i(q)| > τmax_i at one state, so that (10i) and (10p) fail."""
     torques = set(TORQUES) & set(statement.conditions) and statement.gravity
     require(bool(torques), "conditions", statement.conditions, "say nothing of a torque at each state")
     i = proof.joint
