@@ -29,6 +29,7 @@ class ArmLimits:
         varied: whether the limits, and proofs about the arm, are to hold for all of its ranges.
         gravity_notes: which printed bounds of gravity the model does not keep.
         refuted: those that it breaks.
+        own: the arm as its file gives it, without ranges that are supposed beside it.
     """
 
     name: str
@@ -42,6 +43,7 @@ class ArmLimits:
     varied: bool = False
     gravity_notes: tuple[str, ...] = ()
     refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
+    own: RobotModel | None = field(default=None, compare=False, repr=False)
 
     @property
     def n(self) -> int:
@@ -64,7 +66,8 @@ def varied_limits(name: str, varies: tuple[Vary, ...]) -> ArmLimits:
     Raises:
         InputError: no such arm, or a range of nothing that it has.
     """
-    nominal, result = arm_limits(name), model_limits(load(name, vary=varies))
+    nominal = arm_limits(name)
+    result = model_limits(load(name, vary=varies), nominal.model)
     asked = ", ".join(one.text for one in varies)
     pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, result.viscous_min)]
     pairs += [
@@ -87,9 +90,14 @@ def _shown(value: Fraction) -> str:
     return f"{float(value):.6g}"
 
 
-def model_limits(model: RobotModel) -> ArmLimits:
-    """The limits for all values of what is uncertain about the arm, with what they assume."""
-    gravity = settled(model, stated_bounds(model))
+def model_limits(model: RobotModel, own: RobotModel | None = None) -> ArmLimits:
+    """The limits for all values of what is uncertain about the arm, with what they assume.
+
+    Args:
+        model: the arm.
+        own: the arm as its file gives it, where ranges are supposed beside it.
+    """
+    gravity = settled(model, stated_bounds(model), own or model)
     return ArmLimits(
         name=model.name,
         joints=model.joints,
@@ -101,6 +109,7 @@ def model_limits(model: RobotModel) -> ArmLimits:
         model=model,
         gravity_notes=gravity.notes,
         refuted=gravity.refuted,
+        own=own or model,
     )
 
 

@@ -39,14 +39,14 @@ class RefutedBound:
         bound: N·m, as it is stated.
         refuted: the checker's verdict on the bound, with the posture.
         reached: N·m, what gravity exerts there at least.
-        nominal: whether the nominal arm breaks it, and not only another in the ranges.
+        own: whether the arm as its file gives it breaks it, and not only one in ranges supposed beside it.
     """
 
     joint: int
     bound: Fraction
     refuted: JudgedStatement
     reached: Fraction
-    nominal: bool
+    own: bool
 
 
 @dataclass(frozen=True)
@@ -82,8 +82,13 @@ def computed_bounds(model: RobotModel) -> tuple[Fraction, ...]:
 
 
 @lru_cache(maxsize=64)
-def settled(model: RobotModel, stated: tuple[Fraction | None, ...]) -> Gravity:
+def settled(model: RobotModel, stated: tuple[Fraction | None, ...], own: RobotModel) -> Gravity:
     """The stated bounds where the model keeps them for all of its ranges, and computed ones elsewhere.
+
+    Args:
+        model: the arm, with ranges that may be supposed beside those of its file.
+        stated: bounds in N·m; ``None`` where nobody states one.
+        own: the arm as its file gives it.
 
     Soundness: a stated bound counts where a computed one or the sizes of harmonics are not above it, or
         ``lyapcheck.check.verify`` proves it.
@@ -91,17 +96,17 @@ def settled(model: RobotModel, stated: tuple[Fraction | None, ...]) -> Gravity:
     bounds: list[Fraction] = []
     notes: list[str] = []
     refuted: list[RefutedBound] = []
-    for i, (bound, own) in enumerate(zip(stated, computed_bounds(model), strict=True)):
-        if bound is None or bound >= own or _kept_by_sizes(model, i, bound):
-            bounds.append(own if bound is None else bound)
+    for i, (bound, most) in enumerate(zip(stated, computed_bounds(model), strict=True)):
+        if bound is None or bound >= most or _kept_by_sizes(model, i, bound):
+            bounds.append(most if bound is None else bound)
             continue
-        broken, why = _judged(model, i, bound)
+        broken, why = _judged(model, i, bound, own)
         if why == "":
             bounds.append(bound)
             continue
-        bounds.append(own)
+        bounds.append(most)
         refuted += [] if broken is None else [broken]
-        used = f"{decimal_text(own)} N·m from the model is used"
+        used = f"{decimal_text(most)} N·m from the model is used"
         notes.append(f"gravity bound of {model.joints[i]} = {decimal_text(bound)} N·m {why}: {used}")
     return Gravity(tuple(bounds), tuple(notes), tuple(refuted))
 
@@ -135,21 +140,19 @@ def _kept_by_sizes(model: RobotModel, i: int, bound: Fraction) -> bool:
     return sum(rows, Fraction(0)) <= bound
 
 
-def _judged(model: RobotModel, i: int, bound: Fraction) -> tuple[RefutedBound | None, str]:
+def _judged(model: RobotModel, i: int, bound: Fraction, own: RobotModel) -> tuple[RefutedBound | None, str]:
     """What refutes a bound of an arm in the ranges, and why it does not count; ``""`` where it does."""
     try:
         at = _broken(model, i, bound)
+        its_own = at if own is model or at is None else _broken(own, i, bound)
     except TooManyTerms:
         return None, "is not shown to be kept by the arm"
     if at is None:
         shown = model.n <= FEW_JOINTS and _by_boxes(model, i, bound)
         return None, "" if shown else "is not shown to be kept by the arm"
-    nominal = _broken(model.fixed(), i, bound) if model.parameters else at
-    if nominal is not None:
-        refuted, reached = nominal
-        return RefutedBound(i, bound, refuted, reached, True), "is refuted by the arm's own model"
-    refuted, reached = at
-    return RefutedBound(i, bound, refuted, reached, False), "is kept by the nominal arm, not over its ranges"
+    if its_own is not None:
+        return RefutedBound(i, bound, *its_own, True), "is refuted by the arm's own model"
+    return RefutedBound(i, bound, *at, False), "is kept by the arm of the file, not over its ranges"
 
 
 def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:

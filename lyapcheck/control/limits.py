@@ -91,7 +91,7 @@ def limits_for(
     notes = (*(() if bounds.torque else arm.torque_notes), *(() if bounds.viscous_min else arm.viscous_notes))
     gravity = Gravity(arm.gravity, arm.gravity_notes, arm.refuted)
     if bounds.gravity is not None and arm.model is not None:
-        gravity = settled(arm.model, bounds.gravity)
+        gravity = settled(arm.model, bounds.gravity, arm.own or arm.model)
     return Limits(
         torque=bounds.torque or arm.torque,
         gravity=gravity.bounds,

@@ -88,7 +88,12 @@ class GateResult:
     def standing(self) -> str:
         """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
-        if self.verdict != REJECTED or self.stable is None or self.saturates or self.limits.refuted:
+        if (
+            self.verdict != REJECTED
+            or self.stable is None
+            or self.saturates
+            or self.verdict_of((GRAVITY,)) == REJECTED
+        ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
@@ -143,7 +148,7 @@ def judged_sets(
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
     if rests_on:
         limits = limits.resting_on((*limits.gravity_notes, *rests_on))
-    broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.nominal]
+    broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
     for gains, certificates in zip(gain_file.gains, proved, strict=True):
         key = gains.family, gains.m
