@@ -155,4 +155,4 @@ def _far(result: GateResult) -> Fraction:
     if gains.family not in ("hyperbolic", "tanh"):
         return Fraction(LARGEST)
     place = hyperbolic_constants(gains.m or 1).gamma_at
-    return Fraction(40) if place is None else Fraction(round(place.lower * 10**12), 10**12)
+    return Fraction(20) if place is None else Fraction(round(place.lower * 10**12), 10**12)
