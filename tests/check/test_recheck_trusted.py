@@ -26,7 +26,11 @@ HEADLINES = {
     "an identity for every n": ("EveryN", "normal form"),
     "a bound for every n": ("BoundEveryN", "covered terms"),
     "an inequality in one variable": ("ForAll", "pieces of the domain", "Sturm", "Taylor boxes"),
-    "a verdict of the gate": ("Constant", "separate balls"),
+    "a relation between numbers": ("Constant", "separate balls"),
+    "a verdict of the gate": (
+        *("GateAccepted", "gravity, gains and limits", "GravityBelow", "sizes of harmonics"),
+        *("GravityOfPotential", "comparison of harmonics"),
+    ),
     "M(q) positive by links": ("MassAbove", "links"),
     "a bound of M(q) by boxes": ("MassBelow", "bisection"),
     "a bound of M(q) along links": ("ChainBelow", "storage forms"),
