@@ -52,7 +52,11 @@ def gate_script(statement: GateAccepted, proof: Proof) -> str:
     m = _m(statement)
     _, most = between("gamma", m)
     root = Fraction(isqrt(statement.joints * DIGITS**2 - 1) + 1, DIGITS)
-    bound = "exact Gate.tanh_bound" if m == 1 else "intros x; open_rationals; revert x; prove_h_at_most"
+    bound = (
+        "exact Gate.tanh_bound"
+        if m == 1
+        else "intros x; cbn [family]; open_rationals; revert x; prove_h_at_most"
+    )
     return (
         f"apply (Gate.accepts _ {exact(most)} {exact(root)}); "
         f"[cbn; lia|{bound}|vm_cast_no_check (eq_refl true)..]."
@@ -77,7 +81,8 @@ def gate_refutation_script(statement: GateAccepted, proof: Proof) -> str:
         way = "left" if "10p" in statement.conditions else "right"
         return (
             f"assert (S : saturates {_gated(statement)} {proof.joint}). "
-            f"{{ apply (Gate.saturated _ ltac:(cbn; lia) {numbers}); "
+            "{ match goal with |- saturates ?D _ => "
+            f"apply (Gate.saturated D ltac:(cbn; lia) {numbers}) end; "
             "[cbn [family]; open_rationals; numbers|vm_cast_no_check (eq_refl true)]. } "
             f"split; [exact S|apply (Gate.saturated_rejects _ {proof.joint}); "
             f"[cbn; lia|{way}; reflexivity|exact S]]."
@@ -94,7 +99,8 @@ def gate_refutation_script(statement: GateAccepted, proof: Proof) -> str:
         "19": f"{i} {least} {exact(low)} {root}",
     }
     return (
-        f"{supremum('gamma', m)}apply (Gate.broken_{name} _ ltac:(cbn; lia) {known[name]}); "
+        f"{supremum('gamma', m)}match goal with |- ~ gate_accepts ?D _ => "
+        f"apply (Gate.broken_{name} D ltac:(cbn; lia) {known[name]}) end; "
         "[reflexivity|cbn [family]; open_rationals; lra|vm_cast_no_check (eq_refl true)]."
     )
 
