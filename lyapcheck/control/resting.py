@@ -51,4 +51,4 @@ def rest_error(family: str, m: int | None, ratio: Fraction) -> Fraction | None:
 
 def degrees_above(error: Fraction) -> str:
     """An angle of rad in degrees, in four digits and never rounded down."""
-    return f"{decimal_text(significant_up(error * DEGREES, 4))}°"
+    return f"{decimal_text(significant_up(error * DEGREES, 4))}°" if error else "0°"

@@ -79,7 +79,9 @@ def test_the_title_counts(paper: GateAnswer, undecided: GateAnswer) -> None:
         f"✗ 2 {BREAK}; 1 undecided; 1 accepted; dry friction (assumed) leaves at most 20.73°"
     )
     assert undecided.document().title == "? 1 undecided"
-    assert GateAnswer(paper[:1]).document().title == "! 1 accepted; dry friction (assumed) leaves at most 20.73°"
+    assert (
+        GateAnswer(paper[:1]).document().title == "! 1 accepted; dry friction (assumed) leaves at most 20.73°"
+    )
 
 
 def test_a_section_is_a_table_of_checks_and_what_to_change(paper: GateAnswer) -> None:
