@@ -119,6 +119,11 @@ def gravity_bounds(model: RobotModel) -> tuple[Fraction, ...]:
     return tuple(own if bound is None else bound for bound, own in pairs)
 
 
+def kept_bounds(model: RobotModel) -> tuple[Fraction, ...]:
+    """k_gi of each joint: as the source prints it where the model keeps it for all of its ranges."""
+    return settled(model, stated_bounds(model), model).bounds
+
+
 def stated_bounds(model: RobotModel) -> tuple[Fraction | None, ...]:
     """The bounds that the source of the arm prints, N·m."""
     return tuple(None if bound is None else bound.bounds[1] for bound in model.gravity_bound)
