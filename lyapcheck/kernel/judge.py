@@ -23,11 +23,12 @@ JOBS = 2
 COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|computed)\b")
 HEAD = f"""From Coq Require Import Floats.
 Require Import {LIBRARY}.Certificates.
+Import {LIBRARY}.GateDefinitions.
 Import {LIBRARY}.Definitions.
 Import ListNotations.
 Open Scope R_scope.
 """
-"""The page of definitions comes last: no other file's names stand before its own."""
+"""The pages of definitions come last: no other file's names stand before its own."""
 
 
 def theorem_file(certificate: Certificate) -> str:

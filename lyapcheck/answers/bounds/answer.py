@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.bounds.compare import BoundsComparison
 from lyapcheck.answers.bounds.data import comparison_data
 from lyapcheck.answers.gain_place import gain_place
-from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.control.resting import degrees_above
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
@@ -24,8 +25,7 @@ REST = (
     "|e_i| at every state of rest; simulated at rest: the larger of this motion's and of one let go at "
     "95 % of the bound; simulated on the way: the largest of this motion:"
 )
-NONE, DEGREES = "—", Fraction(5729577951309, 10**11)
-"""Degrees of a radian, from above."""
+NONE = "—"
 WITHOUT = "without --vary, proved"
 LEGEND = (
     "proved: accepted by the checker, for dry friction up to what is stated, at every state of rest.",
@@ -147,6 +147,4 @@ def _angle(value: float) -> str:
 
 def angle_up(value: Fraction | None) -> str:
     """A proved angle in degrees, in four digits and never rounded down; ``None`` is without a bound."""
-    if value is None:
-        return "∞"
-    return f"{decimal_text(significant_up(value * DEGREES, 4))}°" if value else "0°"
+    return "∞" if value is None else degrees_above(value)

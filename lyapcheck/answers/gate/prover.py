@@ -75,7 +75,7 @@ class Prover:
         if not reason and name == LASALLE:
             return lasalle(self.model if self.ranges else self.model.fixed())
         if not reason:
-            friction = friction_of(self.model, self.viscous_min)
+            friction = friction_of(self.model, self.viscous_min, self.ranges)
             proof, reason = (
                 norm_epsilon(controlled, friction)
                 if name == "scalar"
