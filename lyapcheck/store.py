@@ -52,9 +52,13 @@ def kept(kind: str, name: str) -> bytes | None:
     """The content of a kind kept under a name, if it is there, ours alone to write, and whole."""
     path = home() / kind / name
     try:
-        if not _private(path.parent) or not _private(path) or not path.is_file():
+        if not _private(path.parent.stat()):
             return None
-        content = path.read_bytes()
+        with open(path, "rb", opener=_as_it_is) as file:
+            status = os.fstat(file.fileno())
+            if not _private(status) or not stat.S_ISREG(status.st_mode):
+                return None
+            content = file.read()
     except (OSError, RuntimeError):
         return None
     body, digest = content[:-_DIGEST], content[-_DIGEST:]
@@ -66,7 +70,7 @@ def keep(kind: str, name: str, body: bytes) -> Path | None:
     try:
         folder = home() / kind
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if not _private(folder):
+        if not _private(folder.stat()):
             return None
         return _write(folder, body + hashlib.sha256(body).digest()).replace(folder / name)
     except (OSError, RuntimeError):
@@ -169,8 +173,12 @@ def _write(folder: Path, content: bytes) -> Path:
     return Path(name)
 
 
-def _private(path: Path) -> bool:
+def _as_it_is(path: str, flags: int) -> int:
+    """Opened once, without waiting and without following a link: what is looked at is what is read."""
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
+
+
+def _private(status: os.stat_result) -> bool:
     """Whether only this user can change it: what is kept here is run and shown."""
-    status = path.stat()
     mine = not hasattr(os, "getuid") or status.st_uid == os.getuid()
     return mine and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
