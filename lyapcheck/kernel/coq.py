@@ -10,6 +10,7 @@ from pathlib import Path
 
 import lyapcheck
 from lyapcheck.errors import argument_error
+from lyapcheck.files.reader import holds
 
 PACKAGES = "coq libcoq-interval"
 QUIET = "-ambiguous-paths,-notation-overridden"
@@ -83,7 +84,7 @@ class Coq:
         for name in sources():
             text = (formal() / name).read_bytes()
             path = self.library / name
-            same = path.exists() and path.read_bytes() == text and path.with_suffix(".vo").exists()
+            same = holds(path, text) and path.with_suffix(".vo").exists()
             fresh = fresh and same  # what comes later rests on what comes before
             if fresh:
                 continue
