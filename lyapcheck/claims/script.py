@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 import traceback
@@ -37,8 +38,8 @@ def find_script(name: str) -> Path:
     if path.suffix.lower() != ".py" and (path.exists() or path.suffix):
         rule = "a proof script is a Python file (.py)"
         raise InputError(Problem(name, None, "PROOF", name, rule, "give the path of a .py file"))
-    if path.is_file():
-        return path
+    if os.path.lexists(path):
+        return path  # what is no regular file is refused as what it is, where it is read
     shipped = proofs_folder() / path.name
     if path.parent in (Path(), Path("proofs")) and shipped.is_file():
         return shipped

@@ -89,4 +89,3 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     finally:
         if staged is not None:
             shutil.rmtree(staged, ignore_errors=True)
-

@@ -80,6 +80,8 @@ def test_what_is_listed_is_there() -> None:
     assert set(KNOWN) - places() == set()
 
 
-@pytest.mark.parametrize("text", ["open(p)", "Path(p).read_text()", "p.read_bytes()", "p.open()", "os.open(p, 0)"])
+@pytest.mark.parametrize(
+    "text", ["open(p)", "Path(p).read_text()", "p.read_bytes()", "p.open()", "os.open(p, 0)"]
+)
 def test_every_way_to_open_is_seen(text: str) -> None:
     assert list(opened(ast.parse(f"def read(p):\n    return {text}"))) == ["read"]
