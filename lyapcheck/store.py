@@ -17,7 +17,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -127,7 +127,15 @@ def made_with() -> str:
 
 @cache
 def _versions() -> tuple[tuple[str, str], ...]:
-    return tuple((name, version(name)) for name in BEHIND)
+    return tuple((name, _version(name)) for name in BEHIND)
+
+
+def _version(name: str) -> str:
+    """Of a package, empty where it is not installed."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
 
 
 def exact(*subjects: object) -> str:
