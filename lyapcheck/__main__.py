@@ -1,6 +1,9 @@
-"""``python -m lyapcheck`` is the command ``lyapcheck``."""
+"""``python -P -m lyapcheck`` is the command ``lyapcheck``; see ``check.__main__`` for what ``-P`` is for."""
 
-from __future__ import annotations
+import sys
+
+if not sys.flags.safe_path:
+    del sys.path[0]
 
 from lyapcheck.cli.main import main
 

@@ -74,7 +74,7 @@ proof.section("Section 2: the robot")
 
 @proof.claim("2.1", "M(q) is symmetric and positive definite for all q", "Property 2.1")
 def _(robot):
-    return all_of(symmetric=mass_symmetric(robot), positive=mass_positive(robot))
+    return all_of(symmetric=mass_symmetric(robot.fixed()), positive=mass_positive(robot))
 
 
 proof.add("2.2", "a constant β_M bounds ‖M(q)‖", mass_bounded, "Property 2.2, (2)")

@@ -36,7 +36,7 @@ class Recheck(Answer):
         kernel: what Coq's kernel says of each certificate, if it was asked.
     """
 
-    schema = "lyapcheck/recheck/2"
+    schema = "lyapcheck/recheck/3"
 
     outcome: Outcome
     trusted: bool = False
@@ -141,12 +141,11 @@ class Recheck(Answer):
     def _code(self) -> Iterator[Section]:
         """The rules and modules behind all that is proved, and behind all that is refuted."""
         for verdict, code in self.data().get("trusted", {}).items():
-            lines, short = code["modules"], code["code"]
-            total = (f"{len(lines)} modules", str(sum(short.values())), str(sum(lines.values())))
-            rows = [*((name, str(short[name]), str(count)) for name, count in lines.items()), total]
-            rules = Paragraph(f"Rules: {', '.join(code['rules'])}.")
-            table = Table(("definitions in", "code", "lines"), tuple(rows))
-            yield Section(f"Trusted for all that is {verdict}", (rules, table))
+            rows = tuple((name, ", ".join(at)) for name, at in code["rules"].items())
+            rules = Table(("rule", "lies in"), rows, align="ll")
+            rests = Paragraph(f"With all that these import, {len(code['modules'])} modules:")
+            blocks = (rules, rests, Bullets(tuple(code["modules"])))
+            yield Section(f"Trusted for all that is {verdict}", blocks)
 
 
 def _accepted(result: Sequence[Checked]) -> Table:

@@ -19,6 +19,7 @@ from lyapcheck.check import kinds
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import MAX_DEPTH, is_rational_text
 from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.removed import LAST_READ_BY
 from lyapcheck.check.statement import Piece, Proof, Statement
 
 kinds.load()
@@ -108,6 +109,10 @@ def _tagged(base: type, data: Any, where: str) -> Any:
     require(isinstance(data, dict) and key in data, where, data, f"must be an object with a {key!r}")
     require(type(data[key]) is str, f"{where}.{key}", data[key], "must be text")
     cls: Any = members(base).get(data[key])
+    if cls is None and data[key] in LAST_READ_BY:
+        last = LAST_READ_BY[data[key]]
+        rule = f"was removed after lyapcheck {last}; lyapcheck {last} reads it"
+        raise Refused(f"{where}.{key}", data[key], rule)
     if cls is None:
         raise Refused(f"{where}.{key}", data[key], f"is not a {key} that the checker knows")
     return _dataclass(cls, {name: value for name, value in data.items() if name != key}, where)

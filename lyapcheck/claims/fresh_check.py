@@ -44,7 +44,7 @@ class ContradictionError(Exception):
 
 
 def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
-    """What ``python -m lyapcheck.check`` says about certificates that use none but each other.
+    """What ``python -P -m lyapcheck.check`` says about certificates that use none but each other.
 
     Soundness: a new process reads the files, and trusts nothing of what has happened in this one.
 

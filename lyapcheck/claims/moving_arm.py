@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -74,12 +73,12 @@ def coriolis_bounded(robot: RobotModel) -> Statement:
     Raises:
         Lacking: M(q) is too long to be written out.
     """
-    from lyapcheck.constants.storage import coriolis_bound
+    from lyapcheck.constants.storage import storage_proof
 
     chain = _chain(robot.fixed())
-    shown = None if chain is None else coriolis_bound(chain)
+    shown = None if chain is None else storage_proof(chain, "k_c")
     if shown is not None:
-        return replace(shown, high=_with_room(shown.high))
+        return shown.at_end(_with_room(shown.bound))
     try:
         return ArmBounds(robot).coriolis_below()
     except TooManyTerms as error:

@@ -17,9 +17,6 @@ from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import NumericForms
 from lyapcheck.family.elementary import ElementaryFamily
 
-LARGEST_MEMBER = 64
-"""Powers up to 2m magnify a relative error 2m times; from here on the arrays' doubled precision is needed."""
-
 _LN2 = 0.6931471805599453
 
 
@@ -71,8 +68,7 @@ _WITH_POWERS = ("hyperbolic", "tanh")
 
 def has_plain_forms(family: Family) -> bool:
     """Whether a family can be written in plain doubles."""
-    known = family.name == "linear" or family.name in _WITH_POWERS or isinstance(family, ElementaryFamily)
-    return known and (family.m or 1) <= LARGEST_MEMBER
+    return family.name == "linear" or family.name in _WITH_POWERS or isinstance(family, ElementaryFamily)
 
 
 def _arithmetic(code: StraightLine | PlainArrays) -> Arithmetic:
@@ -89,8 +85,6 @@ def _arithmetic(code: StraightLine | PlainArrays) -> Arithmetic:
         sqrt=of("sqrt"),
         log=of("log"),
         arctan=of("atan"),
-        nearest=of("rint"),
-        two_to=of("exp2"),
     )
 
 

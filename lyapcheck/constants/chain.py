@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lyapcheck._types import Progress, part, silent
+from lyapcheck._types import Progress, silent
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants.constant import ConstantResult
 from lyapcheck.constants.extreme import extreme
@@ -30,8 +30,7 @@ def chain_constant(plant: Plant, name: str, on_progress: Progress = silent) -> C
     shown = storage_proof(chain, name, still=True) if still else None
     if shown is None:
         on_progress(0.1, "forms along the links")
-        step = part(on_progress, 0.1, 1.0, "forms along the links, ")
-        shown = storage_proof(chain, name, on_progress=step)
+        shown = storage_proof(chain, name)
     if shown is not None:
         outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
     if outer is None:

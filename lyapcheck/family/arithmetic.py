@@ -1,8 +1,7 @@
-"""The operations beyond + - * / that numeric forms need, for floats, NumPy arrays and CasADi graphs."""
+"""The operations beyond + - * / that numeric forms need, for NumPy arrays and CasADi graphs."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -20,24 +19,6 @@ class Arithmetic:
     sqrt: Callable[[Any], Any]
     log: Callable[[Any], Any]
     arctan: Callable[[Any], Any]
-    nearest: Callable[[Any], Any]
-    """The nearest whole number (any of two at a tie)."""
-    two_to: Callable[[Any], Any]
-    """2 to the power of a whole number, exactly."""
-
-
-FLOATS = Arithmetic(
-    where=lambda condition, yes, no: yes if condition else no,
-    fabs=abs,
-    smaller=lambda a, b: a if a < b else b,
-    larger=lambda a, b: a if a > b else b,
-    sqrt=math.sqrt,
-    log=math.log,
-    arctan=math.atan,
-    nearest=lambda a: float(round(a)),
-    two_to=lambda k: math.ldexp(1.0, int(k)),
-)
-"""Python floats: for a handful of numbers faster than arrays."""
 
 
 @cache
@@ -53,8 +34,6 @@ def arrays() -> Arithmetic:
         sqrt=np.sqrt,
         log=np.log,
         arctan=np.arctan,
-        nearest=np.rint,
-        two_to=lambda k: np.ldexp(1.0, k.astype(np.int32)),
     )
 
 
@@ -71,6 +50,4 @@ def graphs() -> Arithmetic:
         sqrt=ca.sqrt,
         log=ca.log,
         arctan=ca.atan,
-        nearest=lambda a: ca.floor(a + 0.5),
-        two_to=lambda k: ca.constpow(2.0, k),
     )

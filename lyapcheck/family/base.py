@@ -97,15 +97,7 @@ class Family(ABC):
 
     @abstractmethod
     def casadi(self, x: Any) -> NumericForms:
-        """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms.
-
-        Put the result into a ``casadi.Function`` and evaluate that on numbers. Called on symbols, such a
-        function is copied and simplified by CasADi: its values stay right, but in plain double precision.
-        """
-
-    def casadi_smooth(self, x: Any) -> NumericForms:
-        """The same in plain doubles: short expressions for optimisers, a few digits less near extremes."""
-        return self.casadi(x)
+        """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms."""
 
     @property
     def checked(self) -> Member:
@@ -131,10 +123,6 @@ class Family(ABC):
     def ball_potential(self, x: arb) -> arb:
         """A ball that contains U over the ball x; by default that of the checker."""
         return self.checked.potential(x)
-
-    def ball_secant(self, x: arb) -> arb:
-        """A ball that contains h(x)/x over the ball x; by default that of the checker."""
-        return self.checked.secant(x)
 
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The x > 0 at which h, and those at which h', may stop being monotone; none by default."""

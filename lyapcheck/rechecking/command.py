@@ -1,4 +1,4 @@
-"""``recheck`` as a command, the same behind ``lyapcheck recheck`` and ``python -m lyapcheck.check``."""
+"""``recheck`` as a command, the same behind ``lyapcheck recheck`` and ``python -P -m lyapcheck.check``."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FORMATS: Mapping[str, Writer] = {"text": text, "json": as_json}
 HELP = {
     "format": "How to write it.",
     "full": "Write long statements, and what their authors say of them, whole.",
-    "trusted": "Also list the rules and modules that each verdict rests on, with their lines.",
+    "trusted": "Also list the rules and modules that each verdict rests on.",
     "seconds": "The most computing time, in s, for one certificate; past it, it is undecided.",
     "memory": "The most memory, in MiB, for one certificate; past it, it is undecided.",
 }

@@ -1,4 +1,4 @@
-"""``python -m lyapcheck.check CERTIFICATE…``: recheck certificates with this package alone.
+"""``python -P -m lyapcheck.check CERTIFICATE…``: recheck certificates with this package alone.
 
 The same as ``lyapcheck recheck``, for whoever has the standard library, python-flint, the checker and this.
 """
@@ -17,7 +17,7 @@ INTERRUPTED = 130
 
 def main(arguments: list[str] | None = None) -> int:
     """Parse the options of :func:`run`, and run."""
-    parser = argparse.ArgumentParser(prog="python -m lyapcheck.check", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -P -m lyapcheck.check", description=__doc__)
     parser.add_argument("certificates", nargs="+", metavar="CERTIFICATE", help="files or directories")
     parser.add_argument("--format", choices=FORMATS, default="text", help=HELP["format"])
     for name in ("full", "trusted"):

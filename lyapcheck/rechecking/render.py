@@ -10,9 +10,9 @@ from typing import Any
 from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain
-from lyapcheck.rechecking.trusted import Size, modules, totals
+from lyapcheck.rechecking.trusted import lies_in, modules
 
-SCHEMA = "lyapcheck/recheck/2"
+SCHEMA = "lyapcheck/recheck/3"
 STATUSES = ("accepted", "refused", "undecided")
 VERDICTS = ("proved", "refuted")
 INDENT = " " * 11
@@ -37,7 +37,7 @@ def text(outcome: Outcome, trusted: bool = False) -> str:
 
 
 def as_json(outcome: Outcome, trusted: bool = False) -> str:
-    """JSON of the schema ``lyapcheck/recheck/2``."""
+    """JSON of the schema ``lyapcheck/recheck/3``."""
     counts = _counts(outcome)
     data = {
         "schema": SCHEMA,
@@ -58,7 +58,11 @@ def as_json(outcome: Outcome, trusted: bool = False) -> str:
     }
     if trusted:
         data["trusted"] = {
-            verdict: {"rules": _names(rules), **_sizes(modules(rules))} for verdict, rules in _sums(outcome)
+            verdict: {
+                "rules": {name: lies_in(places) for name, places in rules},
+                "modules": modules(rules),
+            }
+            for verdict, rules in _sums(outcome)
         }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
@@ -110,20 +114,12 @@ def _trusted(outcome: Outcome) -> Iterator[str]:
 
 
 def _code(title: str, rules: tuple[tuple[str, str], ...]) -> Iterator[str]:
-    """The rules, and the modules with their lines."""
+    """The rules, each with the modules that it lies in, and all that they rest on."""
     result = modules(rules)
     yield f"trusted for {title}"
-    yield f"  rules: {', '.join(_names(rules))}"
-    yield "   code  lines"
-    yield from (f"  {size.code:>5}  {size.lines:>5} {name}" for name, size in result.items())
-    yield "{:>7}  {:>5} of definitions in {} modules".format(*totals(result), len(result))
-
-
-def _sizes(result: dict[str, Size]) -> dict[str, dict[str, int]]:
-    return {
-        "modules": {name: size.lines for name, size in result.items()},
-        "code": {name: size.code for name, size in result.items()},
-    }
+    yield from (f"  rule {name}: {', '.join(lies_in(places))}" for name, places in rules)
+    yield from (f"  {name}" for name in result)
+    yield f"  {len(result)} modules"
 
 
 def _sums(outcome: Outcome) -> list[tuple[str, tuple[tuple[str, str], ...]]]:

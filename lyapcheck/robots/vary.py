@@ -235,23 +235,6 @@ def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, Ro
         yield text, at_values(model, values)
 
 
-def only_varied(model: RobotModel, varies: Sequence[Vary]) -> RobotModel:
-    """The arm with the ranges of what varies alone; its other numbers are nominal."""
-    keys = {key for key in model.numbers if any(_is_meant(one, key, model) for one in varies)}
-
-    def held(key: str, number: Number) -> Number:
-        return number if key in keys else replace(number, low=None, high=None)
-
-    parts: dict[str, Any] = {
-        part: tuple(
-            None if number is None else held(f"{joint}_{part}", number)
-            for joint, number in zip(model.joints, getattr(model, part), strict=True)
-        )
-        for part in MOTOR
-    }
-    return replace(model, parameters={key: held(key, x) for key, x in model.parameters.items()}, **parts)
-
-
 def _is_meant(vary: Vary, key: str, model: RobotModel) -> bool:
     return vary.matches(key) or (vary.name == PAYLOAD and key == f"{model.joints[-1]}_mass")
 

@@ -204,10 +204,8 @@ class _At:
             for values, known in zip((h, dh), self.of.of_error(x), strict=True):
                 (middle, _), hull, slope = known
                 values.append(self._placed(middle, Disc(*hull), {side: Disc(*slope)}) * scale)
-        eps, along = _constant(to_arb(self.loop.eps0)), [_constant(arb(0))] * self.loop.n
-        if not self.loop.within:
-            shrink, along = self._shrink(c)
-            eps = eps * shrink
+        shrink, along = self._shrink(c)
+        eps = _constant(to_arb(self.loop.eps0)) * shrink
         weight = [eps * _constant(1 / (4 * to_arb(k))) for k in self.loop.stiffness]
         return Errors(None, eps, weight, h, dh, along)
 

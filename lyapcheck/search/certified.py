@@ -61,7 +61,6 @@ def certified_epsilon(
     jobs: int = 1,
     seconds: float | None = None,
     on_progress: Progress | None = None,
-    shares: Sequence[Fraction] = SHARES,
 ) -> CertifiedEpsilon:
     """The largest share of a ceiling for which dV/dt < 0 is proved on the whole state space.
 
@@ -72,7 +71,6 @@ def certified_epsilon(
         jobs: processes that share the boxes, of the search and of the checker; they change no answer.
         seconds: of computing time, after which no new boxes are looked at; the answer depends on the machine.
         on_progress: receives the share of the attempts done.
-        shares: of the ceiling, rising, that are tried where `HOPED` is not proved.
 
     Returns:
         no proof where nothing was proved; ``reason`` says why the next share was not.
@@ -91,7 +89,7 @@ def certified_epsilon(
         # no more than half of everything for what may be too much
         first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
         result = search.climb([first], max_boxes // 2, began + seconds / 2)
-        otherwise = shares if more else (*shares, HOPED[0])
+        otherwise = SHARES if more else (*SHARES, HOPED[0])
         result += search.climb(more if result else otherwise, max_boxes, began + seconds)
     while result:
         proof = result.pop()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -13,7 +13,6 @@ from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.corners import corners_of
-from lyapcheck.check.loop.decay.speeds import slowed
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
@@ -38,15 +37,11 @@ class ControlledArm:
         gains: the controller.
         model: the arm.
         ranges: prove for all values of the uncertain parameters and friction, not only the nominal ones.
-        floors: least values of h(w_i)/w_i where speeds are bounded; none where they are not.
-        within: bounds of |e_i|, rad, where only such states are asked about; none for all.
     """
 
     gains: GainSet
     model: Plant
     ranges: bool = False
-    floors: tuple[Fraction, ...] = ()
-    within: tuple[Fraction, ...] = ()
 
     def __post_init__(self) -> None:
         n = self.model.n
@@ -151,9 +146,7 @@ class ControlledArm:
         """
         if self.family.bounded:
             _ = self.family.checked
-        whole = closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
-        asked = replace(whole, within=self.within)
-        return slowed(asked, self.floors) if self.floors else asked
+        return closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
 
     def require_friction(self) -> None:
         """Refuse a bounded h on an arm without viscous friction at each joint: no ε₀ > 0 is certified.
@@ -167,8 +160,8 @@ class ControlledArm:
         bare = [joint for joint, b in zip(self.model.joints, low, strict=True) if b <= 0]
         if bare and self.family.bounded:
             rule = (
-                f"has no viscous friction at {', '.join(bare)}, without which no ε₀, no time and no error is "
-                "certified; that motions end at the goal, by LaSalle's theorem, needs none"
+                f"has no viscous friction at {', '.join(bare)}, without which no ε₀ is certified; that "
+                "motions end at the goal, by LaSalle's theorem, needs none"
             )
             repair = "state it in the arm file (robot --export writes one), or ask gate --condition lasalle"
             raise argument_error("arm", self.model.name, rule, repair)

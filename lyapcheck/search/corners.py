@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from typing import TypeVar
 
 import numpy as np
 
@@ -22,14 +21,11 @@ Corner = dict[str, Fraction]
 """Values by name: parameters of M, and ``viscous 0`` … for the friction of each joint."""
 
 
-Arm = TypeVar("Arm", bound=ControlledArm)
-
-
 def falsify_corners(
-    controlled: Arm,
-    look: Callable[[Arm, Progress], RisingState | None],
+    controlled: ControlledArm,
+    look: Callable[[ControlledArm, Progress], RisingState | None],
     on_progress: Progress | None = None,
-) -> tuple[Arm, RisingState | None]:
+) -> tuple[ControlledArm, RisingState | None]:
     """The smallest ε₀ that a state refutes at some corner of the arm's ranges, and the arm at that corner.
 
     From the nominal arm: find a witness, move every uncertain number to the end at which that state refutes

@@ -6,7 +6,7 @@ References: ``reyes2019family`` (12), (15).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
@@ -95,7 +95,6 @@ def smallest_refuted(
     candidates: Iterable[tuple[str, States]],
     steps: int,
     on_progress: Progress | None = None,
-    held: Callable[[States], States] = lambda states: states,
 ) -> RisingState | None:
     """The witness of the smallest ε₀ that some candidates refute.
 
@@ -104,13 +103,12 @@ def smallest_refuted(
         candidates: a word for each kind of states, and the states.
         steps: about how many kinds there are.
         on_progress: receives how far the search is.
-        held: moves states to where the witness has to be; they keep there when rounded to `DIGITS` digits.
     """
     progress = on_progress or silent
     result: list[tuple[float, str, State]] = []
     for share, (kind, states) in enumerate(candidates, start=1):
         progress(min(share / steps, 1.0), f"{kind} states")
-        result += _best(controlled, kind, states, held)
+        result += _best(controlled, kind, states)
     for reciprocal, kind, state in sorted(result, key=lambda entry: -entry[0]):
         witness = _confirm(controlled, reciprocal, kind, state)
         if witness is not None:
@@ -164,11 +162,9 @@ def _leaving(controlled: ControlledArm, fast: States, starts: int) -> States:
     return States(*(np.vstack([getattr(part, name) for part in parts]) for name in "qew"))
 
 
-def _best(
-    controlled: ControlledArm, kind: str, states: States, held: Callable[[States], States]
-) -> list[tuple[float, str, State]]:
+def _best(controlled: ControlledArm, kind: str, states: States) -> list[tuple[float, str, State]]:
     """The three best of the states, each with the smallest rates that are as good as any."""
-    moved = [held(states.scaled(scale)) for scale in _SCALES]
+    moved = [states.scaled(scale) for scale in _SCALES]
     reciprocals = np.array([quadratic(controlled, one).reciprocal() for one in moved])
     best = reciprocals.max(axis=0)
     result = []

@@ -6,19 +6,18 @@ with each entry as dear as it has been at the errors that resisted so far.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
 import numpy as np
 
-from lyapcheck._types import Array, Progress
-from lyapcheck.check.kinds.link_bounds import LinkBounds, Shown
+from lyapcheck._types import Progress
+from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.computing import computing_time
-from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, rate_problem
+from lyapcheck.constants.storage.problem import energy_problem, rate_problem
 from lyapcheck.constants.storage.program import propose
+from lyapcheck.constants.storage.rates import prices_shown
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import RESISTS
@@ -34,8 +33,7 @@ MORE = 1.01
 """How far an entry of U may exceed the largest eigenvalue of B^−½MB^−½, which lets the others be smaller."""
 ROUNDS = 4
 """In which U and Q_j may become better."""
-_MARGINS = (1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3)
-_DIGITS = 8
+_MARGIN = 1e-6
 
 
 def linked_epsilon(
@@ -151,16 +149,16 @@ def bounds_along(
     most = None
     if shares is None:
         shares = ((1.0,) * n,) * n
-        uniform = propose(energies, _MARGINS[0], weight[:, None])
+        uniform = propose(energies, _MARGIN, weight[:, None])
         if uniform is None:
             return None
         most = MORE * float(uniform.prices[0]) / weight[0]
-    inertia = _shown(energies, weight, shares[0], most)
+    inertia = prices_shown(energies, weight, shares[0], most)
     rising, falling = [], []
     for joint in range(1, n):
         # the same prices for both signs
         problems = [rate_problem(chain, joint, sign) for sign in (1, -1) for chain in chains]
-        both = _shown(problems, weight, shares[joint])
+        both = prices_shown(problems, weight, shares[joint])
         if both is None:
             return None
         rising.append(replace(both, forms=both.forms[: len(chains)]))
@@ -169,27 +167,3 @@ def bounds_along(
         return None
     arms = tuple(chain.links for chain in chains)
     return LinkBounds(arms, inertia, tuple(rising), tuple(falling), "", "")
-
-
-def _shown(
-    problems: Sequence[StorageProblem], weight: Array, share: Sequence[float], most: float | None = None
-) -> Shown | None:
-    """Prices κ_k with a small Σ κ_k share_k/b_k, and forms for each problem that show them."""
-    for margin in _MARGINS:
-        result = propose(problems, margin, np.diag(weight / share), most)
-        if result is None:
-            continue
-        least = 1e-7 * np.max(np.abs(result.prices / weight)) * weight
-        prices = tuple(_rounded_up(x) for x in result.prices * (1 + 1e-7) + least)
-        forms = tuple(
-            tuple(tuple(Fraction(float(x)) for x in row) for row in rows) for rows in result.coefficients
-        )
-        shown = Shown(prices, forms)
-        if shown.holds([problem.stages for problem in problems], problems[0].vectors):
-            return shown
-    return None
-
-
-def _rounded_up(value: float) -> Fraction:
-    """A decimal of a few digits that is not below."""
-    return Fraction(math.ceil(Fraction(float(value)) * 10**_DIGITS), 10**_DIGITS)

@@ -74,9 +74,8 @@ class SchurProblem:
 
     def schur(self, sides: BoxSides) -> Rows:
         """P: the entries on and below the diagonal."""
-        local = bool(self.loop.within)
-        shrink = Interval.exact(0.0) if local else inverse_one_plus(norm(sides.e))
-        eps = Interval.of(self.loop.eps0) if local else shrink * Interval.of(self.loop.eps0)
+        shrink = inverse_one_plus(norm(sides.e))
+        eps = shrink * Interval.of(self.loop.eps0)
         S = self._coupling(sides, shrink)
         X = _plus(sides.viscous, S, eps)
         quarter = eps * 0.25

@@ -12,7 +12,6 @@ Soundness: none; what is found is a candidate for `lyapcheck.check.loop.states`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -77,7 +76,7 @@ def expressions(controlled: ControlledArm) -> Expressions:
     """a₀, a₁, a₂ of `lyapcheck.search.sample` and wᵀSw/(1 + r) as CasADi expressions."""
     n = controlled.n
     q, e, w = (ca.SX.sym(name, n) for name in "qew")
-    forms, rates = controlled.family.casadi_smooth(e), controlled.family.casadi_smooth(w)
+    forms, rates = controlled.family.casadi(e), controlled.family.casadi(w)
     h, dh = forms.h, forms.dh
     r = ca.sqrt(ca.dot(e, e) + 1e-24)
     s, ew = 1 / (1 + r), ca.dot(e, w) / r
@@ -115,17 +114,10 @@ def level_states(controlled: ControlledArm, starts: States) -> States:
     return _unit(controlled, States(result[:, :n], np.zeros_like(result[:, :n]), result[:, n:]))
 
 
-def finite_states(
-    controlled: ControlledArm,
-    starts: States,
-    errors: Sequence[float] = (),
-    rates: Sequence[float] = (),
-) -> States:
-    """Where the finite program ends from each start, within bounds of |e_i| and |w_i| where there are any."""
+def finite_states(controlled: ControlledArm, starts: States) -> States:
+    """Where the finite program ends from each start."""
     x = expressions(controlled)
     bound = _bound(controlled.n, _FASTEST)
-    bound[controlled.n : 2 * controlled.n] = errors or _LONGEST_ERROR
-    bound[2 * controlled.n :] = rates or _FASTEST
     first = quadratic(controlled, starts).reciprocal()
     return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), controlled.n))
 
@@ -141,7 +133,7 @@ def slow_states(controlled: ControlledArm, starts: States, radius: float) -> Sta
     unit = radius / _LONGEST_ERROR
     lengths = _length(controlled.family.h(starts.e))[:, None]
     e = unit * d
-    w = ca.sqrt(ca.sumsqr(controlled.family.casadi_smooth(e).h) + 1e-300) * u
+    w = ca.sqrt(ca.sumsqr(controlled.family.casadi(e).h) + 1e-300) * u
     inner = ca.substitute([x.a0, x.a1, x.a2], [x.e, x.w], [e, w])
     program = _reciprocal_program(
         replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), _bound(n, _FASTEST)

@@ -1,4 +1,4 @@
-"""The closed loop (11) with a constant torque and dry friction added."""
+"""The closed loop (11) with dry friction added."""
 
 from __future__ import annotations
 
@@ -44,13 +44,12 @@ def disturbed(
     w0: Sequence[float] | None = None,
     T: float = 5.0,
     *,
-    torque: Sequence[float] = (),
     dry: Sequence[float] = (),
     points: int = 1001,
 ) -> DisturbedRun:
-    """Move an arm under its controller while torques act on its joints.
+    """Move an arm under its controller against dry friction.
 
-    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w + d − f tanh(w/creep).
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w − f tanh(w/creep).
 
     Args:
         gain_set: the controller.
@@ -59,7 +58,6 @@ def disturbed(
         q0: (n,) start in rad; home if missing.
         w0: (n,) initial rates in rad/s; rest if missing.
         T: seconds.
-        torque: (n,) constant d in N·m; none if empty.
         dry: (n,) dry friction f in N·m; none if empty.
         points: samples handed back.
 
@@ -75,7 +73,7 @@ def disturbed(
     from lyapcheck.robots import graph
 
     w = loop.state[n : 2 * n]
-    added = ca.DM(list(torque) or [0.0] * n) - ca.DM(list(dry) or [0.0] * n) * ca.tanh(w / CREEP)
+    added = -ca.DM(list(dry) or [0.0] * n) * ca.tanh(w / CREEP)
     acceleration = graph.solve(graph.mass(model, loop.state[:n]), added)
     whole = loop.rate + ca.vertcat(ca.SX.zeros(n), acceleration, 0, 0)
     inputs = [loop.state, loop.goal]

@@ -1,9 +1,9 @@
-"""What ``lyapcheck bounds`` says of certified bounds beside a run."""
+"""What ``lyapcheck bounds`` says of errors at rest: proved bounds beside runs, which prove nothing."""
 
 from __future__ import annotations
 
+import json
 import math
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,7 +11,6 @@ import pytest
 
 from lyapcheck.answers.bounds.answer import Comparisons
 from lyapcheck.answers.bounds.compare import BoundsComparison, compare
-from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
@@ -20,126 +19,161 @@ from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.task import Task
+from tests.helpers.command import lyapcheck
 
 F = Fraction
-FILE = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-TASK = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 0.5)
-
-
-def both_bounds(gains: GainSet) -> BoundsComparison:
-    return compare(
-        gains, load("reyes-kelly2"), TASK, math.radians(10), (0.1, 0.05), (0.0, 0.0), max_boxes=2_000
-    )
+GAINS = paper_gain_file("table2_shoulder_elbow")
+FILE = read_gain_file(GAINS)
+TASK = Task((math.pi / 4, math.pi / 2), (0.0, 0.0), (0.0, 0.0), 2.0)
+ARM, DELTA = "reyes-kelly2", math.radians(10)
+COULOMB = (7.17, 1.734)
+"""N·m, of the shoulder and the elbow of that arm."""
 
 
 @pytest.fixture(scope="module")
 def sound() -> BoundsComparison:
-    """A gain set with both bounds."""
-    return both_bounds(FILE.gains[0])
+    """A gain set of which each joint has a bound, under the dry friction of the arm."""
+    return compare(FILE.gains[0], load(ARM), TASK, DELTA)
 
 
 @pytest.fixture(scope="module")
-def compared(sound: BoundsComparison) -> Comparisons:
-    """The same beside one whose h is too flat for a time to be found, which takes ten seconds."""
+def weak() -> BoundsComparison:
+    """One with an elbow that dry friction holds anywhere."""
     second = FILE.gains[1]
-    flat = GainSet(second.name, 60, second.kp, second.kv, index=second.index)
-    return Comparisons((sound, both_bounds(flat)), FILE)
+    gains = GainSet(second.name, 2, (second.kp[0], F("1.7")), second.kv, index=second.index)
+    return compare(gains, load(ARM), TASK, DELTA)
 
 
-@pytest.mark.slow
-def test_the_first_line_says_whether_all_is_certified(compared: Comparisons) -> None:
-    sound, flat = compared.results
-    assert (sound.certified, flat.certified) == (True, False)
-    assert compared.document().title == "? the bounds of 1 of 2 gain sets are certified on reyes-kelly2"
-    alone, without = str(Comparisons((sound,))), str(Comparisons((flat,)))
-    assert alone.startswith("✓ tau_m1 on reyes-kelly2: every |e_i| ≤ 10° for good within ")
-    assert without.startswith("? tau_m2 on reyes-kelly2: no settling time is certified")
-    assert Comparisons((sound, sound)).document().title.startswith("✓ the bounds of all 2 gain sets")
+@pytest.fixture(scope="module")
+def compared(sound: BoundsComparison, weak: BoundsComparison) -> Comparisons:
+    return Comparisons((sound, weak), FILE)
 
 
-@pytest.mark.slow
-def test_what_is_shown_is_never_below_what_is_certified(sound: BoundsComparison) -> None:
-    settling = sound.settling
-    times, errors = Comparisons((sound,), FILE).document().blocks[:2]
-    assert isinstance(times, Table)
+def test_the_bound_is_where_the_controller_balances_dry_friction(sound: BoundsComparison) -> None:
+    """k_p h_1(e) = f, h_1(e) = tanh e, to six digits and never below."""
+    for error, f, k in zip(sound.rest, COULOMB, sound.gains.kp, strict=True):
+        exact = math.atanh(f / float(k))
+        assert error is not None
+        assert exact <= float(error) <= exact * (1 + 1e-5)
+
+
+def test_a_run_let_go_inside_the_bound_rests_there(sound: BoundsComparison) -> None:
+    for seen, error in zip(sound.simulated_rest, sound.rest, strict=True):
+        assert 0.9 * float(error or 0) < seen < float(error or 0)
+
+
+def test_the_first_line_says_whether_all_is_proved(compared: Comparisons) -> None:
+    sound, weak = compared.results
+    assert (sound.proved, weak.proved) == (True, False)
+    assert (
+        compared.document().title == "? the errors at rest under 1 of 2 gain sets are proved on reyes-kelly2"
+    )
+    alone, without = str(Comparisons((sound,))), str(Comparisons((weak,)))
+    assert alone.startswith("✓ tau_m1 on reyes-kelly2: at every state of rest |e_i| ≤ 20.73°, proved\n")
+    assert without.startswith("? tau_m2 on reyes-kelly2: no error at rest is proved for elbow\n")
+    both = Comparisons((sound, sound)).document().title
+    assert both == "✓ the errors at rest under all 2 gain sets are proved on reyes-kelly2"
+
+
+def test_what_is_proved_is_not_rounded_down_and_runs_are_called_simulated(
+    sound: BoundsComparison,
+) -> None:
+    errors, times = Comparisons((sound,), FILE).document().blocks
     assert isinstance(errors, Section)
-    assert settling.time is not None
-    assert settling.time <= F(times.rows[0][1].removesuffix(" s")) <= settling.time * F(1001, 1000)
-    table, phases = (block for block in errors.blocks if isinstance(block, Table))
-    assert phases.heads[1] == "ε₀"
-    assert table.heads[:2] == ("joint", "on the way")
-    assert [row[0] for row in table.rows] == ["shoulder", "elbow"]
-    for row, angle in zip(table.rows, settling.largest_errors, strict=True):
-        assert math.degrees(angle) <= float(row[1].removesuffix("°")) <= 1.001 * math.degrees(angle)
+    assert isinstance(times, Table)
+    (table,) = (block for block in errors.blocks if isinstance(block, Table))
+    assert table.heads[:2] == ("joint", "dry friction [N·m]")
+    assert [head.split()[0] for head in table.heads[2:]] == ["proved", "simulated", "simulated"]
+    assert [row[:2] for row in table.rows] == [("shoulder", "7.17"), ("elbow", "1.734")]
+    for row, error in zip(table.rows, sound.rest, strict=True):
+        exact = math.degrees(error or 0)
+        assert exact <= float(row[2].removesuffix("°")) <= 1.001 * exact
+    assert times.caption.startswith("Simulated: ")
+    assert times.rows == (("tau_m1", "not within 2 s"),)
 
 
-@pytest.mark.slow
-def test_bounds_are_judged_one_by_one_at_the_line_of_the_gain_set(compared: Comparisons) -> None:
-    settling, disturbed, missing, *_ = compared.annotations()
-    assert [one.level for one in (settling, disturbed, missing)] == ["passed", "passed", "undecided"]
-    assert [one.rule for one in (settling, disturbed, missing)] == ["settling", "disturbed", "settling"]
-    reason = compared.results[1].settling.reason
+def test_gain_sets_are_judged_one_by_one_at_their_lines(compared: Comparisons) -> None:
+    passed, missing = compared.annotations()
+    assert [one.level for one in (passed, missing)] == ["passed", "undecided"]
+    reason = compared.results[1].reason
+    assert reason == "k_p = 1.7 N·m of elbow does not exceed its dry friction of 1.734 N·m: raise k_p"
     assert reason in missing.message
     assert reason in " ".join(str(compared).split())
     lines = Path(FILE.path).read_text(encoding="utf-8").splitlines()
-    for one in (settling, missing):
+    for one in (passed, missing):
         assert lines[one.line - 1 : one.line + 1] == ["[[gains]]", f'name = "{one.group}"']
 
 
-@pytest.mark.slow
-def test_without_a_rate_at_the_goal_it_says_so() -> None:
-    asked = (load("reyes-kelly2"), TASK, math.radians(10), (), (0.0, 0.0))
-    result = Comparisons((compare(FILE.gains[1], *asked, max_boxes=4_000),))
-    assert result.results[0].certified
-    assert [one.rule for one in result.annotations()] == ["settling", "disturbed", "no-rate"]
-    assert "no exponential rate" in str(result)
-    assert "disturbed, under" not in str(result)
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("name", JudgedFormat)
 def test_every_format_is_the_same_bytes_each_time(compared: Comparisons, name: str) -> None:
     assert compared.written(name) == compared.written(name)
     assert (r"tau\_m2" if name == "latex" else "tau_m2") in compared.written(name)
 
 
-@pytest.mark.slow
 def test_a_record_is_a_gain_set(compared: Comparisons) -> None:
-    sound, flat = compared.records()
-    assert (sound["name"], flat["name"]) == ("tau_m1", "tau_m2")
-    assert sound["settling"]["time"] >= float(compared.results[0].settling.time or 0)
-    assert flat["settling"]["time"] is None
+    sound, weak = compared.records()
+    assert (sound["name"], weak["name"]) == ("tau_m1", "tau_m2")
+    assert weak["disturbance"]["rest"][1] is None
+    for degrees, error in zip(sound["disturbance"]["rest"], compared.results[0].rest, strict=True):
+        assert degrees >= math.degrees(error or 0)
     assert "-0.0" not in compared.written("csv")
 
 
-@pytest.mark.slow
-def test_ranges_are_told_beside_what_holds_at_nominal_numbers() -> None:
-    """Friction up to 30 % lower: proved of every arm between, and what that costs."""
-    arm, ranges = "reyes-kelly2", (Vary.parsed("viscous=-30%..+0%"),)
-    asked = (load(arm), TASK, math.radians(10), (), (0.0, 0.0))
-    result = compare(FILE.gains[0], *asked, max_boxes=2_000, varied=(load(arm, vary=ranges), ranges))
-    assert result.certified
-    assert result.settling.shown is not None
-    assert all(low < high for low, high in result.settling.shown.statement.viscous)
-    assert result.varies == ("viscous=-30%..0%",)
+def test_the_upper_end_of_a_range_of_friction_counts() -> None:
+    ranges = (Vary.parsed("coulomb=-10%..+20%"),)
+    result = compare(FILE.gains[0], load(ARM), TASK, DELTA, varied=(load(ARM, vary=ranges), ranges))
+    assert result.proved
     assert result.unvaried is not None
-    assert result.unvaried.settling.time is not None
-    assert (result.settling.time or 0) > result.unvaried.settling.time
+    for f, known in zip(result.dry, COULOMB, strict=True):
+        assert f == F(str(known)) * F(6, 5)
+    assert all((a or 0) > (b or 0) for a, b in zip(result.rest, result.unvaried.rest, strict=True))
     text = " ".join(str(Comparisons((result,))).split())
-    for part in ("with viscous=-30%..0%", "cost of the ranges", "at nominal numbers", "constant in time"):
+    for part in ("with coulomb=-10%..20%", "--vary, proved", "nothing of what lies between"):
         assert part in text
-    assert (
-        result.settling.shown.statement.text()
-        == Comparisons((result,)).data()["results"][0]["settling"]["statement"]
+
+
+def test_the_range_of_the_arm_file_counts_without_being_asked_for() -> None:
+    """The base of buap3 has up to 7.17 N·m, of which 1.734 is the nominal value."""
+    task = Task((0.1, 0.1, 0.1), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.1)
+    result = compare(read_gain_file(paper_gain_file("table2")).gains[0], load("buap3"), task, DELTA)
+    assert result.dry[0] == F("7.17")
+    assert float(result.rest[0] or 0) >= math.atanh(7.17 / 28)
+
+
+def test_without_a_number_for_friction_nothing_is_proved() -> None:
+    asked = FILE.gains[0], load("pelican2"), TASK, DELTA
+    result = compare(*asked)
+    assert result.rest == (None, None)
+    assert "nothing is known of the dry friction of shoulder, elbow; give --friction" in result.reason
+    assert compare(*asked, (F(1), F(0))).rest[1] == 0
+
+
+def test_an_unbounded_function_is_refused() -> None:
+    pd = GainSet("pd", None, (F(20), F(5)), (F(1), F(1)), family="linear")
+    with pytest.raises(InputError, match=r"unbounded h.*choose gains of a bounded family"):
+        compare(pd, load(ARM), TASK, DELTA)
+
+
+def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
+    asked = (
+        "bounds",
+        GAINS,
+        "--robot",
+        ARM,
+        "--target",
+        "45,45",
+        "--time",
+        "0.1",
+        "--certificates",
+        tmp_path,
     )
-
-
-def test_an_arm_without_viscous_friction_is_refused_with_what_is_known() -> None:
-    """It was an internal error: nothing divides by the friction before this is said."""
-    bare = load("reyes-kelly2")
-    bare = replace(bare, viscous=(bare.viscous[0], replace(bare.viscous[1], value=F(0))))
-    said = r"no viscous friction at elbow.*gate --condition lasalle"
-    with pytest.raises(InputError, match=said):
-        epsilon(FILE.gains[0], bare)
-    with pytest.raises(InputError, match=said):
-        compare(FILE.gains[0], bare, TASK, 0.1, max_boxes=1)
+    made = lyapcheck(*asked, "--format", "json")
+    assert made.returncode == 0
+    shown = json.loads(made.stdout)["results"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"tau_m{m}.resting.json" for m in (1, 2, 3)]
+    judged = json.loads(lyapcheck("recheck", tmp_path, "--format", "json").stdout)
+    said = {row["statement"] for row in judged["certificates"] if row["accepted"]}
+    assert said == {row["disturbance"]["rest_statement"] for row in shown}
+    weak = lyapcheck(*asked, "--friction", "1,6")
+    assert weak.returncode == 3
+    assert "does not exceed its dry friction of 6 N·m: raise k_p" in " ".join(weak.stdout.split())

@@ -187,7 +187,7 @@ COMMANDS: dict[str, Iterable[str]] = {
     f"simulate gains.toml {SHORT} --runs 2": JudgedFormat,
     "simulate gains.toml --reference reference.toml": JudgedFormat,
     "epsilon one.toml --max-boxes 20 --starts 1": JudgedFormat,
-    f"bounds one.toml {SHORT} --max-boxes 20": JudgedFormat,
+    f"bounds one.toml {SHORT} --friction 0.01": JudgedFormat,
     "robot arm.toml --max-boxes 20": JudgedFormat,
     "robot arm.urdf --max-boxes 20": JudgedFormat,
     "tune arm.toml --compare gains.toml": Format,

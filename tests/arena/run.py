@@ -4,8 +4,8 @@
 
 COMMAND reads one file or one folder of certificates, named as its last argument, and ends with exit
 code 0 if it accepts all, 3 if it lacks something to decide, 1 or 2 if it refuses. Any other end is a
-fault. Without ``--checker`` it is ``python -m lyapcheck.check``. Standard library only, so that any checker
-can be held against it.
+fault. Without ``--checker`` it is ``python -P -m lyapcheck.check``. Standard library only, so that any
+checker can be held against it.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--checker", default=f"{shlex.quote(sys.executable)} -m lyapcheck.check")
+    parser.add_argument("--checker", default=f"{shlex.quote(sys.executable)} -P -m lyapcheck.check")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     result = faults(shlex.split(options.checker), options.jobs)

@@ -137,7 +137,7 @@ def test_the_checker_says_of_each_entry_what_is_expected(monkeypatch):
 
 @pytest.mark.slow
 def test_so_does_the_command_which_judges_in_a_process_for_each():
-    assert faults([sys.executable, "-m", "lyapcheck.check"], one_in=20) == []
+    assert faults([sys.executable, "-P", "-m", "lyapcheck.check"], one_in=20) == []
 
 
 @pytest.mark.slow

@@ -30,38 +30,6 @@ def _resting(statement: Document) -> bool:
     return True
 
 
-def _settling(statement: Document) -> bool:
-    """V starts above the first level, at time 0."""
-    if statement["envelope"][0][0] != "0" or "0" in statement["errors_at_start"]:
-        return False
-    tiny = "1" + "0" * 30
-    statement["envelope"] = [
-        [time, f"{len(statement['envelope']) - k}/{tiny}7"]
-        for k, (time, _) in enumerate(statement["envelope"])
-    ]
-    return True
-
-
-def _frictionless(statement: Document) -> bool:
-    """No error is left, whatever friction holds."""
-    statement["errors"] = ["0"] * len(statement["errors"])
-    return "0" not in statement["dry"]
-
-
-def _at_once(statement: Document) -> bool:
-    """No error from the first time on, which is 0 as errors are not."""
-    if statement["within"][0][0] != "0" or "0" in statement["errors_at_start"]:
-        return False
-    statement["within"] = [[time, ["0"] * len(errors)] for time, errors in statement["within"]]
-    return True
-
-
-def _rising(statement: Document) -> bool:
-    """An ε₀ at which V rises at e = 0 for any w, as h′(0) = 1."""
-    statement["everywhere"]["eps0"] = "1000000007"
-    return statement["everywhere"]["family"] == "tanh"
-
-
 def _swapped(statement: Document) -> bool:
     relation = statement["conclusion"]
     relation["left"], relation["right"] = relation["right"], relation["left"]
@@ -109,10 +77,6 @@ def _leaning(statement: Document) -> bool:
 
 FALSE: dict[str, Callable[[Document], bool]] = {
     "Resting": _resting,
-    "Settling": _settling,
-    "StaysWithin": _at_once,
-    "ComesToRest": _frictionless,
-    "DecreasingNearby": _rising,
     "ForSmall": _swapped,
     "TrigonometricPositive": _not_positive,
     "Property": _no_force,
@@ -164,16 +128,6 @@ def _anything(statement: Document) -> bool:
     return True
 
 
-def _elsewhere(statement: Document) -> bool:
-    """Limits so narrow that the state is none of those asked about."""
-    statement["speeds"] = [f"1/{LARGE}"] * len(statement["everywhere"]["kp"])
-    return True
-
-
-def _unit_mass_nearby(statement: Document) -> bool:
-    return _unit_mass(statement["everywhere"])
-
-
 def _by_symbols(statement: Document) -> bool:
     statement["printed"] = []
     return True
@@ -193,10 +147,7 @@ TRUE: dict[tuple[str, str], Callable[[Document], bool]] = {
     ("GravityBelow", "posture"): _bound("high", LARGE),
     ("MassAbove", "posture"): _unit_mass,
     ("Decreasing", "posture"): _unit_mass,
-    ("DecreasingNearby", "posture"): _unit_mass_nearby,
-    ("DecreasingNearby", "state"): _elsewhere,
     ("Resting", "state of rest"): _anything,
-    ("ComesToRest", "state of rest"): _anything,
     ("TrigonometricBound", "witness of an entry"): _loose,
     ("TrigonometricPositive", "witness of an entry"): _far_above,
     ("ForSmall", "failure for small values"): _swapped,
@@ -255,50 +206,15 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("w",), [], "a state without rates"),
         (("viscous",), [LARGE], "a friction out of its range"),
     ],
-    ("DecreasingNearby", "slower and nearer"): [
-        (("inertia",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
-        (("floors",), [], "no floor for a joint"),
-        (("floors",), ["-1"], "a negative floor"),
-        (("floors",), ["1"], "a floor as high as L"),
-        (("floors",), ["99/100"], "a floor that the speed undercuts"),
-        (("floors",), ["0"], "without what slow motions add to the damping"),
-        (("rate",), {"rule": "bisection"}, "no proof of dV/dt < 0"),
-        (("rate", "tree"), "", "no tree of boxes"),
-        (("lightest",), [], "motions without a least inertia"),
-        (("lightest",), ["-1"], "a negative inertia"),
-        (("lightest",), ["1/2"], "a least inertia that lets the speed exceed its limit"),
-        (("lightest",), [LARGE], "a least inertia above M"),
-        (("lightness",), [], "no proof of a least inertia"),
-    ],
-    ("DecreasingNearby", "state"): [
-        (("w",), ["0"], "the origin"),
-        (("w",), [], "a state without rates"),
-        (("w",), ["1000000008/1000000007"], "a speed just beyond its limit"),
-        (("e",), ["2"], "an error beyond its limit"),
-        (("viscous",), [LARGE], "a friction out of its range"),
-    ],
-    ("ChainCoriolisBelow", "forms of the motion"): [
-        (("kappa",), LARGE, "forms of a larger bound"),
-        (("kappa",), "0", "forms of a smaller bound, which they do not show"),
-        (("kappa",), "-1", "a bound below 0"),
-        (("relations",), [], "no relations"),
-        (("relations", 0, 0), LARGE, "a relation that outweighs the bound"),
-        (("joints",), [[[], []]], "a joint that there is not"),
-        (("start",), [], "no control points"),
-        (("start", 0), 8, "fewer control points than values that determine the form"),
-        (("start", 0), 33, "too many control points"),
-        (("halvings",), [1], "an angle that there is not"),
-        (("halvings",), [0] * 25, "too many halvings"),
-    ],
-    ("CoriolisBelow", "products of rates"): [
-        (("relations",), [], "no relations"),
-        (("relations", 0), [], "a node without relations"),
-        (("relations", 0, 0), LARGE, "a relation that outweighs the bound"),
-        (("start",), [], "no control points"),
-        (("start", 0), 2, "fewer control points than values that determine the form"),
-        (("start", 0), 33, "too many control points"),
-        (("halvings",), [1], "an angle that there is not"),
-        (("halvings",), [0] * 25, "too many halvings"),
+    ("ChainCoriolisBelow", "rates of M along the links"): [
+        (("rates",), [], "no bound of a rate of M"),
+        (("crossed",), [], "a joint without a share"),
+        (("crossed",), ["0"], "a share of 0"),
+        (("squared",), ["-1"], "a negative share"),
+        (("squared",), [LARGE], "shares that show a larger bound"),
+        (("rates", 0, "prices", 0), "0", "a bound of a rate that the forms do not show"),
+        (("rates", 0, "prices"), [], "a bound of a rate without numbers"),
+        (("rates", 0, "forms"), [], "no forms"),
     ],
     ("ChainCoriolisBelow", "posture"): [
         *NO_POSTURE,
@@ -348,62 +264,6 @@ BROKEN: dict[tuple[str, str], list[Fault]] = {
         (("joint",), MANY, "a joint that there is not"),
         (("error",), "0", "an error within its bound"),
         (("error",), LARGE, "a posture that the torque does not hold"),
-    ],
-    ("ComesToRest", "state of rest"): [
-        (("joint",), -1, "a joint counted from the end"),
-        (("error",), "0", "an error within its bound"),
-        (("error",), LARGE, "a posture that the torque does not hold"),
-    ],
-    ("ComesToRest", "falling energy"): [
-        (("inertia",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
-        (("inertia",), {"rule": "h at the bounds"}, "a proof of something else"),
-    ],
-    ("StaysWithin", "falling levels in phases"): [
-        (("phases",), [], "no phase"),
-        (("lightest",), [LARGE], "a least inertia above M"),
-        (("lightest",), ["-1"], "a negative inertia"),
-        (("lightest",), ["0"], "a floor without a least inertia"),
-        (("lightness",), [], "no proof of a least inertia"),
-        (("positive",), {"rule": "as is well known"}, "no proof of M ≻ 0"),
-        (("phases", 0, "friction"), "0", NO_SHARES),
-        (("phases", 0, "friction"), "1", NO_SHARES),
-        (("phases", 0, "stiffness"), "-1", NO_SHARES),
-        (("phases", 0, "split"), "0", NO_SHARES),
-        (("phases", 0, "slopes"), [], "no slope for a band"),
-        (("phases", 0, "slopes", 0), LARGE, "a slope above the steepest"),
-        (("phases", 0, "eps0"), "3", "an ε₀ at which V does not fall"),
-        (("phases", 0, "eps0"), "-1/5", "a negative ε₀"),
-        (("phases", 0, "within"), [], "all states, of which nothing is shown"),
-        (("phases", 0, "within"), ["1/4"], "errors that the start exceeds"),
-        (("phases", 0, "floors"), ["-1"], "a negative floor"),
-        (("phases", 0, "floors"), ["1"], "a floor as high as L"),
-        (("phases", 1, "floors"), ["99/100"], "a floor that the speed undercuts"),
-        (("phases", 1, "envelope", 0, 0), "40", "a phase that begins before the last one ends"),
-        (("phases", 1, "envelope", 0, 1), "1/16", "a level below where V may be at another ε₀"),
-        (("phases", 0, "heaviest"), ["1/1000000007"], "u below what M is"),
-        (("phases", 0, "heaviest"), [], "no u"),
-        (("phases", 0, "inertia", "weights"), ["-1"], "negative weights"),
-        (("phases", 0, "rate", "tree"), "", "no tree of boxes"),
-        (("phases", 0, "rate"), {"rule": "bisection"}, "no proof of dV/dt < 0"),
-    ],
-    ("Settling", "falling levels"): [
-        (("friction",), "0", NO_SHARES),
-        (("friction",), "1", NO_SHARES),
-        (("stiffness",), "-1", NO_SHARES),
-        (("split",), "0", NO_SHARES),
-        (("slack",), "-1", NO_SHARES),
-        (("slopes",), [], "no slope for a band"),
-        (("slopes", 0), LARGE, "a slope above the steepest"),
-        (("slopes", 0), "-1", "a negative slope"),
-        (("heaviest",), ["1/1000000007"], "u below what M is"),
-        (("heaviest",), [LARGE], "u for which the levels take longer"),
-        (("inertia", "weights"), ["-1"], "negative weights"),
-        (("inertia",), {"rule": "as is well known"}, "no proof of M ≺ diag(u)"),
-        (
-            ("decreasing", "inertia"),
-            {"rule": "posture", "q": [], "parameters": [], "x": [], "y": []},
-            "no proof",
-        ),
     ],
     ("TrigonometricBound", "witness of an entry"): [(("entry",), -1, "an entry counted from the end")],
     ("TrigonometricPositive", "witness of an entry"): [

@@ -44,7 +44,6 @@ TWO = loop_of("reyes-kelly2", "table2_shoulder_elbow", 1, "0.9")
 CASES = {
     "n = 2": TWO,
     "weights": replace(TWO, coupling=(F(1), F(1, 2))),
-    "near": replace(TWO, within=(F(1), F(2))),
     "another function": replace(TWO, family="arctan", m=None),
     "n = 3": loop_of("buap3", "table2", 2, "0.1"),
     "ranges": loop_of("buap3", "table2", 1, "0.05", ranges=True),

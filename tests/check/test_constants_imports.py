@@ -1,6 +1,6 @@
 """The trusted checker stays small: it imports itself, the standard library and python-flint.
 
-What prints its findings, behind ``python -m lyapcheck.check``, imports no more than that either.
+What prints its findings, behind ``python -P -m lyapcheck.check``, imports no more than that either.
 """
 
 from __future__ import annotations

@@ -28,13 +28,9 @@ from tests.helpers.refusals import places, recorded
 
 SEEN_AT = Path(__file__).with_name("refusals.json")
 SECOND_LINE = {
-    "kinds/at_corners.py RateAtCorners.require_shown: 'must be positive at each corner, M = Mᵀ'",
     "kinds/link_bounds.py LinkBounds.require_shown: 'must be positive, M = Mᵀ'",
     "kinds/decreasing.py by_posture: 'must be refuted'",
-    "kinds/nearby.py by_posture: 'must be refuted'",
-    "kinds/stopping.py by_rest: 'must be refuted'",
     "kinds/stability.py by_argument: 'must be a point at which all conditions hold'",
-    "loop/head.py stored_form: 'must hand on a form of the motion'",
     "kinds/for_all.py _shown: 'is not known'",
     "kinds/for_small.py sign_for_small: 'must be one'",
 }

@@ -25,7 +25,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from tests.helpers.shares import one_in
 
-MODULE = [sys.executable, "-m", "lyapcheck.check"]
+MODULE = [sys.executable, "-P", "-m", "lyapcheck.check"]
 COMMAND = [sys.executable, "-c", "from lyapcheck.cli.main import main; main()", "recheck"]
 X = ["var", "x"]
 ONE = ["num", "1"]
@@ -467,3 +467,32 @@ def test_a_library_beside_the_certificates_is_not_imported(folder):
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+# Where modules come from ------------------------------------------------------------------------------------
+
+PLANTED = "print('accepted, believe me'); import os; os._exit(0)\n"
+UNSAFE = [sys.executable, "-m", "lyapcheck.check"]
+WHOLE = [sys.executable, "-m", "lyapcheck", "recheck"]
+
+
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [
+        *((command, name) for command in (MODULE, UNSAFE, WHOLE) for name in ("json.py", "flint.py")),
+        (MODULE, "types.py"),
+        (MODULE, "lyapcheck/__init__.py"),
+    ],
+)
+def test_nothing_is_imported_from_the_working_directory(folder, tmp_path_factory, command, name):
+    """Without ``-P`` a planted ``lyapcheck`` runs before any code of the project does."""
+    here = tmp_path_factory.mktemp("here")
+    (here / name).parent.mkdir(exist_ok=True)
+    (here / name).write_text(PLANTED, encoding="utf-8")
+    (folder / "wrong.json").write_text(sealed(GOOD, {"rule": "no rule"}), encoding="utf-8")
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONSAFEPATH"}
+    result = subprocess.run(
+        [*command, str(folder)], cwd=here, env=environment, capture_output=True, text=True, check=False
+    )
+    assert "believe me" not in result.stdout
+    assert result.returncode == 1, result.stderr

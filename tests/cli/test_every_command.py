@@ -16,7 +16,7 @@ GAINS = 'robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [0.5]\nkv = [
 PLAN = 'robots = ["pendulum1"]\nquestions = ["gate"]\n[grid]\nm = [1]\nkp = [[3]]\nkv = [0.1]\n'
 CERTIFICATE = Path(__file__).parents[1] / "arena" / "good" / "asy.A.rho.m1.json"
 CALLS = {
-    "bounds": ("one.toml --target 10 --time 0.1 --max-boxes 20", Exit.PROVED),
+    "bounds": ("one.toml --target 10 --time 0.1 --friction 0.01", Exit.PROVED),
     "check": ("scalar.py --m 1 --only h.odd", Exit.PROVED),
     "epsilon": ("one.toml --max-boxes 20 --starts 1", Exit.PROVED),
     "explain": ("16.6", Exit.PROVED),

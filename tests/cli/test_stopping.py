@@ -31,7 +31,6 @@ COMMANDS = {
     "check": ["check", "published.py", "--m", "1:400"],
     "table": ["table", "--m", "1:9000", "--digits", "1500"],
     "gate": ["gate", UR5, "--condition", "global"],
-    "bounds": ["bounds", UR5, "--target", "1,1,1,1,1,1"],
     "tune": ["tune", "buap3", "--m", "1:9000"],
     "robot": ["robot", str(ROOT / "examples" / "panda.toml")],
     "bench": ["simulate", TABLE2, "--experiment", "--time", "3600"],

@@ -137,7 +137,7 @@ from flint import arb
 from lyapcheck.family import named
 f = named("gentle")
 x = np.concatenate([np.geomspace(1e-150, 1e300, 400), [0.0], -np.geomspace(1e-150, 1e300, 400)])
-for form in ("h", "dh", "potential", "secant"):
+for form in ("h", "dh", "potential"):
     ball = getattr(f, f"ball_{form}")
     exact = np.array([float(ball(arb(float(v))).mid()) for v in x])
     assert np.allclose(getattr(f, form)(x), exact, rtol=2e-15, atol=0), form

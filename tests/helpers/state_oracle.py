@@ -20,8 +20,7 @@ SAMPLES, CLIMBS = 20_000, 6
 class Loop:
     """An arm under its controller as arrays of doubles, from the JSON of a statement."""
 
-    def __init__(self, statement, errors=np.inf, speeds=np.inf):
-        self.errors, self.speeds = errors, speeds
+    def __init__(self, statement):
         assert statement["kind"] == "Decreasing"
         assert not statement["coupling"]  # y = w − εh is what is differentiated here
         self.statement = statement
@@ -46,12 +45,7 @@ class Loop:
         w = direction / np.where(length > 0, length, 1.0) * np.exp(np.clip(x[:, 3 * n : 3 * n + 1], -12, 16))
         low, high = self.ranges.T
         free = low + (high - low) * (0.5 + 0.5 * np.sin(x[:, 3 * n + 1 :]))
-        return (
-            x[:, :n],
-            np.clip(x[:, n : 2 * n], -self.errors, self.errors),
-            np.clip(w, -self.speeds, self.speeds),
-            free,
-        )
+        return x[:, :n], x[:, n : 2 * n], w, free
 
     def random(self, count, random):
         """Starts: errors and rates of all sizes."""
@@ -77,21 +71,6 @@ class Loop:
         rate = np.sum(y * force, axis=1) + 0.5 * np.einsum("ci,cij,cj->c", y, mass_rate, y)
         rate -= np.sum(self.kp * h * w, axis=1)
         return rate / (eps[:, 0] * np.sum(h * h, axis=1) + np.sum(w * w, axis=1) + 1e-300)
-
-    def acceleration(self, q, e, w, viscous, torque, parameters=()):
-        """ẇ of one state of one arm, with a torque beside those of the controller."""
-        M, slopes = (part[0] for part in self._mass(q[None], np.array([parameters], dtype=float)))
-        force = self.kp * self._h(e) - self.kv * self._h(w) - viscous * w + torque
-        force += 0.5 * np.einsum("i,kij,j->k", w, slopes, w) - np.einsum("k,kij,j->i", w, slopes, w)
-        return np.linalg.solve(M, force)
-
-    def level(self, q, e, w, parameters=()):
-        """V at states of one arm, for h whose potential is log(1 + sinh^2m)/2m."""
-        M = self._mass(q, np.tile(np.array(parameters, dtype=float), (len(q), 1)))[0]
-        m = self.statement["m"] or 1
-        y = w - self.eps0 / (1 + np.linalg.norm(e, axis=1, keepdims=True)) * self._h(e)
-        potential = np.log1p(np.sinh(e) ** (2 * m)) / (2 * m)
-        return 0.5 * np.einsum("ci,cij,cj->c", y, M, y) + potential @ self.kp
 
     def hunt(self, seed):
         """The state of the largest steepness found, and that."""

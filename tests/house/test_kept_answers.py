@@ -1,4 +1,4 @@
-"""ε₀, bounds and constants of an arm from the store: the same answer, judged again, and never believed."""
+"""ε₀ and constants of an arm from the store: the same answer, judged again, and never believed."""
 
 from __future__ import annotations
 
@@ -15,8 +15,6 @@ from typing import Any
 import pytest
 
 from lyapcheck import store
-from lyapcheck._types import silent
-from lyapcheck.answers.bounds import kept as kept_motion
 from lyapcheck.answers.epsilon import EpsilonResult, epsilon, kept
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
@@ -24,7 +22,6 @@ from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.robot import kept as kept_arm
 from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.constants.storage import coriolis_bound, motion, storage_proof
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.kernel.record import GRADE, accepted_before
 from lyapcheck.report import kept as kept_report
@@ -34,10 +31,8 @@ from lyapcheck.report.jobs import rounded
 from lyapcheck.report.subject import Subject
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
-from lyapcheck.search.controlled_arm import ControlledArm
 from tests.arena.attacks import encoded, sealed
 from tests.arena.run import ARENA
-from tests.helpers.forgotten import forget_bounds
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
@@ -119,84 +114,6 @@ def test_an_epsilon_that_was_exchanged_is_asked_again(
     assert result.data() == first.data()
 
 
-DRY = (0.01,)
-
-
-def bounds(angle: float = 0.5, delta: float = 0.1, dry: tuple[float, ...] = DRY) -> kept_motion.Bounds:
-    """Bounds of a motion of the pendulum, from the store where they are there."""
-    controlled = ControlledArm(GAINS, load("pendulum1"))
-    budget: dict[str, Any] = {"max_boxes": 300, "jobs": 1, "on_progress": silent}
-    return kept_motion.kept_bounds(controlled, (angle,), None, delta, (), dry, **budget)
-
-
-@cache
-def bounded() -> kept_motion.Bounds:
-    """The same computed once for all tests."""
-    result = bounds()
-    assert None not in (result[0].shown, result[1].shown, result[1].resting)
-    return result
-
-
-@pytest.fixture
-def computed_once(monkeypatch: pytest.MonkeyPatch) -> kept_motion.Bounds:
-    """Bounds that are kept, and are handed out where they are asked anew."""
-    first = bounded()
-    store.clear()  # the first test computed them here
-    monkeypatch.setattr(kept_motion, "settling_bound", lambda *arguments, **options: first[0])
-    monkeypatch.setattr(kept_motion, "disturbance_bound", lambda *arguments, **options: first[1])
-    assert bounds()[0] is first[0]
-    return first
-
-
-@pytest.mark.slow
-def test_bounds_are_found_again(monkeypatch: pytest.MonkeyPatch, computed_once: kept_motion.Bounds) -> None:
-    monkeypatch.setattr(kept_motion, "settling_bound", never)
-    assert bounds() == computed_once
-    for other in ({"angle": 0.6}, {"delta": 0.2}, {"dry": (0.02,)}):
-        with pytest.raises(AssertionError, match="computed again"):
-            bounds(**other)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda kept: kept["settling"][0]["within"][-1].__setitem__(0, "1"),
-        lambda kept: kept["settling"][0].update(errors_at_start=["1/4"]),
-        lambda kept: kept["settling"][1]["phases"][0].update(envelope=[]),
-        lambda kept: kept["disturbed"][0].update(dry=["0"]),
-        lambda kept: kept["disturbed"][0].update(kp=["1"]),
-        lambda kept: kept["disturbed"][0]["errors"].__setitem__(0, "0"),
-        lambda kept: kept.update(settling=kept["resting"]),
-        lambda kept: kept["resting"][0].update(errors=["0"]),
-        lambda kept: kept["resting"][0].update(viscous=["1000"]),
-        lambda kept: kept.pop("reasons"),
-    ],
-)
-def test_bounds_that_were_exchanged_are_asked_again(
-    computed_once: kept_motion.Bounds, place: Path, change: Callable[[Any], None]
-) -> None:
-    rewritten(place, change)
-    result = bounds()
-    assert result[0] is computed_once[0]
-    assert result[1] is computed_once[1]
-
-
-@pytest.mark.slow
-def test_bounds_within_more_than_is_asked_are_asked_again(computed_once: kept_motion.Bounds) -> None:
-    """A true statement about wider errors, under the question of narrower ones."""
-    question = kept_motion.BoundsQuestion(*_asked(delta=Fraction(1, 20))).question(300)
-    store.put(question, kept_motion.written(computed_once))
-    assert bounds(delta=0.05)[0] is computed_once[0]  # handed out by who computes
-
-
-def _asked(delta: Fraction) -> tuple[Any, ...]:
-    zero = (Fraction(0),)
-    start = ((Fraction(1, 2),), zero)
-    acting = kept_motion.Disturbance(zero, (Fraction(1, 100),))
-    return ControlledArm(GAINS, load("pendulum1")), start, delta, acting
-
-
 PATH = "certificates/published/one.json"
 
 
@@ -261,51 +178,3 @@ def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) ->
     first = kept_constants(load("reyes-kelly2"), 500, None)
     monkeypatch.setattr(kept_arm, "arm_constants", never)
     assert kept_constants(load("reyes-kelly2"), 500, None) == first
-
-
-def test_k_c_along_the_links_is_solved_once(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    forget_bounds()
-    first = storage_proof(chain, "k_c")
-    forget_bounds()
-    with monkeypatch.context() as patch:
-        patch.setattr(motion, "solve", never)
-        assert first is not None
-        assert storage_proof(chain, "k_c") == first
-
-    def shortened(answer: list[Any] | str) -> None:
-        if isinstance(answer, list):
-            answer[0].pop()
-
-    forget_bounds()
-    rewritten(place, shortened)
-    assert storage_proof(chain, "k_c") == first
-    forget_bounds()
-
-
-def test_the_bound_of_k_c_is_kept_without_its_proof(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    shown = storage_proof(chain, "k_c")
-    monkeypatch.setattr("lyapcheck.constants.storage.bounds.coriolis_forms", never)
-    assert shown is not None
-    assert coriolis_bound(chain) == shown.statement
-
-
-def test_a_kept_solution_that_is_wrong_shows_nothing(place: Path) -> None:
-    chain = load("pelican2").fixed().chain
-    assert chain is not None
-    forget_bounds()
-    first = storage_proof(chain, "k_c")
-    forget_bounds()
-
-    def halved(answer: list[Any] | str) -> None:
-        if isinstance(answer, list):
-            answer[0][0] /= 2
-
-    rewritten(place, halved)
-    second = storage_proof(chain, "k_c")
-    assert first is not None
-    assert second is None or second.bound >= first.bound * Fraction(99, 100)
-    forget_bounds()

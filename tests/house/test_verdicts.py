@@ -26,11 +26,10 @@ HEADING, SORTING, COLOURS = "a heading or a label", "an order in which verdicts 
 CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
-    "answers.bounds.answer": (1, HEADING),
     "answers.bounds.certificates": (1, CERTIFICATE),
     "answers.check.proof": (3, SORTING),
     "answers.epsilon.annotations": (4, "the name of a rule"),
-    "answers.epsilon.certificates": (5, CERTIFICATE),
+    "answers.epsilon.certificates": (3, CERTIFICATE),
     "answers.epsilon.words": (1, HEADING),
     "answers.gate.answer": (5, GATHERED),
     "answers.gate.judge": (2, GATHERED),

@@ -137,7 +137,6 @@ def test_one_joint_has_its_moment_and_its_weight(tmp_path: Path) -> None:
     link = "mass = 2\nviscous = 1\naxis = [0, 1, 0]\norigin = [0, 0, 0]\ncom = [0.5, 0, 0]\ninertia = 0.1"
     file.write_text(f'title = "one"\ngravity = [0, 0, -10]\n[[links]]\nname = "a"\n{link}\n')
     chain = load(file).chain
-    assert storage_proof(chain, "k_c") is None
     result = {name: storage_proof(chain, name).bound for name in ("lambda_min", "lambda_max", "k_g1")}
     assert float(result["lambda_min"]) == pytest.approx(0.6, rel=1e-6)
     assert float(result["lambda_max"]) == pytest.approx(0.6, rel=1e-6)

@@ -13,13 +13,12 @@ from pathlib import Path
 
 from tests.statement_fuzz.report import markdown, summary
 from tests.statement_fuzz.run import Run, Tally, run
-from tests.statement_fuzz.shrink import shrunk
 
 CHUNK = 2_000
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run, print the faults (the first of each sort made short) and how long 10⁴ statements took."""
+    """Run, print the first faults of each sort and how long 10⁴ statements took."""
     parser = argparse.ArgumentParser(prog="python -m tests.statement_fuzz", description=__doc__)
     parser.add_argument("--statements", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
@@ -81,11 +80,11 @@ def _parts(options: argparse.Namespace) -> Iterator[Tally]:
 
 
 def _print_faults(part: Tally, printed: Counter[tuple[str, ...]], most: int) -> None:
-    """Print the first faults of each sort, made short."""
+    """Print the first faults of each sort."""
     for index, judged in part.faults:
         printed[judged.signature] += 1
         if printed[judged.signature] <= most:
-            print(f"{index}: {shrunk(judged, index).text()}", flush=True)
+            print(f"{index}: {judged.text()}", flush=True)
 
 
 if __name__ == "__main__":

@@ -26,10 +26,6 @@ class ByLinks(Proposed):
     """dV/dt < 0 by bounds along the links."""
 
 
-class ByCorners(Proposed):
-    """dV/dt < 0 by a tree of boxes at each corner of the ranges of M's parameters."""
-
-
 class ByLargerKv(Proposed):
     """dV/dt < 0 by a proof for a larger K_v."""
 
@@ -38,12 +34,8 @@ class ByMassAtCorners(Proposed):
     """M ≻ 0 at each corner of the ranges of its parameters."""
 
 
-class ByLimits(Proposed):
-    """dV/dt < 0 within limits of speed and of error."""
-
-
-class ByMotion(Proposed):
-    """‖C(q, x)x‖ below a bound by forms of the motion."""
+class ByRates(Proposed):
+    """‖C(q, x)x‖ below a bound by rates of M along the links."""
 
 
 class Altered(Proposed):

@@ -29,18 +29,14 @@ from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
-from lyapcheck.check.kinds.phases import DiesOut, StaysWithin
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.resting import Resting
-from lyapcheck.check.kinds.settling import Settling
 from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.stability import Stable
-from lyapcheck.check.kinds.stopping import ComesToRest
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.procedures import propose
-from tests.statement_fuzz.motions import decide_settling
 from tests.statement_fuzz.proposed import Proposed, decide_proposed
 
 __all__ = [
@@ -53,14 +49,12 @@ __all__ = [
     "Boxes",
     "Case",
     "Certificate",
-    "ComesToRest",
     "Constant",
     "CoriolisAtRest",
     "CoriolisBelow",
     "CoriolisTorque",
     "DampingBelow",
     "Decreasing",
-    "DiesOut",
     "EveryN",
     "ExactNumbers",
     "ForAll",
@@ -86,11 +80,9 @@ __all__ = [
     "Relation",
     "Resting",
     "SeparateBalls",
-    "Settling",
     "SignIdentity",
     "Stable",
     "Statement",
-    "StaysWithin",
     "Sturm",
     "Supremum",
     "TrigonometricBound",
@@ -104,6 +96,4 @@ __all__ = [
 
 def decide(statement: Any) -> Any:
     """The verdict that the search proposes and the rules of the checker accept."""
-    if isinstance(statement, Proposed):
-        return decide_proposed(statement)
-    return decide_settling(statement) if isinstance(statement, Settling | StaysWithin) else propose(statement)
+    return decide_proposed(statement) if isinstance(statement, Proposed) else propose(statement)

@@ -18,7 +18,7 @@ from tests.statement_fuzz.generators.proposed import link
 from tests.statement_fuzz.judge import judge
 from tests.statement_fuzz.oracle.chains import torques
 
-KINDS = "ChainCoriolisBelow", "ByMotion"
+KINDS = "ChainCoriolisBelow", "ByRates"
 
 
 def credulous(statement: Any) -> Any:
@@ -53,17 +53,17 @@ def test_the_oracle_has_the_coriolis_torques_that_derivatives_of_the_mass_matrix
 
 
 def test_forms_are_accepted_for_no_bound_that_is_exceeded() -> None:
-    made = [draw(20, k, "ByMotion") for k in (3, 6)]
+    made = [draw(20, k, "ByRates") for k in (3, 6)]
     assert judged(made) == {"proved", "undecided, and not true"}
 
 
 def test_a_bound_beside_the_largest_value_is_proved_or_refuted() -> None:
-    assert judged([draw(20, k, "ChainCoriolisBelow") for k in (3, 9)]) == {"proved", "refuted"}
+    assert judged([draw(20, k, "ChainCoriolisBelow") for k in (1, 3)]) == {"proved", "refuted"}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_many_bounds_of_chains_have_no_faults(kind: str) -> None:
-    made = [draw(21, k, kind) for k in range(4, 10)]
+    made = [draw(20, k, kind) for k in range(12)]
     assert "proved" in judged(made)
     assert any(one.truth == FALSE for one in made)

@@ -65,7 +65,7 @@ def accepted_certificates(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
         about = About(f"F{number}", fault.name, None, None, "known-faults")
         made = Certificate(about, fault.statement, fault.verdict, fault.grade, fault.proof)
         (folder / f"F{number}.json").write_text(made.text(), encoding="utf-8")
-    result = run("-m", "lyapcheck.check", folder, "--format", "json")
+    result = run("-P", "-m", "lyapcheck.check", folder, "--format", "json")
     rows = json.loads(result.stdout)["certificates"]
     assert len(rows) == len(FAULTS)
     return {Path(row["file"]).stem for row in rows if row["accepted"]}

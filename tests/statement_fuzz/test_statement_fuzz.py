@@ -14,12 +14,11 @@ from lyapcheck.claims import Constant, Implies, Relation, expr, for_all, identit
 from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import one_in
 from tests.statement_fuzz.__main__ import main
-from tests.statement_fuzz.generators import FALSE, TRUE, Made, draw, names
+from tests.statement_fuzz.generators import TRUE, Made, draw, names
 from tests.statement_fuzz.judge import Judged, judge
 from tests.statement_fuzz.oracle.kinds import confirms, known, objection
 from tests.statement_fuzz.report import markdown
 from tests.statement_fuzz.run import Run, Tally, run
-from tests.statement_fuzz.shrink import shrunk
 from tests.statement_fuzz.subject import CoriolisBelow, Decreasing, decide
 
 FEW = 40
@@ -113,10 +112,10 @@ def test_each_kind_has_objections(kind: str) -> None:
 OF_ARMS = (
     *("MassAbove", "MassBelow", "CoriolisBelow", "GravityBelow", "MassSymmetric", "CoriolisAtRest"),
     *("RateOfMass", "RateLessTwiceCoriolis", "CoriolisTorque", "GravityOfPotential", "Decreasing"),
-    *("Property", "Resting", "Settling", "ComesToRest", "StaysWithin", "DampingBelow"),
+    *("Property", "Resting", "DampingBelow"),
 )
 BY_POINTS = OF_ARMS[:11]
-PROPOSED = ("ByCorners", "ByLargerKv", "ByLimits", "ByLinks")
+PROPOSED = ("ByLargerKv", "ByLinks")
 
 
 @pytest.mark.slow
@@ -136,21 +135,9 @@ def test_certificates_with_something_changed_are_accepted_only_where_they_are_tr
     assert "undecided, and not true" in {one.verdict for one in result}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("kind", "planted"),
-    [("StaysWithin", "errors below those of a motion"), ("ComesToRest", "motions that dry friction ends")],
-)
-def test_bounds_below_what_motions_show_are_not_proved(kind: str, planted: str) -> None:
-    made = [draw(10, k, kind) for k in range(30)]
-    false = [one for one in made if one.family == planted and one.truth == FALSE]
-    assert len(false) >= 5
-    assert not any(judge(one, 0).verdict == "proved" for one in false)
-
-
 @pytest.mark.parametrize("kind", one_in(4, OF_ARMS))
 def test_the_oracle_sees_by_itself_what_is_false_of_arms(kind: str) -> None:
-    made = [draw(6, k, kind) for k in range(12 if kind in ("Settling", "StaysWithin") else 60)]
+    made = [draw(6, k, kind) for k in range(60)]
     result = [bool(judge(replace(one, truth=None), k, by=credulous).fault) for k, one in enumerate(made)]
     assert sum(result) >= 3
     for one, objected in zip(made, result, strict=True):
@@ -261,13 +248,6 @@ def test_an_unknown_kind_is_no_problem() -> None:
 
 
 # How faults are told ---------------------------------------------------------------------------------------
-
-
-def test_a_fault_is_made_short_and_stays_the_same_fault() -> None:
-    statement = Constant(expr(Fraction(1, 3)) + 2 * sqrt(3) + sqrt(5) ** 2 < 1)
-    judged = judge(Made(statement, "by hand"), 0, by=credulous)
-    assert judged.fault
-    assert shrunk(judged).signature == judged.signature
 
 
 def test_the_page_has_the_counts_and_the_faults() -> None:

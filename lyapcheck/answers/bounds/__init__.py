@@ -1,1 +1,1 @@
-"""Certified bounds of a motion beside what a simulation of it shows."""
+"""Where dry friction lets an arm rest beside its goal: proved, beside what simulations of it show."""

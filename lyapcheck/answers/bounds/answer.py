@@ -1,64 +1,44 @@
-"""How long motions take and what disturbances leave of their errors, under each of several gain sets."""
+"""How far from their goal several gain sets let an arm rest, in words and as data."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.bounds.compare import BoundsComparison
 from lyapcheck.answers.bounds.data import comparison_data
-from lyapcheck.answers.bounds.words import (
-    after_text,
-    angle_text,
-    angle_up,
-    provenance_text,
-    ratio_text,
-    seconds_up,
-    simulated_time,
-    title,
-)
 from lyapcheck.answers.gain_place import gain_place
-from lyapcheck.check.kinds.phases import FallingPhases
+from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.search.decay.results import MotionBound
 
-RULES = {
-    "settling": "a time after which every |e_i| ≤ δ is certified",
-    "disturbed": "what torques and dry friction within bounds leave of the errors is certified",
-    "no-rate": "V falls exponentially near the goal",
-}
-FLAT = "h is flat at 0: no exponential rate, and the time grows fast as the angle shrinks"
+RULE = "what dry friction leaves of the errors at every state of rest is proved"
 REST = (
-    "Under dry friction every motion ends at rest, certified by falling energy; |e_i|, simulated: "
-    "the larger of this motion's and of one let go at 95 % of the bound:"
+    "|e_i| at every state of rest; simulated at rest: the larger of this motion's and of one let go at "
+    "95 % of the bound; simulated on the way: the largest of this motion:"
 )
-PHASES = "As the motion calms down, V with ε = ε₀ falls for larger ε₀, within these errors and speeds:"
-NONE, TORQUE = "—", "torque"
-AT_NOMINAL = "at nominal numbers"
+NONE, DEGREES = "—", Fraction(5729577951309, 10**11)
+"""Degrees of a radian, from above."""
+WITHOUT = "without --vary, proved"
 LEGEND = (
-    "certified: accepted by the checker, {}, for all postures and all motions from starts no "
-    "farther than this one, joint by joint.",
-    "simulated: {}.",
+    "proved: accepted by the checker, for dry friction up to what is stated, at every state of rest.",
+    "simulated: {}, in floating point, with that dry friction.",
 )
-NOMINAL = "at nominal numbers", "one run"
-RANGED = (
-    "for every arm with {}, constant in time, its other numbers nominal",
-    "the worst of one run at each corner of the ranges, which proves nothing of what lies between",
-)
-NOT_IN_RECORDS = ("envelope", "phases", "after", "statement", "rest_statement")
+ONE_RUN = "one run at nominal numbers"
+CORNERS = "the worst of one run at each corner of {}, which proves nothing of what lies between"
+NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
 
 
 @dataclass(frozen=True)
 class Comparisons(Answer):
-    """Certified bounds beside simulated runs.
+    """Proved bounds at rest beside simulated runs.
 
     Args:
         results: one a gain set.
@@ -71,180 +51,101 @@ class Comparisons(Answer):
     file: GainFile | None = None
 
     def document(self) -> Document:
-        """The times of all gain sets, then the errors of each, joint by joint."""
-        behind = (Section(result.settling.name, tuple(_behind(result))) for result in self.results)
+        """The errors at rest of each gain set, joint by joint, then the simulated times."""
+        behind = (Section(result.gains.name, tuple(_behind(result))) for result in self.results)
         assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
         varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
-        about = (RANGED[0].format(varies), RANGED[1]) if varies else NOMINAL
-        legend = (text.format(one) for text, one in zip(LEGEND, about, strict=True))
-        notes = (*legend, *(f"{text}." for text in assumed))
-        return Document(title(self.results), (_times(self.results), *behind), notes)
+        runs = CORNERS.format(varies) if varies else ONE_RUN
+        notes = (LEGEND[0], LEGEND[1].format(runs), *(f"{text}." for text in assumed))
+        return Document(title(self.results), (*behind, _times(self.results)), notes)
 
     def data(self) -> dict[str, Any]:
-        """``results: [{name, robot, settling, disturbance, simulated, …}]``."""
+        """``results: [{name, robot, disturbance, simulated, …}]``."""
         return {"results": [comparison_data(result) for result in self.results]}
 
     def records(self) -> list[dict[str, Any]]:
-        """A row a gain set, without the envelopes and what the statements say."""
-        rows = []
-        for row in self.data()["results"]:
-            parts = {
-                part: {
-                    key: value
-                    for key, value in row[part].items()
-                    if key not in NOT_IN_RECORDS and not (key == "rests_on" and value is None)
-                }
-                for part in ("settling", "disturbance")
-            }
-            rows.append(
-                {
-                    key: value
-                    for key, value in (row | parts).items()
-                    if key not in ("assumptions", "vary", "unvaried")
-                }
-            )
-        return rows
+        """A row a gain set, without what the statement says."""
+        return [
+            {key: value for key, value in row.items() if key not in NOT_IN_RECORDS}
+            | {"disturbance": {k: v for k, v in row["disturbance"].items() if k != "rest_statement"}}
+            for row in self.data()["results"]
+        ]
 
     def annotations(self) -> list[Annotation]:
-        """Two cases a gain set: its settling time, and what disturbances leave."""
-        return [one for result in self.results for one in self._judged(result)]
-
-    def _judged(self, result: BoundsComparison) -> list[Annotation]:
-        place = gain_place(self.file, result.gains)._asdict()
-        about = partial(Annotation, group=result.settling.name, **place)
-        judged: list[tuple[str, str, MotionBound]] = [
-            ("settling", "settling time", result.settling),
-            ("disturbed", "disturbed errors", result.disturbance),
-        ]
-        cases = [
-            about(
-                level=Level.UNDECIDED if bound.time is None else Level.PASSED,
-                rule=rule,
-                rule_text=RULES[rule],
-                case=case,
-                message=f"none is certified: {bound.reason}" if bound.time is None else "",
+        """A case a gain set: whether each joint has a bound at rest."""
+        return [
+            Annotation(
+                group=result.gains.name,
+                level=Level.PASSED if result.proved else Level.UNDECIDED,
+                rule="resting",
+                rule_text=RULE,
+                case="errors at rest",
+                message="" if result.proved else f"none is proved of a joint: {result.reason}",
+                **gain_place(self.file, result.gains)._asdict(),
             )
-            for rule, case, bound in judged
+            for result in self.results
         ]
-        if result.settling.time is not None and not result.settling.exponential:
-            rule, case = "no-rate", "settling time"
-            cases.append(about(level=Level.REMARK, rule=rule, rule_text=RULES[rule], case=case, message=FLAT))
-        return cases
 
 
-def _times(results: Sequence[BoundsComparison]) -> Table:
-    """When the errors are small for good, if nothing acts."""
-    angles = ", ".join(dict.fromkeys(angle_text(result.settling.delta) for result in results))
-    rows: list[tuple[str, ...]] = [
-        (
-            result.settling.name,
-            seconds_up(result.settling.time),
-            simulated_time(result),
-            ratio_text(result),
-            *_cost(result),
-        )
-        for result in results
-    ]
-    over = (AT_NOMINAL, "cost of the ranges") if any(result.unvaried for result in results) else ()
-    heads = ("gains", "certified", "simulated", "ratio", *over)
-    return Table(heads, tuple(rows), f"Every |e_i| ≤ {angles} for good after:")
+def title(results: Sequence[BoundsComparison]) -> str:
+    """Whether all bounds are proved."""
+    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    whole = sum(result.proved for result in results)
+    if len(results) == 1:
+        return _one(results[0])
+    if whole == len(results) > 0:
+        return f"✓ the errors at rest under all {whole} gain sets are proved on {robots}"
+    some = f"? the errors at rest under {whole} of {len(results)} gain sets are proved"
+    return f"{some} on {robots or 'no arm'}"
 
 
-def _cost(result: BoundsComparison) -> tuple[str, ...]:
-    """The certified time without ranges, and by how much these lengthen it; nothing where there are none."""
-    if result.unvaried is None:
-        return ()
-    nominal, now = result.unvaried.settling.time, result.settling.time
-    return seconds_up(nominal), f"{float(now / nominal) - 1:+.1%}" if nominal and now else NONE
+def _one(result: BoundsComparison) -> str:
+    over = f" with {', '.join(result.varies)}" if result.varies else ""
+    about = f"{result.gains.name} on {result.robot}{over}:"
+    known = [error for error in result.rest if error is not None]
+    if result.proved:
+        return f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved"
+    rows = zip(result.joints, result.rest, strict=True)
+    missing = ", ".join(joint for joint, error in rows if error is None)
+    return f"? {about} no error at rest is proved for {missing}"
 
 
 def _behind(result: BoundsComparison) -> list[Table | Bullets]:
-    """The errors of a gain set, and what its bounds rest on or why there are none."""
-    settling, left = result.settling, result.disturbance
-    said = []
-    for name, bound in (("settling time", settling), ("disturbed errors", left)):
-        if bound.time is None:
-            said.append(f"no certified {name}: {bound.reason}.")
-        elif bound.rests_on is not None and (bound is settling or _acting(result)):
-            said.append(f"{name} proved by {provenance_text(bound.rests_on)}.")
-    if after := after_text(result):
-        said.append(f"{after}.")
-    if settling.time is not None and not settling.exponential:
-        said.append(f"{FLAT}.")
-    return [*_errors(result), *_rest(result), *_phases(result), Bullets(tuple(said))]
-
-
-def _errors(result: BoundsComparison) -> list[Table]:
-    """The largest error of each joint; no table where nothing is known."""
-    left, n = result.disturbance, len(result.joints)
-    columns: list[tuple[str, Sequence[str]]] = []
-    if result.settling.largest_errors:
-        columns.append(("on the way", list(map(angle_up, result.settling.largest_errors))))
-    acting = _acting(result)
-    nominal = None if result.unvaried is None else result.unvaried.disturbance
-    columns += [(f"{name} N·m", [f"{float(x):g}" for x in values]) for name, values in acting.items()]
-    if acting:
-        columns += [
-            ("disturbed, certified", list(map(angle_up, left.errors)) or [NONE] * n),
-            *([] if nominal is None else [(AT_NOMINAL, list(map(angle_up, nominal.errors)) or [NONE] * n)]),
-            ("disturbed, simulated", list(map(angle_up, result.simulated_errors))),
-        ]
-        if left.resting is not None and not left.comes_to_rest:
-            columns.append(("at rest, certified", list(map(angle_up, left.rest))))
-    if not columns:
-        return []
-    rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
-    return [Table(("joint", *(head for head, _ in columns)), tuple(rows), _caption(result))]
-
-
-def _phases(result: BoundsComparison) -> list[Table]:
-    """Which ε₀ is certified within which errors and speeds; no table where there is one phase."""
-    shown = result.settling.shown
-    if shown is None or not isinstance(shown.proof, FallingPhases):
-        return []
-    rows = [
-        (
-            seconds_up(phase.envelope[0][0]),
-            f"{float(phase.eps0):.4g}",
-            ", ".join(map(angle_up, phase.within)),
-            ", ".join(f"{float(floor):.3g}" for floor in phase.floors),
-        )
-        for phase in shown.proof.phases
+    """The errors of a gain set, and why a joint has no bound."""
+    columns: list[tuple[str, Sequence[str]]] = [
+        ("dry friction [N·m]", [NONE if f is None else decimal_text(f) for f in result.dry]),
+        ("proved at most", list(map(angle_up, result.rest))),
+        ("simulated at rest", list(map(_angle, result.simulated_rest))),
+        ("simulated on the way", list(map(_angle, result.simulated_largest))),
     ]
-    return [Table(("from", "ε₀", "|e_i| at most", "h(w_i)/w_i at least"), tuple(rows), PHASES)]
-
-
-def _rest(result: BoundsComparison) -> list[Table]:
-    """Where motions end under dry friction alone; no table where nothing is known."""
-    left = result.disturbance
-    if not left.comes_to_rest or not any(left.dry):
-        return []
-    rows: list[tuple[str, ...]] = [
-        (joint, angle_up(bound), angle_up(run), f"{float(bound) / run:.3g} ×" if bound and run else NONE)
-        for joint, bound, run in zip(result.joints, left.rest, result.simulated_rest, strict=True)
-    ]
-    heads: tuple[str, ...] = ("joint", "at most", "simulated", "ratio")
     if result.unvaried is not None:
-        nominal = result.unvaried.disturbance.rest
-        rows = [(*row, angle_up(bound)) for row, bound in zip(rows, nominal, strict=True)]
-        heads += (AT_NOMINAL,)
-    return [Table(heads, tuple(rows), REST)]
+        columns.insert(2, (WITHOUT, list(map(angle_up, result.unvaried.rest))))
+    rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
+    table = Table(("joint", *(head for head, _ in columns)), tuple(rows), REST)
+    return [table, *([Bullets((f"{result.reason}.",))] if result.reason else [])]
 
 
-def _caption(result: BoundsComparison) -> str:
-    """What the errors are, and from when on."""
-    if not _acting(result):
-        return "Largest |e_i|:"
-    acting = " and ".join(f"{name} of any sign" if name == TORQUE else name for name in _acting(result))
-    time = result.disturbance.time
-    since = "" if time is None else f"certified from {seconds_up(time)} on, "
-    return (
-        f"Largest |e_i|; disturbed, under {acting}: {since}simulated in the last tenth "
-        f"of {result.task.T:g} s."
-    )
+def _times(results: Sequence[BoundsComparison]) -> Table:
+    """When the simulated errors are small for good."""
+    angles = ", ".join(dict.fromkeys(f"{math.degrees(result.delta):g}°" for result in results))
+    rows = tuple((result.gains.name, _time(result)) for result in results)
+    return Table(("gains", "simulated time"), rows, f"Simulated: every |e_i| ≤ {angles} for good after:")
 
 
-def _acting(result: BoundsComparison) -> dict[str, tuple[Fraction, ...]]:
-    """What disturbs, joint by joint."""
-    both = {TORQUE: result.disturbance.torque, "dry friction": result.disturbance.dry}
-    return {name: values for name, values in both.items() if any(values)}
+def _time(result: BoundsComparison) -> str:
+    """When the run came to stay within δ."""
+    if result.simulated_time is None:
+        return f"not within {result.task.T:g} s"
+    return f"{result.simulated_time:.3g} s"
+
+
+def _angle(value: float) -> str:
+    """A simulated angle in degrees, rounded."""
+    return f"{math.degrees(value):.3g}°"
+
+
+def angle_up(value: Fraction | None) -> str:
+    """A proved angle in degrees, in four digits and never rounded down; ``None`` is without a bound."""
+    if value is None:
+        return "∞"
+    return f"{decimal_text(significant_up(value * DEGREES, 4))}°" if value else "0°"

@@ -1,8 +1,7 @@
-"""The certified bounds of one gain set for one task, and the simulated motion."""
+"""The bounds of the errors at rest of one gain set, and the simulated motion."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,65 +10,74 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress, part, silent
-from lyapcheck.answers.bounds.kept import kept_bounds
-from lyapcheck.robots.vary import corners, only_varied
-from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.errors import argument_error
+from lyapcheck.family import named
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots.vary import corners
+from lyapcheck.search.rest import resting
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
+    from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
-    from lyapcheck.search.decay.results import DisturbanceBound, SettlingBound
     from lyapcheck.simulate.task import Task
 
     Varied = tuple[RobotModel, Sequence[Vary]]
     """An arm with ranges, and which."""
 
 JUST_INSIDE = 0.95
-"""Where a run starts, beside the certified bound of rest: simulated friction lets a joint creep."""
-LONGER, LONGEST = 6.0, 200.0
-"""A run that has not settled is made so many times as long, up to so many seconds."""
+"""Where a run starts, beside the proved bound of rest: simulated friction lets a joint creep."""
 
 
 @dataclass(frozen=True)
 class BoundsComparison:
-    """Bounds, certified, and what was seen in one run, in floating point.
+    """Bounds at rest, proved, and what was seen in runs with dry friction, in floating point.
 
     Args:
         gains: the gain set.
-        joints: names of the arm's joints, base first.
-        settling: the time bound.
-        disturbance: what a disturbance leaves.
+        robot: name of the arm.
+        joints: names of its joints, base first.
+        dry: N·m, the most that dry friction of each joint may be; none where nothing is known of it.
+        resting: what the checker accepted; none where it accepted nothing.
+        reason: why a joint has no bound; empty where all have one.
         task: the motion that was simulated.
+        delta: δ, rad.
         simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
-        simulated_for: s, how long that run was.
-        simulated_rest: rad, the largest |e_i| at the end of two runs with dry friction alone, twice as long:
-            of the task, and of one let go just inside the certified bound of rest.
-        simulated_errors: rad, the largest |e_i| over the last tenth of the run with the disturbance.
+        simulated_largest: rad, the largest |e_i| of the run.
+        simulated_rest: rad, the largest |e_i| at the end of two runs: of the task, and of one let go just
+            inside the bound of rest.
         assumptions: what is taken for granted about the arm.
         varies: the ranges over which the bounds hold, as typed; of runs at all their corners the worst
             counts.
-        unvaried: the same at nominal numbers, where something varies.
+        unvaried: the same without these ranges, where something varies.
     """
 
     gains: GainSet
+    robot: str
     joints: tuple[str, ...]
-    settling: SettlingBound
-    disturbance: DisturbanceBound
+    dry: tuple[Fraction | None, ...]
+    resting: Resting | None
+    reason: str
     task: Task
+    delta: float
     simulated_time: float | None
-    simulated_for: float
-    simulated_errors: tuple[float, ...]
+    simulated_largest: tuple[float, ...]
     simulated_rest: tuple[float, ...]
     assumptions: tuple[str, ...]
     varies: tuple[str, ...] = ()
     unvaried: BoundsComparison | None = None
 
     @property
-    def certified(self) -> bool:
-        """Whether both bounds are."""
-        return self.settling.time is not None and self.disturbance.level is not None
+    def rest(self) -> tuple[Fraction | None, ...]:
+        """rad, |e_i| at every state of rest; none for a joint without a bound."""
+        return (None,) * len(self.joints) if self.resting is None else self.resting.errors
+
+    @property
+    def proved(self) -> bool:
+        """Whether each joint has a bound."""
+        return None not in self.rest
 
 
 def compare(
@@ -77,74 +85,53 @@ def compare(
     model: RobotModel,
     task: Task,
     delta: float,
-    torque: Sequence[float] = (),
-    dry: Sequence[float] | None = None,
+    dry: Sequence[Fraction] | None = None,
     *,
-    max_boxes: int,
-    jobs: int = 1,
     varied: Varied | None = None,
     on_progress: Progress | None = None,
 ) -> BoundsComparison:
-    """The bounds of a task and the run.
+    """The bounds at rest and the run.
 
     Args:
         gain_set: the controller, of a bounded family.
         model: the arm.
         task: start, goal and duration of the run.
         delta: δ, rad.
-        torque: (n,) bounds of a torque of any sign, N·m; the run has it constant and positive.
-        dry: (n,) bounds of dry friction, N·m; what is known of the arm if missing.
-        max_boxes: the budget of each attempt at a proof.
-        jobs: processes for the checker.
+        dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
         varied: the arm with ranges, and what varies; the bounds are asked over them as well.
         on_progress: receives the share done.
+
+    Raises:
+        InputError: an unbounded h.
     """
     progress = on_progress or silent
-    unvaried, controlled, arms = None, ControlledArm(gain_set, model), [model]
-    controlled.require_friction()
+    if not named(gain_set.family, gain_set.m).bounded:
+        rule = f"{gain_set.name} has an unbounded h, of which no error at rest is judged"
+        raise argument_error("gains", gain_set.name, rule, "choose gains of a bounded family")
+    unvaried = None
     if varied is not None:
-        unvaried = compare(
-            gain_set,
-            model,
-            task,
-            delta,
-            torque,
-            dry,
-            max_boxes=max_boxes,
-            jobs=jobs,
-            on_progress=part(progress, 0, 0.4),
-        )
-        ranged = only_varied(*varied)
-        controlled = ControlledArm(gain_set, ranged, ranges=True)
-        controlled.require_friction()
-        arms = [arm for _, arm in corners(*varied)]
-    friction = tuple(dry) if dry is not None else coulomb(model) if varied is None else most_coulomb(ranged)
-    settling, left = kept_bounds(
-        controlled,
-        task.step,
-        task.w0,
-        delta,
-        torque,
-        friction,
-        max_boxes=max_boxes,
-        jobs=jobs,
-        on_progress=part(progress, 0, 0.9) if varied is None else part(progress, 0.4, 0.8),
-    )
+        unvaried = compare(gain_set, model, task, delta, dry, on_progress=part(progress, 0, 0.4))
+    whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
+    most = _most(whole) if dry is None else tuple(dry)
+    known = [f for f in most if f is not None]
+    shown = resting(gain_set, known) if len(known) == len(most) else None
+    errors = (None,) * model.n if shown is None else shown.errors
     runs = []
     for index, arm in enumerate(arms):
-        progress(0.9 if varied is None else 0.8 + 0.2 * index / len(arms), "simulation")
-        held = coulomb(arm) if dry is None else tuple(dry)
-        runs.append(_Runs.of(gain_set, arm, task, delta, torque, held, settling, left))
+        progress((0 if varied is None else 0.4) + 0.6 * index / len(arms), "simulation")
+        runs.append(_Runs.of(gain_set, arm, task, delta, dry, errors))
     times = [run.time for run in runs]
     return BoundsComparison(
         gains=gain_set,
+        robot=model.name,
         joints=model.joints,
-        settling=settling,
-        disturbance=left,
+        dry=most,
+        resting=shown,
+        reason=_reason(gain_set, model.joints, most, errors),
         task=task,
-        simulated_for=max(run.duration for run in runs),
+        delta=delta,
         simulated_time=None if None in times else max(time for time in times if time is not None),
-        simulated_errors=tuple(np.max([run.errors for run in runs], axis=0).tolist()),
+        simulated_largest=tuple(np.max([run.largest for run in runs], axis=0).tolist()),
         simulated_rest=tuple(np.max([run.rest for run in runs], axis=0).tolist()),
         assumptions=model.assumptions,
         varies=() if varied is None else tuple(one.text for one in varied[1]),
@@ -152,13 +139,41 @@ def compare(
     )
 
 
+def _most(model: RobotModel) -> tuple[Fraction | None, ...]:
+    """Dry friction of each joint at the upper end of its range, N·m."""
+    return tuple(None if number is None else number.bounds[1] for number in model.coulomb)
+
+
+def _reason(
+    gains: GainSet,
+    joints: tuple[str, ...],
+    dry: tuple[Fraction | None, ...],
+    errors: tuple[Fraction | None, ...],
+) -> str:
+    """Why joints have no bound, and what to do."""
+    unknown = [joint for joint, f in zip(joints, dry, strict=True) if f is None]
+    if unknown:
+        return (
+            f"nothing is known of the dry friction of {', '.join(unknown)}; give --friction, or state it as "
+            "coulomb in the arm file"
+        )
+    rows = zip(joints, gains.kp, dry, errors, strict=True)
+    weak = [
+        f"k_p = {decimal_text(k)} N·m of {joint} does not exceed its dry friction of {decimal_text(f)} N·m"
+        for joint, k, f, e in rows
+        if e is None and f is not None and f >= k
+    ]
+    if weak:
+        return f"{'; '.join(weak)}: raise k_p"
+    return "" if None not in errors else "h at the bounds does not decide it; raise k_p"
+
+
 @dataclass(frozen=True)
 class _Runs:
     """What runs of one arm show: see `BoundsComparison`."""
 
     time: float | None
-    duration: float
-    errors: tuple[float, ...]
+    largest: tuple[float, ...]
     rest: tuple[float, ...]
 
     @classmethod
@@ -168,41 +183,20 @@ class _Runs:
         model: RobotModel,
         task: Task,
         delta: float,
-        torque: Sequence[float],
-        dry: Sequence[float],
-        settling: SettlingBound,
-        left: DisturbanceBound,
+        dry: Sequence[Fraction] | None,
+        errors: Sequence[Fraction | None],
     ) -> _Runs:
-        """The task undisturbed, long enough to be compared; disturbed; and two motions that friction ends."""
-        goal = task.q_d
-        duration = task.T
-        calm = disturbed(gain_set, model, goal, task.q0, task.w0, duration)
-        while inside_from(calm.t, calm.e, delta) is None and _longer(settling, duration):
-            duration *= LONGER
-            calm = disturbed(gain_set, model, goal, task.q0, task.w0, duration)
-        pushed = disturbed(gain_set, model, goal, task.q0, task.w0, task.T, torque=list(torque), dry=dry)
-        let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(goal, left.rest, strict=True)]
-        ends = [
-            disturbed(gain_set, model, goal, q0, w0, 2 * task.T, dry=dry).e[-1]
-            for q0, w0 in ((let_go, None), (task.q0, task.w0))
-        ]
-        rest = tuple(np.max(np.abs(ends), axis=0).tolist())
-        return cls(inside_from(calm.t, calm.e, delta), duration, last_errors(pushed.e), rest)
-
-
-def _longer(settling: SettlingBound, duration: float) -> bool:
-    """Whether a run should be longer, to be compared with the certified time."""
-    return settling.time is not None and duration * LONGER <= min(LONGEST, LONGER * float(settling.time))
-
-
-def coulomb(model: RobotModel) -> tuple[float, ...]:
-    """Dry friction of the arm, N·m; 0 where nothing is known."""
-    return tuple(0.0 if number is None else float(number.value) for number in model.coulomb)
-
-
-def most_coulomb(model: RobotModel) -> tuple[Fraction, ...]:
-    """The most that it may be in its ranges."""
-    return tuple(Fraction(0) if number is None else number.bounds[1] for number in model.coulomb)
+        """The task, and a motion let go just inside the bound of rest."""
+        known = [0.0 if number is None else float(number.value) for number in model.coulomb]
+        friction = known if dry is None else [float(f) for f in dry]
+        let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
+        run, other = (
+            disturbed(gain_set, model, task.q_d, q0, w0, task.T, dry=friction)
+            for q0, w0 in ((task.q0, task.w0), (let_go, None))
+        )
+        ends = np.max(np.abs([run.e[-1], other.e[-1]]), axis=0)
+        largest = np.max(np.abs(run.e), axis=0)
+        return cls(inside_from(run.t, run.e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
 
 
 def inside_from(t: Array, e: Array, delta: float) -> float | None:
@@ -212,9 +206,3 @@ def inside_from(t: Array, e: Array, delta: float) -> float | None:
         return float(t[0])
     last = int(outside[-1])
     return float(t[last + 1]) if last + 1 < t.size else None
-
-
-def last_errors(e: Array) -> tuple[float, ...]:
-    """The largest |e_i| over the last tenth of a run."""
-    tail = e[-math.ceil(len(e) / 10) :]
-    return tuple(float(x) for x in np.abs(tail).max(axis=0))

@@ -5,7 +5,7 @@ The searches propose, the checker disposes; this folder asks them in turn and ho
 
 from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.answers.epsilon.consistency import Contradiction
-from lyapcheck.answers.epsilon.options import Options, StateLimits
+from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 
-__all__ = ["Contradiction", "EpsilonResult", "EpsilonResults", "Options", "StateLimits", "epsilon"]
+__all__ = ["Contradiction", "EpsilonResult", "EpsilonResults", "Options", "epsilon"]

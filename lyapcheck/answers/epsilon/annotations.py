@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -13,14 +12,12 @@ from lyapcheck.output.annotations import Annotation, Level
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.four import FourEpsilons
-    from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.control.gains import GainFile
 
-CERTIFIED, FALSIFIED, NEARBY = "certified", "falsified", "nearby"
+CERTIFIED, FALSIFIED = "certified", "falsified"
 RULES = {
     CERTIFIED: "V > 0 and dV/dt < 0 at every state but the origin, for some ε₀ > 0",
     FALSIFIED: "a state with dV/dt > 0",
-    NEARBY: "V > 0 and dV/dt < 0 at the states within --max-speed and --max-error, for some ε₀ > 0",
     **FINDINGS,
 }
 
@@ -31,8 +28,6 @@ def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotati
     level = Level.UNDECIDED if result.certified is None else Level.PASSED
     message = f"no ε₀ is certified: {result.reasons.get(CERTIFIED, '')}" if result.certified is None else ""
     outcome = [about(level=level, rule=CERTIFIED, rule_text=RULES[CERTIFIED], case="ε₀", message=message)]
-    if result.nearby is not None:
-        outcome.append(_nearby(result.nearby, about))
     said = {} if result.witness is None else {FALSIFIED: f"falsified {witness_text(result.witness)}"}
     said |= {rule: text for rule, text in FINDINGS.items() if text in result.findings}
     outcome += [
@@ -40,15 +35,3 @@ def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotati
         for rule, text in said.items()
     ]
     return outcome
-
-
-def _nearby(near: NearbyResult, about: Callable[..., Annotation]) -> Annotation:
-    """Whether an ε₀ is certified within limits."""
-    missing = near.certified is None
-    return about(
-        level=Level.UNDECIDED if missing else Level.PASSED,
-        rule=NEARBY,
-        rule_text=RULES[NEARBY],
-        case="ε₀ within limits",
-        message=f"no ε₀ is certified within the limits: {near.reason}" if missing else "",
-    )

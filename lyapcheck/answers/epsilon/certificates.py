@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.epsilon.words import limits_text
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
@@ -15,7 +14,6 @@ from lyapcheck.files.names import file_stem
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.answers.epsilon.four import Refutation
-    from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.search.falsify import RisingState
 
@@ -31,7 +29,7 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
         certificate = Certificate(about, statement, verdict, "enclosure", proof)
         made[f"{file_stem(result.name)}.{file}.json"] = certificate
 
-    weighted, near, witness = result.weighted, result.nearby, result.witness
+    weighted, witness = result.weighted, result.witness
     known = {
         ("certified", "proved"): result.proof,
         ("scalar", "scalar"): result.scalar_proof,
@@ -44,20 +42,10 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     if witness is not None and (against := result.against) is not None:
         stated, state = statement_of(against.loop), _state(witness, against)
         add("falsified", "refuted", _says(result, against.loop), stated, "refuted", state)
-    if near is not None:
-        says = (
-            f"dV/dt < 0: {result.name} on {result.robot}, among states with {limits_text(near.limits)} alone"
-        )
-        if near.proof is not None:
-            proof_of = near.proof.certificate
-            add("nearby.certified", "nearby.proved", says, near.proof.statement, "proved", proof_of)
-        if near.witness is not None and near.against is not None:
-            state = _state(near.witness, near)
-            add("nearby.falsified", "nearby.refuted", f"not {says}", near.against, "refuted", state)
     return made
 
 
-def _state(witness: RisingState, at: Refutation | NearbyResult) -> StateWitness:
+def _state(witness: RisingState, at: Refutation) -> StateWitness:
     """A state, and what is uncertain about the arm that it is a state of."""
     return StateWitness(at.viscous, at.parameters, witness.state.q, witness.state.e, witness.state.w)
 

@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING
 from lyapcheck._types import SEED, Progress, part, silent
 from lyapcheck.answers.epsilon.assembled import put_together
 from lyapcheck.answers.epsilon.forms import by_forms, proof_of
-from lyapcheck.answers.epsilon.nearby import nearby
-from lyapcheck.answers.epsilon.options import Options, StateLimits
+from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.computing import computing_time
@@ -61,7 +60,6 @@ def epsilon(
     seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
-    limits: StateLimits | None = None,
     on_progress: Progress | None = None,
 ) -> EpsilonResult:
     """All four ε₀ of a gain set.
@@ -76,7 +74,6 @@ def epsilon(
         weights: look for weights Λ as well, joint by joint.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
-        limits: of speed and of error, to ask for the ε₀ of the states within them as well.
         on_progress: receives the fraction done and a few words.
 
     Raises:
@@ -86,7 +83,7 @@ def epsilon(
     Soundness: ``certified`` rests on ``proof``, which ``lyapcheck.check.verify`` accepted, ``falsified`` on
         the witness alone; ``published`` is what (18) claims, ``scalar`` a number unless it has a proof.
     """
-    options = Options(max_boxes, jobs, ranges, weights, seconds, starts, seed, limits)
+    options = Options(max_boxes, jobs, ranges, weights, seconds, starts, seed)
     return four(one_gain_set(gain_set), arm_of(model), options, on_progress or silent)
 
 
@@ -119,7 +116,6 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
         budget = options.max_boxes, options.jobs
         weighted = weighted_epsilon(controlled, certified, *budget, on_progress=part(progress, main, 1))
         reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
-    limits = options.limits
     return put_together(
         controlled,
         at,
@@ -134,7 +130,6 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
         reasons={name: reason for name, reason in reasons.items() if reason},
         assumptions=model.assumptions,
         seed=options.seed,
-        nearby=None if limits is None else nearby(gain_set, model, limits, certified, options, progress),
     )
 
 

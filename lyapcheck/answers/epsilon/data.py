@@ -9,7 +9,6 @@ from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.four import FourEpsilons
-    from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
@@ -29,7 +28,6 @@ def result_data(result: FourEpsilons) -> dict[str, Any]:
         "witness": None if result.witness is None else _witness(result.witness),
         "boxes": result.boxes,
         "weighted": None if result.weighted is None else _weighted(result.weighted),
-        "nearby": None if result.nearby is None else _nearby(result.nearby),
         "ranges": result.ranges,
         "unvaried": exact(result.unvaried),
         "corner": {name: exact(value) for name, value in result.corner.items()},
@@ -48,23 +46,6 @@ def _weighted(weighted: Weighted) -> dict[str, Any]:
         "eps0_lambda": [exact(value) for value in weighted.products],
         "boxes": weighted.proof.boxes,
         "states": weighted.states,
-    }
-
-
-def _nearby(near: NearbyResult) -> dict[str, Any]:
-    """Limits in rad/s and rad, energy in J; what is proved in words."""
-    return {
-        "max_speed": [exact(x) for x in near.limits.speeds] or None,
-        "max_error": [exact(x) for x in near.limits.errors] or None,
-        "certified": exact(near.certified),
-        "falsified": exact(near.falsified),
-        "ratio": ratio_text(near.ratio),
-        "energy": exact(near.energy),
-        "from_rest": exact(near.from_rest),
-        "statement": None if near.proof is None else near.proof.statement.text(),
-        "witness": None if near.witness is None else _witness(near.witness),
-        "boxes": near.boxes,
-        "reason": near.reason or None,
     }
 
 

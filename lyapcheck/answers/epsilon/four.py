@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.epsilon.nearby import NearbyResult
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.falsify import RisingState
@@ -49,7 +48,6 @@ class FourEpsilons:
         findings: what the numbers say about each other, one sentence each.
         assumptions: what is taken for granted about the arm.
         seed: of the sampled states.
-        nearby: the ε₀ of states within limits of speed and of error, where they were asked for.
         unvaried: what is certified at nominal numbers, where that was asked for beside ranges.
     """
 
@@ -72,7 +70,6 @@ class FourEpsilons:
     findings: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
     seed: int = 0
-    nearby: NearbyResult | None = None
     unvaried: Fraction | None = None
 
     @property

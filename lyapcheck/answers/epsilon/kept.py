@@ -18,7 +18,6 @@ from lyapcheck.answers.epsilon.compute import four
 from lyapcheck.answers.epsilon.consistency import Contradiction
 from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.four import Refutation
-from lyapcheck.answers.epsilon.nearby import nearby
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.certificate import to_json
@@ -43,23 +42,15 @@ if TYPE_CHECKING:
 def kept_epsilon(
     gain_set: GainSet, model: RobotModel, options: Options, on_progress: Progress = silent
 ) -> EpsilonResult:
-    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds.
-
-    What is asked within limits is not kept.
-    """
+    """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds."""
     if options.seconds is not None:  # another run of so many seconds may find a larger one
         return four(gain_set, model, options, on_progress)
-    asked, limits = question(gain_set, model, options), options.limits
-    result = store.remembered(
-        asked,
+    return store.remembered(
+        question(gain_set, model, options),
         lambda kept: read(kept, gain_set, model, options),
-        lambda: four(gain_set, model, replace(options, limits=None), on_progress),
+        lambda: four(gain_set, model, options, on_progress),
         written,
     )
-    if limits is None:
-        return result
-    near = nearby(gain_set, model, limits, result.certified, options, on_progress)
-    return replace(result, nearby=near)
 
 
 def question(gain_set: GainSet, model: RobotModel, options: Options) -> dict[str, Any]:

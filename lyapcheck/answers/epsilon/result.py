@@ -11,8 +11,6 @@ from lyapcheck.answers.epsilon.data import result_data
 from lyapcheck.answers.epsilon.four import FourEpsilons
 from lyapcheck.answers.epsilon.words import (
     KINDS,
-    NEARBY_HEADS,
-    nearby_row,
     notes,
     number_cell,
     ratio_text,
@@ -28,7 +26,7 @@ if TYPE_CHECKING:
 
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
 NOT_IN_RECORDS = ("corner", "findings", "assumptions")
-PARTS = ("witness", "weighted", "nearby")
+PARTS = ("witness", "weighted")
 """What takes several columns where there is any."""
 
 
@@ -76,9 +74,7 @@ class EpsilonResults(Answer):
         rows = tuple(self._row(result, time) for result, time in self._timed())
         heads = HEADS if self.seconds is None else (*HEADS, "seconds")
         behind = [Section(result.name, (Bullets(tuple(remarks(result))),)) for result in self.results]
-        near = [nearby_row(result) for result in self.results if result.nearby is not None]
-        tables = (Table(heads, rows), *([Table(NEARBY_HEADS, tuple(near))] if near else []))
-        return Document(title(self.results), (*tables, *behind), tuple(notes(self.results)))
+        return Document(title(self.results), (Table(heads, rows), *behind), tuple(notes(self.results)))
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, published, scalar, certified, falsified, ratio, witness, boxes, …}]``."""

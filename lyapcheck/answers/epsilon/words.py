@@ -12,8 +12,6 @@ from lyapcheck.output.digits import decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.four import FourEpsilons
-    from lyapcheck.answers.epsilon.nearby import NearbyResult
-    from lyapcheck.answers.epsilon.options import StateLimits
     from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
@@ -75,16 +73,8 @@ def _one(result: FourEpsilons) -> str:
 FASTEST = 100
 """rad/s, beyond which no arm turns."""
 BUYS = (
-    "What ε₀ buys: V with ε = ε₀/(1 + ‖e‖) falls at every state, also where the arm stands still, so that "
-    "times and errors can be certified; it does not measure damping: gains that swing and gains that do not "
-    "may have the same. --max-speed and --max-error ask about the states that an arm comes to; lyapcheck "
-    "bounds turns such ε₀ into times."
-)
-NEARBY_HEADS = ("gains", "m", "among states with", "certified ε₀", "falsified ε₀", "ratio")
-NEARBY = (
-    "Within limits: dV/dt < 0 is proved, or refuted, among the states of the second table alone; nothing is "
-    "said there of other states, and no global stability. What it buys: while an arm is as slow and as near "
-    "as that, V with this ε₀ falls; unlike the global ε₀ it counts the damping of k_v."
+    "What ε₀ buys: V with ε = ε₀/(1 + ‖e‖) falls at every state, also where the arm stands still; it does "
+    "not measure damping: gains that swing and gains that do not may have the same."
 )
 
 
@@ -105,68 +95,10 @@ def remarks(result: FourEpsilons) -> list[str]:
                 f"that state moves at {speed:.0e} rad/s, where no arm comes: larger ε₀ fail there, and "
                 "need not fail in any motion."
             )
-    if result.nearby is not None:
-        said += nearby_remarks(result.nearby)
     if result.witness is not None and result.corner:
         values = ", ".join(f"{name} = {decimal_text(value)}" for name, value in result.corner.items())
         said.append(f"that state is one of the arm with {values}.")
     return said
-
-
-def nearby_row(result: FourEpsilons) -> tuple[str, ...]:
-    """The ε₀ within limits: cells of the second table."""
-    near = result.nearby
-    if near is None:
-        raise ValueError("no limits were asked for")
-    name = result.name, "—" if result.m is None else str(result.m)
-    numbers = (exact(value) or "—" for value in (near.certified, near.falsified))
-    return (*name, limits_text(near.limits), *numbers, ratio_text(near.ratio) or "—")
-
-
-def limits_text(limits: StateLimits) -> str:
-    """The states within them."""
-    speeds = f"|w_i| ≤ {_degrees(limits.speeds)}°/s" if limits.speeds else ""
-    errors = f"|e_i| ≤ {_degrees(limits.errors)}°" if limits.errors else ""
-    return " and ".join(filter(None, (speeds, errors)))
-
-
-def _degrees(values: Sequence[Fraction]) -> str:
-    """One number where all are equal, else all of them in brackets."""
-    shown = [f"{math.degrees(x):.5g}" for x in values]
-    return shown[0] if len(set(shown)) == 1 else f"({', '.join(shown)})"
-
-
-def nearby_remarks(near: NearbyResult) -> list[str]:
-    """What is proved within limits, of which motions, and what is refuted."""
-    among = f"among states with {limits_text(near.limits)}"
-    said = []
-    if near.proof is not None:
-        said.append(
-            f"{among} alone: dV/dt < 0 is proved for ε₀ = {exact(near.certified)} "
-            f"({boxes_text(near.proof.boxes)} judged by the checker)."
-        )
-        said.append(_motions_text(near))
-    if near.reason:
-        missing = "no certified ε₀" if near.certified is None else "certified ε₀"
-        said.append(f"{missing} {among}: {near.reason}.")
-    if near.witness is not None:
-        said.append(f"falsified {among}, {witness_text(near.witness)}.")
-    return said
-
-
-def _motions_text(near: NearbyResult) -> str:
-    """Which motions keep within the limits."""
-    if near.energy is None:
-        return "which motions keep within these limits is not proved."
-    rest = (
-        ""
-        if near.from_rest is None
-        else (f"; from rest these are among others all with |e_i(0)| ≤ {_degrees([near.from_rest])}°")
-    )
-    return (
-        f"proved too: motions that start with ½ wᵀMw + Σ k_pi U(e_i) ≤ {exact(near.energy)} J keep within "
-        f"these limits and tend to the goal{rest}."
-    )
 
 
 def _way(result: FourEpsilons) -> str:
@@ -224,7 +156,6 @@ def notes(results: Sequence[FourEpsilons]) -> list[str]:
         *LEGEND,
         *([RANGED] if any(result.ranges for result in results) else []),
         BUYS,
-        *([NEARBY] if any(result.nearby is not None for result in results) else []),
         *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
         *([f"Arm: {robots}, {_extent(results)}. Seed: {seeds}."] if results else []),
         *(f"{text}." for text in assumed),

@@ -1,8 +1,8 @@
 """Ends of the constants of an arm that certificates show, beside those of floating point.
 
 The end that a state shows is a bound refuted at a posture; the other is shown for all angles: for few joints
-by boxes, for k_c at control points, or by storage forms along the links where these show more; for more
-joints by such forms, and else by the sizes of harmonics, which are coarse.
+by boxes, or by storage forms along the links where these show more; for more joints by such forms, and else
+by the sizes of harmonics, which are coarse.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from lyapcheck._types import SEED
 from lyapcheck.answers.robot.judged import DecidedProperty, PropertyQuestion
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
@@ -32,7 +33,7 @@ from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown
 from lyapcheck.constants import ConstantResult
-from lyapcheck.constants.products import products_below
+from lyapcheck.constants.arm_harmonics import ArmHarmonics
 from lyapcheck.constants.storage.bounds import BoundWithProof, storage_proof
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
@@ -46,12 +47,12 @@ BOXES = 2000
 DIGITS = 6
 MARGINS = (Fraction(1, 10**5), Fraction(1, 10**3), Fraction(1, 50))
 """How far from the floating-point end a bound may be, relative to it; the smallest that is shown counts."""
-MARGINS_OF_CORIOLIS = tuple(Fraction(k, 1000) for k in (1, 3, 6, 10, 15, 50, 200))
-"""The same for k_c, from what is reached: the nearer, the more control points."""
+MARGINS_OF_CORIOLIS = (Fraction(1, 200), Fraction(1, 20))
+"""The same for k_c, from the norms that boxes can show, as its boxes cost more."""
+SAMPLES = 4096
+"""Postures at which these norms are taken."""
 NEAR = Fraction(1, 10**4)
 """Where a bound is so near what is reached, relative to it, forms along the links are not asked."""
-NEAR_OF_CORIOLIS = Fraction(1, 50)
-"""The same for k_c, as forms of the motion take seconds."""
 BITS = 64
 _ABOVE = (MassBelow, CoriolisBelow, GravityBelow, ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M)"}
@@ -185,14 +186,12 @@ def _outer(n: int, name: str, bound: _Bound, sign: int, chain: Chain | None) -> 
         best = bound.state(coarse), coarse, shown(HarmonicSizes(), HarmonicSizes.rule)
     if n > FEW_JOINTS:
         return best
-    # forms along the links take less time than the boxes that they spare, but those of the motion more
-    if name != "k_c":
-        return _by_search(bound, sign, _by_links(bound, name, sign, chain, best, NEAR))
-    return _by_links(bound, name, sign, chain, _by_search(bound, sign, best), NEAR_OF_CORIOLIS)
+    # forms along the links take less time than the boxes that they spare
+    return _by_search(bound, sign, _by_links(bound, name, sign, chain, best))
 
 
 def _by_search(bound: _Bound, sign: int, best: _Outer | None) -> _Outer | None:
-    """What boxes or control points show, if that is better than what is known."""
+    """What boxes show, if that is better than what is known."""
     for margin in bound.margins:
         value = _rounded(bound.start * (1 + sign * margin), sign)
         if best is not None and sign * best[1] <= sign * value:
@@ -203,11 +202,9 @@ def _by_search(bound: _Bound, sign: int, best: _Outer | None) -> _Outer | None:
     return best
 
 
-def _by_links(
-    bound: _Bound, name: str, sign: int, chain: Chain | None, best: _Outer | None, near: Fraction
-) -> _Outer | None:
+def _by_links(bound: _Bound, name: str, sign: int, chain: Chain | None, best: _Outer | None) -> _Outer | None:
     """What forms along the links show, if that is better than what is known, unless that is near enough."""
-    enough = sign * bound.seen + abs(bound.seen) * near
+    enough = sign * bound.seen + abs(bound.seen) * NEAR
     if chain is None or (best is not None and sign * best[1] <= enough):
         return best
     outside = storage_proof(chain, name)
@@ -258,8 +255,8 @@ def _of_coriolis(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ..
     size = float(sum(entry * entry for entry in x))
     return _Bound(
         lambda value: CoriolisBelow(mass, (), value),
-        lambda value: products_below(inertia, value),
-        constant.enclosure.lower,
+        lambda value: _boxes(inertia.coriolis_below(value, BOXES)),
+        _unfolded(arm.robot) if arm.robot.n <= FEW_JOINTS else Fraction(0),
         arm.kc,
         PostureWitness(q, (), x, x),
         Fraction(float(np.linalg.norm(turned)) / size),
@@ -286,6 +283,16 @@ def _of_gravity(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...
         PostureWitness(q, (), ()),
         Fraction(float(seen)),
     )
+
+
+def _unfolded(robot: RobotModel) -> Fraction:
+    """About the least bound of ‖C(q, x)y‖ that boxes can show: that of the better unfolding of the c_ijk."""
+    arm = ArmHarmonics(robot)
+    states = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, robot.n))
+    c = arm.tensor(arm.symbols.at(states))
+    both = (np.einsum("bijk,bijl->bkl", c, c), np.einsum("bijk,bljk->bil", c, c))
+    tops = [np.linalg.eigvalsh(square)[:, -1] for square in both]
+    return _root(Fraction(float(max(np.max(np.minimum(*tops)), 0.0))))
 
 
 def _boxes(show: bool) -> Bisection | None:

@@ -34,7 +34,6 @@ COLUMNS: Mapping[str, str] = {
     "eps0": "text",
     "falsified": "text",
     "settling": "number",
-    "settling_certified": "number",
     "certificates": "texts",
     "answer": "data",
 }

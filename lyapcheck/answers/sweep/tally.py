@@ -35,13 +35,11 @@ MEASURES = (
     Measure("least margin of the gate's conditions, as a share of the limit", "margin", min),
     Measure("certified ε₀", "eps0", min),
     Measure("simulated settling time in s", "settling", max),
-    Measure("certified settling time in s", "settling_certified", max),
 )
 ASKED = {
     "margin": ("gate",),
     "eps0": ("epsilon",),
     "settling": ("simulate", "bounds"),
-    "settling_certified": ("bounds",),
 }
 """Which questions fill a column."""
 

@@ -3,11 +3,47 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
+
+ARM = {
+    "mass": "M",
+    "links": "M",
+    "parameters": "range of parameters",
+    "viscous": "B",
+    "dry": "dry friction",
+    "gravity": "g",
+    "potential": "potential",
+    "fall": "free fall",
+}
+"""What fields of these names say of which arm a statement is about; links stand for M."""
+
+
+def arm_of(statement: Any) -> Iterator[tuple[str, object]]:
+    """Which arm a statement is about, as data by name.
+
+    g is only what has an entry for each of two or more joints: one torque, and a Hessian, are called so too.
+    """
+    if isinstance(statement, AllOf):
+        for _, part in statement.parts:
+            yield from arm_of(part)
+        return
+    for field in fields(statement):
+        value, fact = getattr(statement, field.name), ARM.get(field.name)
+        if field.name in ("everywhere", "arm"):
+            yield from arm_of(value)
+        elif field.name == "joints" and isinstance(value, int):
+            yield "number of joints", value
+        elif fact == "B":
+            yield fact, tuple(b if isinstance(b, tuple) else (b, b) for b in value)
+        elif fact is not None and (fact != "g" or 1 < len(value) == statement.joints):
+            yield fact, value
+            if fact in ("M", "g"):
+                yield "number of joints", len(value)
 
 
 @dataclass(frozen=True)
@@ -19,8 +55,13 @@ class AllOf(Total):
     def require_well_formed(self) -> None:
         """Refuse what the rules should not have to look at."""
         require(len(self.parts) > 0, "parts", "none", "a conjunction needs at least one part")
-        for _, part in self.parts:
+        said: dict[str, tuple[str, object]] = {}
+        for name, part in self.parts:
             part.require_well_formed()
+            for fact, value in arm_of(part):
+                before, other = said.setdefault(fact, (name, value))
+                rule = f"has another {fact} than {before}: state what is about another arm by itself"
+                require(value == other, "part", name, rule)
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:

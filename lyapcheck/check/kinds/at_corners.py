@@ -11,8 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lyapcheck.check.kinds.inertia import MassAbove
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
-from lyapcheck.check.loop.corners import at_corners, masses_at_corners
+from lyapcheck.check.loop.corners import masses_at_corners
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
@@ -35,19 +34,3 @@ def mass_by_corners(statement: MassAbove, proof: MassAtCorners) -> Accepted:
     at = (MassAbove(mass, (), statement.low) for mass in corners)
     grades = [require_proved(one, by, "M at a corner") for one, by in zip(at, proof.each, strict=True)]
     return Accepted("proved", weakest(grades))
-
-
-@dataclass(frozen=True)
-class RateAtCorners(RateProof):
-    """Proofs of dV/dt < 0, one for each corner of the ranges, in the order of ``corners_of``."""
-
-    rule = "V decreasing at corners"
-    each: tuple[RateProof, ...]
-
-    def require_shown(self, loop: ClosedLoop) -> None:
-        """Judge each; at every state dV/dt is at most the largest of its values at the corners."""
-        corners = at_corners(loop)
-        require(len(self.each) == len(corners), "corners", len(self.each), f"must be {len(corners)}")
-        for corner, rate in zip(corners, self.each, strict=True):
-            require(corner.admissible, "gains, friction or ε₀", "", "must be positive at each corner, M = Mᵀ")
-            rate.require_shown(corner)

@@ -5,23 +5,22 @@ References: ``reyes2019family``, Property 2.6.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 
 from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.kinds.chain import OfLinks
 from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture
-from lyapcheck.check.loop import motion
-from lyapcheck.check.loop.control_points import require_points
-from lyapcheck.check.loop.head import DEGREE, DEGREE_ALONE
-from lyapcheck.check.loop.storage import hinges
+from lyapcheck.check.loop.motion import coriolis_power
+from lyapcheck.check.loop.storage import Shown, hinges, rate_of_mass
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import Accepted, rule, verify
+from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
@@ -45,63 +44,67 @@ class ChainCoriolisBelow(OfLinks, Bound):
         return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
 
     def excess(self, at: PostureWitness) -> arb:
-        """‖2 C(q, x)x‖² − (2 high ‖x‖²)²."""
+        """‖C(q, x)x‖² − (high ‖x‖²)²."""
         n = len(self.links)
         require_posture(at, n, ())
         require(len(at.x) == n and not at.y, "x", len(at.x), f"must have {n} entries, and y none")
         q, x = ([to_arb(value) for value in part] for part in (at.q, at.x))
         turns = [angle.sin() for angle in q], [angle.cos() for angle in q]
         chain, of = hinges(self.links), Algebra(to_arb)
-        torques = [
-            motion.coriolis_power(of, chain, *turns, [Fraction(int(i == k)) for k in range(n)], x)
-            for i in range(n)
-        ]
-        return dot(torques, torques) - to_arb(4 * self.high**2) * dot(x, x) ** 2
-
-
-MOST_FIRST, MOST_ALONE = 4, 5
-"""First joints, with others behind them and without."""
+        units = ([Fraction(int(i == k)) for k in range(n)] for i in range(n))
+        torques = [coriolis_power(of, chain, *turns, unit, x) for unit in units]
+        return dot(torques, torques) - to_arb(self.high**2) * dot(x, x) ** 2
 
 
 @dataclass(frozen=True)
-class MotionForms(Proof):
-    """Positive definite matrices of monomials of the motion, see :func:`motion.shows`; untrusted.
+class RateBounds(Proof):
+    """Diagonal bounds Q_j of ± ½ ∂M/∂q_j, and how their products are shared out; untrusted.
 
     Args:
-        kappa: the bound that they show, the stated one or a smaller one.
-        joints: P and Q of each joint behind the first K.
-        relations: of the products of the first K speeds, at each of the nodes of q_2, …, q_K; of which
-            degree says their number.
-        start: control points of each of the angles q_2, …, q_K to begin with.
-        halvings: the angle, counted from 0, whose step is halved next.
+        rates: Q_j of the second and each further joint, shown for ½ ∂M/∂q_j and for −½ ∂M/∂q_j.
+        crossed: s_j > 0.
+        squared: t_j > 0.
     """
 
-    rule = "forms of the motion"
-    kappa: Fraction
-    joints: tuple[tuple[motion.Gram, motion.Gram], ...]
-    relations: tuple[tuple[Fraction, ...], ...]
-    start: tuple[int, ...]
-    halvings: tuple[int, ...]
+    rule = "rates of M along the links"
+    rates: tuple[Shown, ...]
+    crossed: tuple[Fraction, ...]
+    squared: tuple[Fraction, ...]
+
+    @property
+    def reached(self) -> Fraction:
+        """The least bound that the numbers show, see :func:`by_rates`."""
+        n, rest = 1 + len(self.rates), [bound.prices for bound in self.rates]
+        Q, s = [(ZERO,) * n, *rest], (Fraction(1), *self.crossed)
+        charged = [
+            sum((s[j] * Q[j][i] for j in range(n)), half / 2) for i, half in enumerate((ZERO, *self.squared))
+        ]
+        spent = [
+            sum((row[i] * row[k] / t for row, t in zip(rest, self.squared, strict=True)), beside) / 2
+            for i, k in product(range(n), repeat=2)
+            for beside in [Q[i][k] / s[i] + Q[k][i] / s[k]]
+        ]
+        return 2 * max(*charged, *spent)
 
 
-@rule(ChainCoriolisBelow, MotionForms)
-def by_motion(statement: ChainCoriolisBelow, proof: MotionForms) -> Accepted:
-    """Soundness: 2 zᵀC(q, x)x ≤ κ(‖z‖² + ‖x‖⁴), κ ≤ high; for z along C(q, x)x, ‖z‖ = ‖x‖²."""
-    require(proof.kappa <= statement.high, "kappa", proof.kappa, f"must be at most {statement.high}")
-    if proof.kappa < statement.high:
-        # what is seen once for the smallest bound serves for all of them, see ``each_once``
-        return verify(replace(statement, high=proof.kappa), proof)
-    n, start, halvings = len(statement.links), proof.start, proof.halvings
-    first = n - len(proof.joints)
-    require(n >= 2, "links", n, "must be two or more")
-    most, least = (MOST_FIRST, DEGREE) if proof.joints else (MOST_ALONE, DEGREE_ALONE)
-    require(2 <= first <= most, "joints", len(proof.joints), f"must leave 2 to {most} joints")
-    rows = {(2 * degree + 1) ** (first - 1): degree for degree in range(least, DEGREE + 1)}
-    known = len(proof.relations) in rows
-    require(known, "relations", len(proof.relations), f"must be {' or '.join(map(str, rows))} rows")
-    degree = rows[len(proof.relations)]
-    require_points(start, halvings, degree, first - 1)
-    links = hinges(statement.links)
-    shown = motion.shows(links, proof.kappa, proof.joints, proof.relations, degree, start, halvings)
-    require(shown, "forms", "", "do not show the bound")
+@rule(ChainCoriolisBelow, RateBounds)
+def by_rates(statement: ChainCoriolisBelow, proof: RateBounds) -> Accepted:
+    """Soundness: with R_j = ½ ∂M/∂q_j, of which R_1 = 0, and |xᵀR_jz|² ≤ xᵀQ_jx zᵀQ_jz,
+
+    zᵀC(q, x)x = Σ_j (2 x_j zᵀR_jx − z_j xᵀR_jx)
+    ≤ Σ_j (s_j zᵀQ_jz + x_j² xᵀQ_jx/s_j + ½ t_j z_j² + ½ (xᵀQ_jx)²/t_j) ≤ ½ κ (‖z‖² + ‖x‖⁴):
+
+    ½ κ is above each coefficient of a z_i², and above each of an x_i² x_k². So ‖C(q, x)x‖ ≤ κ for unit z, x.
+    """
+    links, n = statement.links, len(statement.links)
+    sizes = {len(proof.rates), len(proof.crossed), len(proof.squared)}
+    require(sizes == {n - 1}, "rates", sizes, f"must be bounded for {n - 1} joints")
+    positive = all(share > 0 for share in (*proof.crossed, *proof.squared))
+    require(positive, "shares", "", "must be positive")
+    shown = all(
+        bound.holds([rate_of_mass(links, j, sign) for sign in (1, -1)], 4)
+        for j, bound in enumerate(proof.rates, 1)
+    )
+    require(shown, "forms", "", "do not show the bounds of the rates of M")
+    require(proof.reached <= statement.high, "high", statement.high, f"must be at least {proof.reached}")
     return Accepted("proved", "enclosure")

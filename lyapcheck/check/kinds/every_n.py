@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import chain
+
+from flint import fmpq_mat
 
 from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
@@ -16,6 +20,7 @@ from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.letters.entries import Entries, exact
 from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words
+from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import coordinates
 from lyapcheck.check.statement import OfTerms, Point, Proof
@@ -36,8 +41,8 @@ class EveryN(OfTerms):
     """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices (``check.letters``).
 
     ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The letters are
-    functions of time with the derivatives ``rates``, pairs (letter, derivative), and ``given`` holds; apart
-    from that they are free.
+    functions of time, over some interval, with the derivatives ``rates``, pairs (letter, derivative), and
+    ``given`` holds at all its times; apart from that they are free.
     """
 
     left: Tree
@@ -118,7 +123,7 @@ def by_words(statement: EveryN, proof: NormalForm) -> Accepted:
 
 @rule(EveryN, EntriesWitness)
 def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
-    """Soundness: exact arithmetic at one n, with the derivatives taken entry by entry."""
+    """Soundness: exact arithmetic at one n, with the derivatives taken entry by entry, within a motion."""
     require(1 <= proof.n <= MAX_SIZE, "n", proof.n, f"must be from 1 to {MAX_SIZE}")
     sides, given = at_size(statement, proof.n)
     point = coordinates(proof.point, names_of(statement, proof.n))
@@ -128,8 +133,35 @@ def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
         require_defined_at(tree, point)
     for left, right in given:
         require(exact(left, point) == exact(right, point), "point", proof.n, "breaks what is given")
+    moved_at(statement, proof.n, point)
     require(exact(sides[0], point) != exact(sides[1], point), "point", proof.n, "gives equal sides")
     return Accepted("refuted", "exact")
+
+
+def moved_at(statement: EveryN, n: int, point: Mapping[str, Fraction]) -> set[str]:
+    """The variables at one n that move, if functions of time are at the point at some instant.
+
+    Raises:
+        Refused: that is not shown, as the derivatives of what is given are not checked.
+
+    Soundness: letters without a derivative stay as they are, but for vectors solved for by a matrix that is
+        invertible there: they follow the others, whose derivatives are continuous functions (Peano).
+    """
+    require(rates_fit(statement), "rates", "", "a symmetric matrix must have a symmetric derivative")
+    entries, rated = Entries(n, statement.symmetric, dict(statement.rates)), dict(statement.rates)
+    moved, solved = set(entries.moving), Counter(known.vector for known in statement.given)
+    for known in statement.given:
+        vector: Tree = ("vec", known.vector)
+        if rated.keys() & (letters(known.equals) | {("mat", known.matrix), vector}):
+            alone = vector not in rated and solved[known.vector] == 1
+            rows = [
+                [rational(point[entry[1]]) for entry in row] for row in entries.matrix(("mat", known.matrix))
+            ]
+            follows = alone and fmpq_mat(rows).det() != 0
+            equation = f"{known.matrix}·{known.vector} = {expression_text(known.equals)}"
+            require(follows, "given", equation, "has derivatives, which entries at one instant do not meet")
+            moved |= set(entries.names(vector))
+    return moved
 
 
 def in_words(statement: EveryN) -> Tree:

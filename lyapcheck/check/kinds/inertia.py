@@ -17,7 +17,7 @@ from flint import arb
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.limits import MAX_ARM
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.field import MOST_BOXES, size_of
+from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.links import makes
 from lyapcheck.check.numbers.balls import to_arb
@@ -311,29 +311,6 @@ def by_links(statement: MassAbove, proof: Links) -> Accepted:
     require(made, "links", len(proof.links), "must be one joint and real body for each row, making this M")
     moves = all(link.about_axis > 0 for link in proof.links)
     require(moves, "links", "", "have one without energy about its own axis")
-    return Accepted("proved", "exact")
-
-
-@dataclass(frozen=True)
-class Dominance(Proof):
-    """Weights w_i > 0 with which each entry of the diagonal exceeds the others of its row: Σ_j |M_ij| w_j."""
-
-    rule = "dominant diagonal"
-    weights: tuple[Fraction, ...]
-
-
-@rule(MassAbove, Dominance)
-def by_dominance(statement: MassAbove, proof: Dominance) -> Accepted:
-    """Soundness: 2|x_i x_j| ≤ x_i² w_j/w_i + x_j² w_i/w_j, so xᵀMx ≥ Σ_i x_i² (M_ii − Σ_j |M_ij| w_j/w_i)."""
-    mass, w = statement.symmetric.mass, proof.weights
-    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
-    fits = len(w) == len(mass) and min(w) > 0
-    require(fits, "weights", len(w), f"must be {len(mass)} positive numbers")
-    for i, row in enumerate(mass):
-        mean, _ = row[i].get((), {}).get((0,) * len(mass), (Fraction(0), 0))
-        others = sum((size_of(x, ()) * by for x, by in zip(row, w, strict=True)), -abs(mean) * w[i])
-        exceeds = (mean - statement.low) * w[i] > others
-        require(exceeds, f"row {i + 1}", f"{float(others):.6g}", "is not exceeded by the diagonal")
     return Accepted("proved", "exact")
 
 

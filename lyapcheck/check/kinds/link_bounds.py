@@ -5,65 +5,20 @@ References: ``reyes2019family`` (11), (12), (15).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lyapcheck.check.kinds.inertia import MassAbove, shifted
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.boxes import Box, leaves
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
 from lyapcheck.check.loop.corners import masses_at_corners
-from lyapcheck.check.loop.error_form import SCALE, BoxForm, Row
+from lyapcheck.check.loop.error_form import SCALE, BoxForm
 from lyapcheck.check.loop.links import makes
+from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Proof
-from lyapcheck.check.verify import Accepted, rule
 
 BITS = 64
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A diagonal bound, and the storage forms that show it for the links at each corner of the ranges."""
-
-    prices: Row
-    forms: tuple[storage.Forms, ...]
-
-    def holds(self, chains: Sequence[Sequence[storage.Stage]], vectors: int) -> bool:
-        """Whether the forms show it for the costs of every chain."""
-        n, count = len(self.prices), vectors * (3 * vectors + 1) // 2
-        fits = len(self.forms) == len(chains) and all(len(stages) == n for stages in chains)
-        return fits and all(
-            len(forms) == n
-            and all(len(row) == count for row in forms)
-            and storage.shows(stages, [storage.invariant_form(row, vectors) for row in forms], self.prices)
-            for stages, forms in zip(chains, self.forms, strict=True)
-        )
-
-
-@dataclass(frozen=True)
-class EnergyBelow(Proof):
-    """Links whose M(q) is ≺ diag(u), and what shows that, of diag(u) − M(q) ≻ 0; u are its prices."""
-
-    rule = "energy along the links"
-    links: tuple[RigidLink, ...]
-    bound: Shown
-
-
-@rule(MassAbove, EnergyBelow)
-def by_energy(statement: MassAbove, proof: EnergyBelow) -> Accepted:
-    """Soundness: diag(u) less this matrix is M of the links, with xᵀMx < Σ u_i x_i² for x ≠ 0."""
-    require(statement.low == 0, "low", statement.low, "must be 0: energies give no number")
-    require(not statement.parameters, "parameters", len(statement.parameters), "must be none")
-    prices, n = proof.bound.prices, len(statement.mass)
-    require(len(prices) == n, "prices", len(prices), f"must be {n}, one a joint")
-    made = makes(proof.links, shifted(statement.mass, -1, prices, 0))
-    require(made, "links", len(proof.links), "do not make diag(u) less this matrix")
-    held = proof.bound.holds([storage.energy(proof.links, 1)], 2)
-    require(held, "forms", "", "do not show that the energy is below that of diag(u)")
-    return Accepted("proved", "enclosure")
 
 
 @dataclass(frozen=True)
@@ -91,7 +46,6 @@ class LinkBounds(RateProof):
         """Judge links, bounds and boxes one after the other."""
         n = loop.n
         require(not loop.coupling, "weights", loop.coupling, "must be none")
-        require(not loop.within, "errors", loop.within, "must not be bounded: ε is ε₀/(1 + ‖e‖)")
         require(loop.admissible, "gains, friction or ε₀", "", "must be positive, M = Mᵀ")
         masses = masses_at_corners(loop.arm.mass, loop.parameters)
         made = len(self.arms) == len(masses) and all(map(makes, self.arms, masses))

@@ -11,8 +11,7 @@ from typing import Any, Self
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass, shifted
-from lyapcheck.check.limits import LARGEST
+from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
@@ -49,13 +48,6 @@ class OfLoop(Statement):
             size = len(getattr(self, subject))
             require(size == n, subject, size, f"must be {n}, one a joint")
 
-    def require_sizes(self, *subjects: str) -> None:
-        """Refuse fields that are not one size a joint, none below 0."""
-        self.require_one_a_joint(*subjects)
-        for subject in subjects:
-            for value in getattr(self, subject):
-                require(0 <= value <= LARGEST, subject, value, f"must be from 0 to {LARGEST}")
-
     @property
     def granted(self) -> tuple[str, ...]:
         """What ties the numbers to a robot under the controller (6)."""
@@ -72,18 +64,6 @@ class OfLoop(Statement):
         """M(q) ≻ 0."""
         return MassAbove(self.mass, self.parameters, Fraction(0))
 
-    def mass_below(self, heaviest: tuple[Fraction, ...]) -> MassAbove:
-        """M(q) ≺ diag(heaviest), one a joint, as diag(heaviest) − M(q) ≻ 0."""
-        n = len(self.mass)
-        require(len(heaviest) == n, "heaviest", len(heaviest), f"must be {n}, one a joint")
-        mass = shifted(self.mass, -1, heaviest, len(self.parameters))
-        return MassAbove(mass, self.parameters, Fraction(0))
-
-    def mass_lightened(self, joint: int, inertia: Fraction) -> MassAbove:
-        """M(q) ≻ 0 less an inertia, kg·m², at one place of its diagonal, counted from 0."""
-        diagonal = tuple(-inertia if i == joint else Fraction(0) for i in range(len(self.mass)))
-        return MassAbove(shifted(self.mass, 1, diagonal, len(self.parameters)), self.parameters, Fraction(0))
-
     @classmethod
     def about(cls, loop: ClosedLoop, **rest: Any) -> Self:
         """The statement about the arm and gains of a closed loop, with the other fields of its kind."""
@@ -98,10 +78,8 @@ class OfLoop(Statement):
             **rest,
         )
 
-    def loop(
-        self, eps0: Fraction, coupling: tuple[Fraction, ...] = (), within: tuple[Fraction, ...] = ()
-    ) -> ClosedLoop:
-        """The closed loop at one ε₀; see its ``coupling`` and ``within``."""
+    def loop(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> ClosedLoop:
+        """The closed loop at one ε₀; see its ``coupling``."""
         return ClosedLoop(
             arm=Arm(self.mass, tuple(low for low, _ in self.viscous)),
             family=self.family,
@@ -112,7 +90,6 @@ class OfLoop(Statement):
             parameters=self.parameters,
             viscous=self.viscous,
             coupling=coupling,
-            within=within,
         )
 
     def gains_text(self, kv: str = ", K_v") -> str:

@@ -140,10 +140,8 @@ class CentredEvaluator(Evaluator):
             [self._placed(x, y, [(first + j, s)]) * scales[j] for j, (x, y, s) in enumerate(part)]
             for part in zip(*known, strict=True)
         )
-        eps, along = self.eps0, [self.zero] * self.loop.n
-        if not self.loop.within:
-            shrink, along = self._shrink(errors, r_squared)
-            eps = eps * shrink
+        shrink, along = self._shrink(errors, r_squared)
+        eps = self.eps0 * shrink
         return Errors(r_squared, eps, [eps * c for c in self.compliance], h, dh, along)
 
     def _shrink(self, errors: Box, r_squared: arb) -> tuple[Centred, list[Centred]]:

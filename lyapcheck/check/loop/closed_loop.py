@@ -41,9 +41,6 @@ class ClosedLoop:
         parameters: the range of each parameter in M.
         viscous: the range of each diagonal entry of B, N·m·s/rad; none where B is that of the arm.
         coupling: diagonal of Λ in y = w − εΛh, dimensionless; none for (13), where Λ = I.
-        within: bounds of |e_i|, rad, where only such states are asked about, with ε = ε₀ at each of them;
-            none for all states, with ε = ε₀/(1 + ‖e‖).
-        nearby: bounds of |e_i|, rad, where only such states are asked about, with ε = ε₀/(1 + ‖e‖).
     """
 
     arm: Arm
@@ -55,8 +52,6 @@ class ClosedLoop:
     parameters: tuple[Range, ...] = ()
     viscous: tuple[Range, ...] = ()
     coupling: tuple[Fraction, ...] = ()
-    within: tuple[Fraction, ...] = ()
-    nearby: tuple[Fraction, ...] = ()
 
     @property
     def n(self) -> int:
@@ -144,16 +139,13 @@ class ClosedLoop:
 
     @cached_property
     def radius(self) -> float:
-        """A double R ≥ 0 beyond which the scalar form is enough, or no state is asked about.
+        """A double R ≥ 0 beyond which the scalar form is enough.
 
         Raises:
             ValueError: the closure is not admissible, or the radius is beyond all angles.
         """
         if not self.admissible:
             raise ValueError("a closure that is not admissible has no radius")
-        if self.within:
-            far = root_above(sum((x * x for x in self.within), Fraction(0)))
-            return math.nextafter(float(far), math.inf)
         radius = Fraction(1, 64)
         while not certifies(self.tail, self.eps0 / (1 + radius)):
             radius = radius * 5 / 4
@@ -166,12 +158,9 @@ class ClosedLoop:
         """Whether sizes and signs are such that the argument applies at all: B, K_p, K_v, K̃ ≻ 0, M = Mᵀ."""
         ranges = (*self.parameters, *self.friction)
         sizes = {self.n, len(self.kp), len(self.kv), len(self.friction), len(self.Lambda)}
-        sizes |= {len(bounds) for bounds in (self.within, self.nearby) if bounds}
         if len(sizes | {len(self.arm.mass), *map(len, self.arm.mass)}) != 1 or any(a > b for a, b in ranges):
             return False
         if min(*self.kp, *self.kv, self.eps0, *self.Lambda, *(low for low, _ in self.friction)) <= 0:
-            return False
-        if min((*self.within, *self.nearby), default=1) <= 0 or (self.within and self.nearby):
             return False
         powers = {len(p) for row in self.mass for entry in row for p in entry}
         return self.inertia.symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
@@ -183,9 +172,8 @@ class ClosedLoop:
 
     @property
     def farthest(self) -> list[float]:
-        """Doubles that |e_i| need not exceed: bounds that are asked for, and R."""
-        near = [math.nextafter(float(x), math.inf) for x in self.within or self.nearby]
-        return near if self.within else [min(self.radius, x) for x in near] or [self.radius] * self.n
+        """Doubles that |e_i| need not exceed: R, for each joint."""
+        return [self.radius] * self.n
 
     @property
     def start(self) -> Box:
@@ -207,7 +195,7 @@ def root_above(value: Fraction) -> Fraction:
 class RateProof(Proof, ABC):
     """A proof that dV/dt < 0 at every state asked about, but the origin, of an admissible loop with M ≻ 0.
 
-    It must hold for every diagonal D with entries from 0 to L in place of h(w_i)/w_i, for ``decay.speeds``.
+    It must hold for every diagonal D with entries from 0 to L in place of h(w_i)/w_i: see ``LargerKv``.
     """
 
     @abstractmethod

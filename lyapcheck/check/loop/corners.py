@@ -10,14 +10,11 @@ References: ``reyes2019family`` (11), (15).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from math import prod
 
 from lyapcheck.check.limits import MOST_CORNERS
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials
 
@@ -55,15 +52,3 @@ def masses_at_corners(mass: Mass, parameters: Sequence[Ends]) -> tuple[Mass, ...
         tuple(tuple(at_parameters(entry, 2 * len(mass), corner) for entry in row) for row in mass)
         for corner in corners_of(parameters)
     )
-
-
-def at_corners(loop: ClosedLoop) -> tuple[ClosedLoop, ...]:
-    """The loop at each corner; by itself where it has no parameters.
-
-    Raises:
-        Refused: as `masses_at_corners`.
-    """
-    if not loop.parameters:
-        return (loop,)
-    masses = masses_at_corners(loop.arm.mass, loop.parameters)
-    return tuple(replace(loop, arm=Arm(mass, loop.arm.viscous), parameters=()) for mass in masses)

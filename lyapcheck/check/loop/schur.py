@@ -82,10 +82,8 @@ class Evaluator:
 
     def _errors(self, errors: Box) -> Errors:
         r_squared = sum((self.square(side) for side in errors), arb(0))
-        # where ε = ε₀ nothing is along ê: dε/dt = 0
-        local = bool(self.loop.within)
-        shrink = self.zero if local else self.of.value(inverse_one_plus_root(r_squared))
-        eps = self.eps0 if local else self.eps0 * shrink
+        shrink = self.of.value(inverse_one_plus_root(r_squared))
+        eps = self.eps0 * shrink
         return Errors(
             r_squared,
             eps,

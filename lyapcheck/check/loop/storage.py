@@ -205,6 +205,25 @@ def shows(stages: Sequence[Stage], forms: Sequence[fmpq_mat], prices: Sequence[F
         return all(BALLS.positive_definite(_balls(form)) for form in slacks)
 
 
+@dataclass(frozen=True)
+class Shown:
+    """A diagonal bound diag(κ_1, …, κ_n), and for each of some chains the forms that show it; untrusted."""
+
+    prices: tuple[Fraction, ...]
+    forms: tuple[Forms, ...]
+
+    def holds(self, chains: Sequence[Sequence[Stage]], vectors: int) -> bool:
+        """Whether the forms show it for the costs of every chain."""
+        n, count = len(self.prices), vectors * (3 * vectors + 1) // 2
+        fits = len(self.forms) == len(chains) and all(len(stages) == n for stages in chains)
+        return fits and all(
+            len(forms) == n
+            and all(len(row) == count for row in forms)
+            and shows(stages, [invariant_form(row, vectors) for row in forms], self.prices)
+            for stages, forms in zip(chains, self.forms, strict=True)
+        )
+
+
 def stored_at_base(stages: Sequence[Stage], forms: Sequence[fmpq_mat], fall: Sequence[Fraction]) -> Fraction:
     """s_1(X_1 w_0) with w_0 = (0, γ)."""
     start = stages[0].carry * _matrix([[ZERO]] * TWIST + [[x] for x in fall])

@@ -16,7 +16,7 @@ from functools import lru_cache
 from flint import arb, ctx
 
 from lyapcheck.check.numbers.constants import dh_value, gamma_value, position
-from lyapcheck.check.numbers.critical import peak_of_h, peak_of_secant, peaks_of_d2h, peaks_of_dh, power
+from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_d2h, peaks_of_dh, power
 from lyapcheck.check.numbers.enclosure import ball_of
 
 Extremes = tuple[tuple[arb, arb], ...]
@@ -62,11 +62,6 @@ def bends(m: int) -> tuple[arb, ...]:
 def potential(m: int, x: arb) -> arb:
     """U_m(x) = ln(1 + sinh^(2m)x) / (2m)."""
     return even_range(lambda a: _potential(m, a), (), x)
-
-
-def secant(m: int, x: arb) -> arb:
-    """h_m(x)/x, and h_m'(0) at x = 0."""
-    return even_range(lambda a: _secant(m, a), _extremes_of_secant(m, ctx.prec), x)
 
 
 def even_range(value: Callable[[arb], arb], extremes: Extremes, x: arb) -> arb:
@@ -152,10 +147,6 @@ def _potential(m: int, a: arb) -> arb:
     return power(a.sinh(), 2 * m).log1p() / (2 * m)
 
 
-def _secant(m: int, a: arb) -> arb:
-    return _dh(m, a) if a == 0 else _h(m, a) / a
-
-
 def _far(a: arb) -> tuple[arb, arb]:
     """coth a and 1/sinh a from e^(-a), which no a > 0 overflows."""
     t = (-a).exp()
@@ -181,11 +172,3 @@ def _extremes_of_dh(m: int, bits: int) -> Extremes:
 @lru_cache(maxsize=256)
 def _extremes_of_d2h(m: int, bits: int) -> Extremes:
     return tuple((x, _d2h(m, x)) for x in map(position, peaks_of_d2h(m)))
-
-
-@lru_cache(maxsize=256)
-def _extremes_of_secant(m: int, bits: int) -> Extremes:
-    if m == 1:
-        return ()
-    x = peak_of_secant(m)
-    return ((x, dh_value(m, x.sinh() ** 2)),)

@@ -33,7 +33,6 @@ class Member:
         h: contains h over a ball, dimensionless.
         dh: contains h' over a ball.
         potential: contains U over a ball, U' = h, U(0) = 0.
-        secant: contains h(x)/x over a ball, h'(0) at x = 0.
         gamma: at least sup h.
         rho: at least sup |h'|.
         L: at least sup h(x)/x.
@@ -44,7 +43,6 @@ class Member:
     h: Callable[[arb], arb]
     dh: Callable[[arb], arb]
     potential: Callable[[arb], arb]
-    secant: Callable[[arb], arb]
     gamma: Fraction
     rho: Fraction
     L: Fraction

@@ -15,6 +15,7 @@ from lyapcheck.check.kinds.every_n import (
     EveryN,
     at_size,
     in_words,
+    moved_at,
     names_of,
     rates_fit,
 )
@@ -45,17 +46,19 @@ def find_every_n(statement: EveryN) -> SearchResult:
         return still_open(f"{refusal}; correct the statement", METHOD)
     except Unsupported as problem:
         return still_open(f"{problem}; write both sides in sums, products and quotients", METHOD)
+    seen = "no entries for n = 1, 2, 3 tell the sides apart"
     for n, point in _attempts(statement):
         try:
             result = _difference(statement, n, point)
+            moved_at(statement, n, point)
+        except Refused as refusal:
+            seen = str(refusal)
+            continue
         except (Unsupported, ZeroDivisionError):
             continue
         if result is not None:
             return result
-    return still_open(
-        "the normal forms differ, but no entries for n = 1, 2, 3 tell the sides apart; compare by hand",
-        METHOD,
-    )
+    return still_open(f"the normal forms differ, but {seen}; compare by hand", METHOD)
 
 
 def _proved(statement: EveryN) -> SearchResult:

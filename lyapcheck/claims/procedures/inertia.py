@@ -26,7 +26,6 @@ from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.statement import Proof
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, between, broken, entries, failing, shown, still_open
-from lyapcheck.constants.products import products_below
 from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.search.inertia import mass_proof
 
@@ -52,27 +51,16 @@ def find_upper(statement: MassBelow | CoriolisBelow) -> SearchResult:
 
 
 def _found(statement: OfArm, quick: list[Proof], advice: str) -> SearchResult:
-    """Control points and boxes come last: where the statement is false boxes end only with their budget."""
+    """Boxes come last: where the statement is false they end only with their budget."""
     for proof in quick:
         if proves(statement, proof):
             return shown(proof, f"{METHOD}: {proof.rule}")
     for against in _postures(statement):
         if refutes(statement, against):
             return broken(against, f"{METHOD}: a posture", _witness(statement, against))
-    for proof in _last(statement):
-        if proves(statement, proof):
-            return shown(proof, f"{METHOD}: {proof.rule}")
+    if len(statement.mass) <= MOST_BOXES_JOINTS and proves(statement, Bisection()):
+        return shown(Bisection(), f"{METHOD}: {Bisection.rule}")
     return still_open(f"it is not shown, and no posture breaks it; {advice}", METHOD)
-
-
-def _last(statement: OfArm) -> Iterator[Proof]:
-    """What takes long: control points, boxes."""
-    if isinstance(statement, CoriolisBelow) and not statement.parameters:
-        products = products_below(statement.symmetric, statement.high)
-        if products is not None:
-            yield products
-    if len(statement.mass) <= MOST_BOXES_JOINTS:
-        yield Bisection()
 
 
 def _postures(statement: OfArm) -> Iterator[PostureWitness]:

@@ -28,6 +28,7 @@ from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures.search import BITS, point_of
 from lyapcheck.claims.registry import procedure
 from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
@@ -103,7 +104,7 @@ def _against(statement: BoundEveryN) -> SearchResult | None:
     for n, point, sign in chain(
         drawn_entries(statement, TRIES), drawn_entries(statement, TRIES_OF_ONE, (1,))
     ):
-        if sign < 0:
+        if sign < 0 and _stands(statement, EntriesWitness(n, point_of(point))):
             left, right = at_size(statement, n)[0]
             balls = {name: ball_of(x) for name, x in point.items()}
             with ctx.workprec(BITS):
@@ -112,6 +113,14 @@ def _against(statement: BoundEveryN) -> SearchResult | None:
             proof = EntriesWitness(n, point_of(point))
             return broken(proof, f"{METHOD}: entries that break the bound", witness)
     return None
+
+
+def _stands(statement: BoundEveryN, proof: EntriesWitness) -> bool:
+    """Whether functions of time are at the entries; see ``every_n.moved_at``."""
+    try:
+        return verify(statement, proof).verdict == "refuted"
+    except Refused:
+        return False
 
 
 def _chosen(options: list[list[Option]], spare: Sizes) -> Iterator[Choice]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lyapcheck._types import Progress
 from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.complaints import Complaints
-from lyapcheck.cli.options import add_certificates, add_format, add_no_store, add_robot, add_vary, varies
+from lyapcheck.cli.options import add_certificates, add_format, add_robot, add_vary, varies
 from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
@@ -17,6 +17,8 @@ from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from lyapcheck.answers.bounds.compare import BoundsComparison
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainSet
@@ -37,16 +39,11 @@ def arguments(parser: Parser) -> None:
     parser.add_argument(
         "--start", metavar="ANGLES", help="Initial joint angles in degrees; all 0 if missing."
     )
-    parser.add_number("--delta", float, "The error to come below, in degrees.", default=1.0)
-    about = "Bounds in N·m of torques of any sign, one a joint: 0.1,0.1,0.05."
-    parser.add_argument("--disturbance", metavar="TORQUES", help=about)
+    parser.add_number("--delta", float, "The error that the simulated time is for, in degrees.", default=1.0)
     about = "Bounds in N·m of dry friction, one a joint; those of the arm if missing."
     parser.add_argument("--friction", metavar="TORQUES", help=about)
-    parser.add_number("--time", float, "Duration of the simulated runs in s.", default=5.0)
-    parser.add_number("--max-boxes", int, "Budget of boxes for each attempt.", default=60_000, least=1)
-    parser.add_number("--jobs", int, "Processes for checking the boxes.", default=2, least=1, most=64)
+    parser.add_number("--time", float, "Duration of the simulated runs in s.", default=10.0)
     add_certificates(parser)
-    add_no_store(parser)
     add_format(parser)
 
 
@@ -57,27 +54,23 @@ def run(
     target: str | None,
     start: str | None,
     delta: float,
-    disturbance: str | None,
     friction: str | None,
     time: float,
-    max_boxes: int,
-    jobs: int,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
-    """How long a motion takes, and what disturbances leave of its error: certified, beside a simulation.
+    """How far from the goal dry friction lets the arm rest: proved, joint by joint, beside a simulation.
 
-    From V and a margin of dV/dt < 0: a time after which every error stays below --delta, for all postures,
-    how errors die out from then on, the errors that bounded torques and dry friction can leave, and where
-    every motion comes to rest under dry friction alone. With --vary for every arm in the ranges, beside what
-    holds at nominal numbers.
+    The proved bounds hold at every state of rest, for dry friction up to what the arm file states, or
+    --friction. Times and errors on the way are simulated only. With --vary for every arm in the ranges,
+    beside what holds without them.
 
-    Exit code 0: all bounds are certified, 2: unusable input, 3: one is not.
+    Exit code 0: each joint has a proved bound, 2: unusable input, 3: one has none.
 
     Examples:
-      lyapcheck bounds gains.toml --delta 0.5
-      lyapcheck bounds gains.toml --disturbance 0.1,0.1,0.05 --friction 0,0,0
-      lyapcheck bounds gains.toml --vary viscous=-30%..+0%
+      lyapcheck bounds gains.toml --certificates proof/
+      lyapcheck bounds gains.toml --friction 3,2,0.5
+      lyapcheck bounds gains.toml --vary coulomb=-10%..+20%
     """
     from lyapcheck.cli.task import task_of
     from lyapcheck.control.gains import arm_named_in, read_gain_file
@@ -91,14 +84,11 @@ def run(
     require_joints([gain_file], model)
     wrong = Complaints()
     angle = wrong.reading(_angle, delta) or 0.0
-    torque = wrong.reading(_torques, "--disturbance", disturbance, model) or ()
-    dry = None if friction is None else wrong.reading(_torques, "--friction", friction, model)
+    dry = None if friction is None else wrong.reading(_torques, friction, model)
     task = wrong.result(task_of, model, target, start, time)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("bounds") as advance:
-        result = _compare(
-            gain_file.gains, model, task, (angle, torque, dry), max_boxes, jobs, varied, advance
-        )
+        result = _compare(gain_file.gains, model, task, (angle, dry), varied, advance)
     if folder is not None:
         from lyapcheck.answers.bounds.certificates import certificates as certificates_of
 
@@ -106,7 +96,7 @@ def run(
     from lyapcheck.answers.bounds.answer import Comparisons
 
     show(Comparisons(tuple(result), gain_file), format)
-    whole = all(one.certified for one in result)
+    whole = all(one.proved for one in result)
     return Exit.PROVED if whole else Exit.UNDECIDED
 
 
@@ -118,30 +108,23 @@ def _angle(delta: float) -> float:
     return math.nextafter(math.radians(delta), 0.0)
 
 
-def _torques(option: str, text: str | None, model: RobotModel) -> tuple[float, ...]:
-    """Torques in N·m, one a joint and none below 0; none at all if there is no text."""
-    if text is None:
-        return ()
-    try:
-        values = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        values = ()
-    if len(values) != model.n or not all(0.0 <= value <= MOST_TORQUE for value in values):
+def _torques(text: str, model: RobotModel) -> tuple[Fraction, ...]:
+    """Torques in N·m, one a joint and none below 0."""
+    from lyapcheck.cli.decimals import parse_decimals
+
+    option = "--friction"
+    values = parse_decimals(option, text) or ()
+    if len(values) != model.n or not all(0 <= value <= MOST_TORQUE for value in values):
         rule = f"must be {model.n} torques from 0 to {MOST_TORQUE:g} N·m"
         raise argument_error(option, text, rule, f"write {option} {','.join(['0.1'] * model.n)}")
     return values
-
-
-Asked = tuple[float, tuple[float, ...], tuple[float, ...] | None]
 
 
 def _compare(
     gains: tuple[GainSet, ...],
     model: RobotModel,
     task: Task,
-    asked: Asked,
-    max_boxes: int,
-    jobs: int,
+    asked: tuple[float, tuple[Fraction, ...] | None],
     varied: tuple[RobotModel, tuple[Vary, ...]] | None,
     advance: Progress,
 ) -> list[BoundsComparison]:
@@ -154,16 +137,5 @@ def _compare(
         def report(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
             advance((done + fraction) / len(gains), f"{name}: {note}")
 
-        result.append(
-            compare(
-                gain_set,
-                model,
-                task,
-                *asked,
-                max_boxes=max_boxes,
-                jobs=jobs,
-                varied=varied,
-                on_progress=report,
-            )
-        )
+        result.append(compare(gain_set, model, task, *asked, varied=varied, on_progress=report))
     return result

@@ -27,13 +27,11 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from lyapcheck.answers.epsilon import EpsilonResult, Options, StateLimits
+    from lyapcheck.answers.epsilon import EpsilonResult, Options
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
 
-TICKS = 10**6
-"""Limits are multiples of 1/TICKS rad."""
 WITH_RANGES = 0.7
 """The share of the work that is about ranges, beside nominal numbers."""
 
@@ -62,10 +60,6 @@ def arguments(parser: Parser) -> None:
     parser.add_number("--seconds", float, about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
     parser.add_argument("--weights", action="store_true", help=about)
-    about = "°/s: also ε₀ among states with |w_i| at most that, one for all joints or one a joint."
-    parser.add_argument("--max-speed", metavar="SPEEDS", help=about)
-    about = "Degrees: also ε₀ among states with |e_i| at most that, likewise."
-    parser.add_argument("--max-error", metavar="ERRORS", help=about)
     parser.add_number("--starts", int, "Starts of each optimised search.", default=30, least=1)
     parser.add_number("--seed", int, "Seed of the sampled states.", default=20190301, least=0)
     add_certificates(parser)
@@ -85,8 +79,6 @@ def run(
     vary: list[str] | None,
     seconds: float | None,
     weights: bool,
-    max_speed: str | None,
-    max_error: str | None,
     starts: int,
     seed: int,
     certificates: Path | None,
@@ -96,14 +88,13 @@ def run(
     """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
 
     For each gain set: the end of (18), the ε₀ of norms, the largest ε₀ proved at every state, and the
-    smallest that a state refutes. With limits of speed or error both also among the states within them.
+    smallest that a state refutes.
 
     Exit code 0: each set has a certified ε₀, 2: unusable input, 3: one has none.
 
     Examples:
       lyapcheck epsilon gains.toml --m 1 --certificates proof/
       lyapcheck epsilon gains.toml --robot pelican2 --spread 5
-      lyapcheck epsilon gains.toml --max-speed 180 --max-error 60
     """
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
@@ -115,12 +106,11 @@ def run(
         model = load(name, spread=share, vary=ranged)
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
-    limits = _limits(max_speed, max_error, model.joints)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     from lyapcheck.answers.epsilon import EpsilonResults, Options
 
     options = Options(
-        max_boxes, jobs, ranges or spread is not None or bool(ranged), weights, seconds, starts, seed, limits
+        max_boxes, jobs, ranges or spread is not None or bool(ranged), weights, seconds, starts, seed
     )
     with progress("epsilon") as advance:
         results, times = _each(chosen, model, options, advance)
@@ -129,10 +119,7 @@ def run(
 
         write_certificates(folder, *map(certificates_of, results))
     show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
-    missing = any(
-        result.certified is None or (result.nearby is not None and result.nearby.certified is None)
-        for result in results
-    )
+    missing = any(result.certified is None for result in results)
     return Exit.UNDECIDED if missing else Exit.PROVED
 
 
@@ -145,34 +132,6 @@ def _share(spread: float | None) -> Fraction:
     if not 0 < spread < 100:
         raise argument_error("--spread", spread, "must be above 0 and below 100 percent", "write --spread 5")
     return Fraction(repr(spread)) / 100
-
-
-def _limits(speed: str | None, error: str | None, joints: tuple[str, ...]) -> StateLimits | None:
-    """What both options allow, in rad/s and rad, rounded up by less than 10⁻⁶."""
-    from lyapcheck.answers.epsilon import StateLimits
-
-    speeds, errors = _radians("--max-speed", speed, joints), _radians("--max-error", error, joints)
-    return StateLimits(speeds, errors) if speeds or errors else None
-
-
-def _radians(option: str, text: str | None, joints: tuple[str, ...]) -> tuple[Fraction, ...]:
-    """Degrees as exact numbers of rad that are not below."""
-    import math
-    from fractions import Fraction
-
-    from lyapcheck.check.loop.field import PI_ABOVE
-    from lyapcheck.cli.angles import MOST_DEGREES
-    from lyapcheck.cli.decimals import parse_decimals
-
-    degrees = parse_decimals(option, text) or ()
-    if len(degrees) not in (0, 1, len(joints)):
-        rule = f"has {len(degrees)} numbers, but the arm has {len(joints)} joints ({', '.join(joints)})"
-        raise argument_error(option, text, rule, f"write {option} {','.join(['90'] * len(joints))}")
-    if not all(0 < x <= MOST_DEGREES for x in degrees):
-        rule = f"must be above 0 and at most {MOST_DEGREES:g} degrees"
-        raise argument_error(option, text, rule, f"write {option} 90")
-    above = [Fraction(math.ceil(x * Fraction(PI_ABOVE) / 180 * TICKS), TICKS) for x in degrees]
-    return tuple(above * (len(joints) if len(above) == 1 else 1))
 
 
 def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
@@ -199,7 +158,7 @@ def _each(
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []
-    nominal = replace(options, ranges=False, weights=False, limits=None)
+    nominal = replace(options, ranges=False, weights=False)
     for done, gain_set in enumerate(gains):
 
         def ask(

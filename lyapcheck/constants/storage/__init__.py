@@ -13,6 +13,6 @@ the angles are gone without any box.
 References: dissipation inequalities and storage functions, willems1972dissipative.
 """
 
-from lyapcheck.constants.storage.bounds import coriolis_bound, storage_proof
+from lyapcheck.constants.storage.bounds import storage_proof
 
-__all__ = ["coriolis_bound", "storage_proof"]
+__all__ = ["storage_proof"]

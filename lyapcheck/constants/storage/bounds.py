@@ -4,22 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
 
-from lyapcheck import store
-from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
-from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.constants.storage.motion import coriolis_forms, of_five_parallel_axes, program_of
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
 from lyapcheck.constants.storage.problem import StorageProblem, energy_problem, weight_problem
 from lyapcheck.constants.storage.program import propose
+from lyapcheck.constants.storage.rates import rate_bounds
 from lyapcheck.control.judgement import proves
 from lyapcheck.robots.dynamics import Chain
 
 Bound = ChainAbove | ChainBelow | ChainGravityBelow | ChainCoriolisBelow
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
-_MARGINS_OF_CORIOLIS = (1e-5, 1e-4)
 _DIGITS = 7
 """Significant digits of a bound; coefficients are kept as the doubles that they are."""
 
@@ -29,7 +24,7 @@ class BoundWithProof:
     """A bound as a statement, and its proof."""
 
     statement: Bound
-    proof: StorageForms | NoTorque | MotionForms
+    proof: StorageForms | NoTorque | RateBounds
 
     @property
     def bound(self) -> Fraction:
@@ -41,27 +36,19 @@ class BoundWithProof:
         return with_end(self.statement, value)
 
 
-def storage_proof(
-    chain: Chain,
-    name: str,
-    still: bool = False,
-    on_progress: Progress = silent,
-) -> BoundWithProof | None:
+def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProof | None:
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
     Args:
         chain: the arm.
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
-        on_progress: receives the share of the work done, of k_c.
     """
     if name == "k_c":
-        if chain.n > 1 and not of_five_parallel_axes(chain.links):
-            program_of(chain.links, _MARGINS_OF_CORIOLIS[0]).kept_solution(on_progress)
-        shown = coriolis_proof(chain.links)
-        if shown is not None:
-            store.put(_asked(chain), str(shown.bound))
-        return shown
+        bounds = rate_bounds(chain.links)
+        if bounds is None:
+            return None
+        return _accepted(BoundWithProof(ChainCoriolisBelow(chain.links, _above(bounds.reached)), bounds))
     problem, statement = _question(chain, name)
     if still:
         return _accepted(BoundWithProof(statement, NoTorque()))
@@ -77,32 +64,6 @@ def storage_proof(
         if shown is not None:
             return shown
     return None
-
-
-@lru_cache(maxsize=2)
-def coriolis_proof(links: tuple[RigidLink, ...]) -> BoundWithProof | None:
-    """The best bound of k_c that forms show; found once, as the checker takes seconds to accept it."""
-    chain = Chain(links, (Fraction(0),) * 3)
-    for margin in _MARGINS_OF_CORIOLIS:
-        forms = coriolis_forms(chain, margin, _above)
-        if forms is not None:
-            shown = _accepted(BoundWithProof(ChainCoriolisBelow(links, forms.kappa), forms))
-            if shown is not None:
-                return shown
-    return None
-
-
-def coriolis_bound(chain: Chain) -> ChainCoriolisBelow | None:
-    """The bound of k_c that `storage_proof` finds; from the store, if there, as a proof takes long."""
-    kept = store.take(_asked(chain))
-    if isinstance(kept, str):
-        return ChainCoriolisBelow(chain.links, Fraction(kept))
-    shown = storage_proof(chain, "k_c")
-    return None if shown is None else ChainCoriolisBelow(chain.links, shown.bound)
-
-
-def _asked(chain: Chain) -> dict[str, str]:
-    return {"k_c": store.exact(chain.links)}
 
 
 def _accepted(shown: BoundWithProof) -> BoundWithProof | None:

@@ -6,7 +6,6 @@ References: ``reyes2019family`` (6), (7), (8), (12).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
@@ -38,10 +37,15 @@ class Hyperbolic(Family):
         return self.m
 
     def values(self, x: ArrayLike, form: str) -> Doubles:
-        """One of the forms, within 4 units in the last place."""
-        from lyapcheck.family.hyperbolic_drivers import on_array
+        """One of the forms; see `lyapcheck.family.hyperbolic_numeric` for how exact it is."""
+        import numpy as np
 
-        return on_array(self._member, x, methodcaller(form), odd=form == "h")
+        from lyapcheck.family.hyperbolic_numeric import hyperbolic_forms
+
+        x = np.asarray(x, dtype=float)
+        with np.errstate(all="ignore"):
+            values = getattr(hyperbolic_forms(np, self._member, x), form)
+        return np.where(np.isnan(x), x, values)
 
     def sympy(self, x: Any) -> SymbolicForms:
         """h_m, h_m', U_m as SymPy expressions."""
@@ -50,16 +54,12 @@ class Hyperbolic(Family):
         return hyperbolic_symbolic(x, self._member)
 
     def casadi(self, x: Any) -> NumericForms:
-        """The forms as CasADi SX, as accurate as the NumPy ones; large graphs, see ``casadi_smooth``."""
-        from lyapcheck.family.hyperbolic_drivers import as_graph
+        """The same expressions as CasADi SX."""
+        import casadi as ca
 
-        return as_graph(self._member, x)
+        from lyapcheck.family.hyperbolic_numeric import hyperbolic_forms
 
-    def casadi_smooth(self, x: Any) -> NumericForms:
-        """Short plain-double expressions for optimisers."""
-        from lyapcheck.family.smooth import smooth_forms
-
-        return smooth_forms(self._member, x)
+        return hyperbolic_forms(ca, self._member, x)
 
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The peak of h and those of h'; tanh has none."""

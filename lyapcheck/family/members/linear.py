@@ -60,10 +60,6 @@ class Linear(Family):
         """x²/2."""
         return x * x / 2
 
-    def ball_secant(self, x: arb) -> arb:
-        """1."""
-        return arb(1)
-
     def constants(self, digits: int = 30) -> FamilyConstants:
         """No γ; ρ = L = 1, reached everywhere and named at 0."""
         one, zero = Enclosure.exact(1), Enclosure.exact(0)

@@ -1,4 +1,4 @@
-"""Bounds of C(q, x) of random chains, beside the largest value met; forms for them, and for others."""
+"""Bounds of C(q, x) of random chains, beside the largest value met; proofs of them, and of others."""
 
 from __future__ import annotations
 
@@ -6,20 +6,19 @@ from dataclasses import replace
 from fractions import Fraction
 from random import Random
 
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, MotionForms
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.constants.storage.motion import coriolis_forms
-from lyapcheck.robots.dynamics import Chain
+from lyapcheck.constants.storage.rates import rate_bounds
 from tests.statement_fuzz.generators import FALSE, Made, generates
 from tests.statement_fuzz.generators.proposed import bent, link
 from tests.statement_fuzz.oracle.chains import largest
-from tests.statement_fuzz.proposed import ByMotion
+from tests.statement_fuzz.proposed import ByRates
 
 F = Fraction
 Links = tuple[RigidLink, ...]
 BESIDE = (F(1, 2), F(9, 10), F(99, 100), F(999, 1000), F(1001, 1000), F(101, 100), F(11, 10), F(3, 2), F(4))
 MARGIN = 1e-6
-NO_FORMS = MotionForms(F(1), (), (), (), ())
+NO_BOUNDS = RateBounds((), (), ())
 
 
 def _links(random: Random) -> Links:
@@ -40,23 +39,16 @@ def coriolis_below(random: Random) -> Made:
     return Made(ChainCoriolisBelow(links, high), "below what was met" if truth else "beside it", truth)
 
 
-@generates("ByMotion", 0.01)
-def by_motion(random: Random) -> Made:
-    """Forms for the bound that is stated, right or wrong, or the best ones, with the statement changed."""
+@generates("ByRates", 0.01)
+def by_rates(random: Random) -> Made:
+    """Rates of M for a bound that is right or wrong, or for the best one, with the statement changed."""
     links = _links(random)
-    chain = Chain(links, (F(0), F(0), F(0)))
+    found = rate_bounds(links) or NO_BOUNDS
     if random.random() < 0.5:
         high, truth = _beside(random, links)
-        found = coriolis_forms(chain, MARGIN, lambda least: high)
-        forms = bent(random, found or NO_FORMS)
-        return Made(ByMotion(ChainCoriolisBelow(links, high), forms), "forms for this bound", truth)
-    # as the proposer rounds its bound: not below what forms can show
-    found = coriolis_forms(chain, MARGIN, lambda least: F(f"{float(least) * (1 + 1e-5):.6g}"))
-    forms = found or NO_FORMS
-    statement = ChainCoriolisBelow(links, forms.kappa)
-    changed, what = _changed(random, statement)
-    kept = replace(forms, kappa=random.choice((forms.kappa, changed.high)))
-    return Made(ByMotion(changed, bent(random, kept)), what)
+        return Made(ByRates(ChainCoriolisBelow(links, high), bent(random, found)), "for this bound", truth)
+    changed, what = _changed(random, ChainCoriolisBelow(links, found.reached))
+    return Made(ByRates(changed, bent(random, found)), what)
 
 
 def _changed(random: Random, one: ChainCoriolisBelow) -> tuple[ChainCoriolisBelow, str]:

@@ -1,7 +1,7 @@
-"""Proofs by corners, by links, by a larger K_v and within limits: of statements, and of what became of them.
+"""Proofs by corners, by links and by a larger K_v: of statements, and of what became of them.
 
-A statement is made at the largest ε₀ for which a proof is found, or within limits that are just right, so
-that what is a little more is false. Then statement, proof or both are changed at random.
+A statement is made at the largest ε₀ for which a proof is found, so that what is a little more is false. Then
+statement, proof or both are changed at random.
 """
 
 from __future__ import annotations
@@ -12,9 +12,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from flint import arb
-
-from lyapcheck.check.kinds.at_corners import MassAtCorners, RateAtCorners
+from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -22,11 +20,8 @@ from lyapcheck.check.kinds.decreasing import (
     PositiveAndDecreasing,
 )
 from lyapcheck.check.kinds.inertia import Bisection, Links, MassAbove
-from lyapcheck.check.kinds.nearby import DecreasingNearby, SlowerAndNearer, nearby_loop
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.corners import at_corners
-from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.branch_and_bound import certify
@@ -39,7 +34,7 @@ from tests.statement_fuzz.generators.robots import Ranges, powers, robot, size
 from tests.statement_fuzz.oracle.arm import Rows
 from tests.statement_fuzz.oracle.arms import least_eigenvalue, start
 from tests.statement_fuzz.oracle.climb import climbed
-from tests.statement_fuzz.proposed import ByCorners, ByLargerKv, ByLimits, ByLinks, ByMassAtCorners
+from tests.statement_fuzz.proposed import ByLargerKv, ByLinks, ByMassAtCorners
 
 F = Fraction
 MAX_BOXES = 300
@@ -175,25 +170,6 @@ def _boxes(one: Decreasing) -> BoxTree | None:
     return _tree(one.closed_loop)
 
 
-def _corners(one: Decreasing) -> RateAtCorners | None:
-    trees = [_tree(corner) for corner in at_corners(one.closed_loop)]
-    each = tuple(tree for tree in trees if tree is not None)
-    return RateAtCorners(each) if len(each) == len(trees) else None
-
-
-@generates("ByCorners", 0.03)
-def by_corners(random: Random) -> Made:
-    """dV/dt < 0 over a range of M, by trees at its ends."""
-    mass, parameters = _ranged(random, _arm(random))
-    affine = tuple(tuple(tuple(((*p[:-1], 1), c) for p, c in entry) for entry in row) for row in mass)
-    one, rate = _highest(_about(random, affine, parameters), _corners)
-    changed, what = _changed(random, replace(one, mass=mass))
-    ends = sum(1 + (low < high) for low, high in parameters)
-    positive = MassAtCorners((Bisection(),) * ends)
-    proof = PositiveAndDecreasing(positive, rate or RateAtCorners(()))
-    return Made(ByCorners(changed, bent(random, proof)), what)
-
-
 @generates("ByMassAtCorners", 0.005)
 def by_mass_at_corners(random: Random) -> Made:
     """M ≻ low·I over a range, by boxes at its ends."""
@@ -275,47 +251,6 @@ def by_links(random: Random) -> Made:
     positive = Links(links) if len(arms) == 1 else MassAtCorners(tuple(map(Links, arms)))
     proof = PositiveAndDecreasing(positive, rate or NO_PROOF)
     return Made(ByLinks(changed, bent(random, proof)), what)
-
-
-@generates("ByLimits", 0.03)
-def by_limits(random: Random) -> Made:
-    """dV/dt < 0 within limits of speed, of error or of both, and of motions that keep within."""
-    whole = _about(random, _arm(random), ())
-    n = len(whole.mass)
-    limits = tuple((F(random.choice((1, 2, 6)), random.choice((1, 2, 8))),) * n for _ in range(2))
-    kinds = random.choice(((True, False), (False, True), (True, True)))
-    speeds, errors = (x if asked else () for x, asked in zip(limits, kinds, strict=True))
-    known = member(whole.family, whole.m)
-    floors, lightest = (F(0),) * n, ()
-    if speeds and random.random() < 0.7:
-        floors = (_floor(known, speeds[0]) * random.choice(NEAR),) * n
-    least = _least(whole.mass, ())
-    energies = [v * v * least / 2 for v in speeds[:1]] + [
-        k * F(float(known.potential(arb(float(x))))) for k, x in zip(whole.kp, errors, strict=bool(errors))
-    ]
-    energy = min(energies) * random.choice(NEAR) if random.random() < 0.7 else None
-    if energy is not None and speeds:
-        lightest = (least * random.choice(NEAR[:3]),) * n
-    statement = DecreasingNearby(replace(whole, eps0=8 * whole.eps0), speeds, errors, energy)
-
-    def near(tried: Decreasing) -> BoxTree | None:
-        told = replace(statement, everywhere=tried)
-        return _tree(nearby_loop(told, floors)) if max(floors) < known.L else None
-
-    one, rate = _highest(statement.everywhere, near)
-    changed, what = _changed(random, one)
-    if random.random() < 0.3:
-        by, what = random.choice(FACTORS), "farther limits"
-        changed, speeds, errors = one, _stretched(speeds, by), _stretched(errors, by)
-    told = DecreasingNearby(changed, speeds, errors, energy)
-    shown = (Bisection(),) * len(lightest)
-    proof = SlowerAndNearer(Bisection(), floors, rate or NO_PROOF, lightest, shown)
-    return Made(ByLimits(told, bent(random, proof)), what)
-
-
-def _floor(known: Member, speed: Fraction) -> Fraction:
-    """h(x)/x at a speed, which is the least up to there where h is steepest at 0."""
-    return F(float(known.h(arb(float(speed))))) / speed
 
 
 def _least(mass: Rows, parameters: Ranges) -> Fraction:

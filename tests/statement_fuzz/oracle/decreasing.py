@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import isinf
 from random import Random
@@ -83,14 +83,12 @@ def _start(n: int, numbers: int) -> Any:
     return columns
 
 
-def rising(
-    statement: Any, random: Random, states: Callable[[Any, Any], States] = States
-) -> tuple[float, States]:
+def rising(statement: Any, random: Random) -> tuple[float, States]:
     """How fast V rises at most beside friction and stiffness, and the states at which it does."""
     n = len(statement.mass)
 
     def share(z: Any) -> Any:
-        at = states(z, statement)
+        at = States(z, statement)
         numbers = at.numbers()
         loop = loop_of(statement, numbers[:n], numbers[n:])
         with np.errstate(all="ignore"):
@@ -101,7 +99,7 @@ def rising(
             return rate / np.where(size > 0, size, np.inf)
 
     best, z = climbed(share, _start(n, n + len(statement.parameters)), random, SAMPLES, ROUNDS)
-    return best, states(z, statement)
+    return best, States(z, statement)
 
 
 @kinds.objections_to("Decreasing")

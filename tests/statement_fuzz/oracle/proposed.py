@@ -11,11 +11,9 @@ from tests.statement_fuzz.oracle.region import Objection
 
 
 @kinds.objections_to("ByLinks")
-@kinds.objections_to("ByCorners")
 @kinds.objections_to("ByLargerKv")
 @kinds.objections_to("ByMassAtCorners")
-@kinds.objections_to("ByLimits")
-@kinds.objections_to("ByMotion")
+@kinds.objections_to("ByRates")
 @kinds.objections_to("Altered")
 def inner(proposed: Any, random: Random) -> Objection | None:
     """Of the statement."""

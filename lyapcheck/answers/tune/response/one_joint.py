@@ -89,7 +89,7 @@ def _program(joint: Joint, family: Family, wishes: Wishes, step: float) -> tuple
     middle_e, middle_w, dt = (before_e + e) / 2, (before_w + w) / 2, time / PER_SETTLING
 
     def h(x: Any) -> Any:
-        return family.casadi_smooth(x).h
+        return family.casadi(x).h
 
     torque = kp * h(middle_e) - kv * h(middle_w)
     rows: list[tuple[Any, float, float]] = [

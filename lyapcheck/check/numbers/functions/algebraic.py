@@ -13,9 +13,7 @@ from lyapcheck.check.numbers.members import Member, require_single
 def create(m: int | None) -> Member:
     """h = x/√(1 + x²); γ = 1 in the limit, ρ = L = 1 at 0."""
     require_single("algebraic", m)
-    return Member(
-        h, dh, potential, secant, gamma=Fraction(1), rho=Fraction(1), L=Fraction(1), d2h=d2h, bends=bends
-    )
+    return Member(h, dh, potential, gamma=Fraction(1), rho=Fraction(1), L=Fraction(1), d2h=d2h, bends=bends)
 
 
 def h(x: arb) -> arb:
@@ -46,8 +44,3 @@ def _d2h(a: arb) -> arb:
 def potential(x: arb) -> arb:
     """√(1 + x²) − 1, without cancellation, rising away from 0."""
     return balls.even_range(lambda a: a * a / (1 + (1 + a * a).sqrt()), (), x)
-
-
-def secant(x: arb) -> arb:
-    """1/√(1 + x²), falling away from 0."""
-    return balls.even_range(lambda a: 1 / (1 + a * a).sqrt(), (), x)

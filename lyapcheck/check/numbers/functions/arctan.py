@@ -15,7 +15,7 @@ def create(m: int | None) -> Member:
     """h = arctan x; γ = π/2 in the limit, ρ = L = 1 at 0."""
     require_single("arctan", m)
     return Member(
-        h, dh, potential, secant, gamma=half_pi().upper, rho=Fraction(1), L=Fraction(1), d2h=d2h, bends=bends
+        h, dh, potential, gamma=half_pi().upper, rho=Fraction(1), L=Fraction(1), d2h=d2h, bends=bends
     )
 
 
@@ -47,11 +47,6 @@ def _d2h(a: arb) -> arb:
 def potential(x: arb) -> arb:
     """x arctan x − ½ ln(1 + x²), rising away from 0."""
     return balls.even_range(lambda a: a * a.atan() - (a * a).log1p() / 2, (), x)
-
-
-def secant(x: arb) -> arb:
-    """arctan(x)/x, falling away from 0."""
-    return balls.even_range(lambda a: arb(1) if a == 0 else a.atan() / a, (), x)
 
 
 def half_pi() -> Enclosure:

@@ -25,7 +25,7 @@ def create(m: int | None) -> Member:
         raise unknown("hyperbolic", m)
     result = hyperbolic_constants(m)
     bounds = result.gamma.upper, result.rho.upper, result.L.upper
-    h, dh, potential, secant = (partial(f, m) for f in (balls.h, balls.dh, balls.potential, balls.secant))
+    h, dh, potential = (partial(f, m) for f in (balls.h, balls.dh, balls.potential))
     if m > MOST:
-        return Member(h, dh, potential, secant, *bounds)
-    return Member(h, dh, potential, secant, *bounds, partial(balls.d2h, m), partial(balls.bends, m))
+        return Member(h, dh, potential, *bounds)
+    return Member(h, dh, potential, *bounds, partial(balls.d2h, m), partial(balls.bends, m))

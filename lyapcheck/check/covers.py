@@ -1,0 +1,112 @@
+"""Whether a judged statement answers the question that was asked, field by field.
+
+A sentence with a promise speaks about the question: the arm with every range, the gains, the printed number.
+The proof speaks about a statement. Both are statements of one kind; this file compares them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields
+from typing import Any
+
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Statement
+
+
+def _same(shown: Any, asked: Any) -> bool:
+    return bool(shown == asked)
+
+
+def _wider(shown: Any, asked: Any) -> bool:
+    """Each range that was asked for lies within the one that is shown."""
+    return len(shown) == len(asked) and all(
+        low <= a and b <= high for (low, high), (a, b) in zip(shown, asked, strict=True)
+    )
+
+
+def _at_least(shown: Any, asked: Any) -> bool:
+    """No number that is shown is below the one that was asked for."""
+    return _each(shown, asked, lambda a, b: a >= b)
+
+
+def _at_most(shown: Any, asked: Any) -> bool:
+    """No number that is shown is above the one that was asked for."""
+    return _each(shown, asked, lambda a, b: a <= b)
+
+
+def _each(shown: Any, asked: Any, holds: Callable[[Any, Any], bool]) -> bool:
+    """``None`` asks nothing, and shows nothing."""
+    if isinstance(asked, tuple):
+        same = isinstance(shown, tuple) and len(shown) == len(asked)
+        return same and all(_each(a, b, holds) for a, b in zip(shown, asked, strict=True))
+    return asked is None or (shown is not None and holds(shown, asked))
+
+
+Row = Callable[[Any, Any], bool]
+_ARM: dict[str, Row] = {"mass": _same, "parameters": _wider}
+_LOOP: dict[str, Row] = _ARM | {"viscous": _wider, **dict.fromkeys(("family", "m", "kp", "kv"), _same)}
+_CHAIN: dict[str, Row] = {"links": _same}
+ROWS: dict[str, dict[str, Row]] = {
+    "MassSymmetric": _ARM,
+    "MassAbove": _ARM | {"low": _at_least},
+    "MassBelow": _ARM | {"high": _at_most},
+    "CoriolisBelow": _ARM | {"high": _at_most},
+    **dict.fromkeys(
+        ("CoriolisAtRest", "RateOfMass", "RateLessTwiceCoriolis", "CoriolisTorque"), _ARM | {"printed": _same}
+    ),
+    "GravityBelow": {"joints": _same, "gravity": _same, "parameters": _wider, "high": _at_most},
+    "GravityOfPotential": {"gravity": _same, "potential": _same, "parameters": _wider},
+    "ChainIdentity": _CHAIN | {"identity": _same},
+    "ChainAbove": _CHAIN | {"low": _at_least},
+    "ChainBelow": _CHAIN | {"high": _at_most},
+    "ChainGravityBelow": _CHAIN | {"fall": _same, "joints": _same, "high": _at_most},
+    # V itself depends on ε₀, so that a proof for one ε₀ is none for a smaller one
+    "Decreasing": _LOOP | {"eps0": _same, "coupling": _same},
+    # more friction than was asked about leaves larger errors
+    "Resting": dict.fromkeys(("family", "m", "kp"), _same) | {"torque": _at_least, "errors": _at_most},
+    "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),
+}
+"""For each kind, how a field that is shown must stand to the one that was asked for.
+
+Only a kind that says *for all arms in these ranges* may have ``_wider`` here: where ranges stand in a
+hypothesis, the direction turns.
+"""
+
+
+def require_covered(shown: Statement, asked: Statement) -> None:
+    """Refuse unless what is shown implies what was asked.
+
+    Args:
+        shown: the statement that a proof shows.
+        asked: the question as a statement of the same kind, with the numbers that are printed.
+
+    Raises:
+        Refused: at the first field that differs in the wrong direction, or that has no row.
+
+    Soundness: each row of ``ROWS`` is a direction in which statements of that kind are monotone. A kind or a
+        field without a row is refused, unless both statements are equal.
+    """
+    kind = type(asked).__name__
+    require(type(shown) is type(asked), "statement", type(shown).__name__, f"was asked for as {kind}")
+    if isinstance(shown, AllOf) and isinstance(asked, AllOf):
+        _require_parts(shown, asked)
+        return
+    if shown == asked:
+        return
+    require(kind in ROWS, "statement", kind, "has no directions in which one covers another")
+    for one in fields(asked):  # type: ignore[arg-type]
+        have, want = getattr(shown, one.name), getattr(asked, one.name)
+        row = ROWS[kind].get(one.name)
+        require(row is not None, f"{kind}.{one.name}", "", "has no direction in which one covers the other")
+        assert row is not None
+        require(row(have, want), f"{kind}.{one.name}", have, f"does not cover {want}")
+
+
+def _require_parts(shown: AllOf, asked: AllOf) -> None:
+    """Each part of a conjunction covers the part of that name."""
+    names = [", ".join(name for name, _ in whole.parts) for whole in (shown, asked)]
+    require(names[0] == names[1], "parts", names[0], f"must be {names[1]}")
+    for (_, have), (_, want) in zip(shown.parts, asked.parts, strict=True):
+        require_covered(have, want)

@@ -1,0 +1,75 @@
+"""The one way to a word of proof: a question, and a judged statement that the checker lets answer it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+from typing import Protocol
+
+from lyapcheck.check.covers import require_covered
+from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.statement import Statement
+
+GUARDED = re.compile(r"\b(proved|certified|accepted|at most|at least|every|stable)\b", re.IGNORECASE)
+"""Words that only a promise may say about an arm, its gains or its motions."""
+SEEN = "seen"
+_SEEN: ContextVar[bool] = ContextVar("seen", default=False)
+
+
+class Judged(Protocol):
+    """A statement with the verdict of the checker: ``proved``, ``refuted`` or ``undecided``."""
+
+    @property
+    def statement(self) -> Statement:
+        """What was judged."""
+
+    @property
+    def shown(self) -> str:
+        """The verdict."""
+
+
+@dataclass(frozen=True)
+class Promise:
+    """A sentence may promise what is asked, since it is shown.
+
+    Args:
+        asked: the question as data: the arm with every range, the gains, the number that is printed.
+        shown: the statement that answers it, with the verdict of the checker.
+
+    Raises:
+        Refused: the statement is not proved, or it does not answer the question.
+
+    Soundness: ``shown`` is the outcome of ``lyapcheck.check.verify``; ``lyapcheck.check.covers`` compares.
+    """
+
+    asked: Statement
+    shown: Judged
+
+    def __post_init__(self) -> None:
+        require(self.shown.shown == "proved", "verdict", self.shown.shown, "must be proved")
+        require_covered(self.shown.statement, self.asked)
+
+    def says(self, words: str) -> str:
+        """Words of proof about what was asked; the only place that may write them."""
+        return GUARDED.sub(SEEN, words) if _SEEN.get() else words
+
+
+def promised(asked: Statement, shown: Judged) -> tuple[Promise | None, str]:
+    """A promise, or why there is none: the statement is open, or about something else."""
+    try:
+        return Promise(asked, shown), ""
+    except Refused as refused:
+        return None, f"what is proved does not answer the question ({refused})"
+
+
+@contextmanager
+def promises_as_seen() -> Iterator[None]:
+    """Have promises say *seen*, so that a test finds every other way to a word of proof."""
+    token = _SEEN.set(True)
+    try:
+        yield
+    finally:
+        _SEEN.reset(token)

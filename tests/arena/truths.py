@@ -1,0 +1,579 @@
+"""True statements with proofs against what is left of them without one hypothesis; parts about other arms.
+
+    python -m tests.arena.truths
+
+adds them to the arena as it stands, and some certificates that must be accepted. ``CASES`` has for each rule
+that refutes statements of which each hypothesis in turn is necessary: a rule that forgets the hypothesis
+would refute what is true.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction as F
+from importlib.metadata import version
+
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.agrees import Agrees, OutsideRounding
+from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
+from lyapcheck.check.kinds.at_corners import MassAtCorners
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, OwnMoments
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+from lyapcheck.check.kinds.chain_identity import ByDefinition, ChainIdentity
+from lyapcheck.check.kinds.compared import MovingPosture, SameHarmonics
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.coriolis import CoriolisAtRest, CoriolisTorque, MassSymmetric
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, StateWitness
+from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
+from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.for_small import ForSmall, SmallWitness
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.inertia import (
+    Bisection,
+    HarmonicSizes,
+    Links,
+    MassAbove,
+    MassBelow,
+    PostureWitness,
+)
+from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.resting import Resting, RestWitness
+from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound, TrigonometricPositive
+from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
+from lyapcheck.check.verify import verify, weakest
+from tests.arena.extra import (
+    AT,
+    COSINE,
+    EPS,
+    LINKS,
+    MASS,
+    MINUS,
+    RANGING,
+    RATES,
+    RESTING,
+    SINE,
+    SPLIT,
+    STILL,
+    SYMBOLS,
+    UNIT,
+    A,
+    S,
+    T,
+    X,
+    Y,
+    Z,
+    decreasing,
+    num,
+    vector,
+)
+from tests.arena.library import Added
+from tests.arena.plant import ARENA
+
+Case = tuple[Statement, Statement, Proof]
+"""True; without one hypothesis; and what refutes only the latter."""
+
+
+def at(**point: F | int) -> tuple[tuple[str, F], ...]:
+    return tuple((name, F(value)) for name, value in point.items())
+
+
+def entries(n: int = 1, **point: F | int) -> EntriesWitness:
+    """Entries for one n; ``x`` for n = 1 stands for x[1], ``A`` for A[1,1], numbers are in ``NUMBERS``."""
+    if n > 1:
+        return EntriesWitness(n, tuple((name.replace("_", ","), F(x)) for name, x in point.items()))
+    ends = {name: "" if name in NUMBERS else "[1,1]" if name.isupper() else "[1]" for name in point}
+    return EntriesWitness(1, tuple((name + ends[name], F(x)) for name, x in point.items()))
+
+
+NUMBERS = ("s", "t")
+ZERO = num(0)
+NO_VALUE: Tree = ("pow", ("sqrt", num(-1)), 0)
+"""A power without a value, as its base has none."""
+B, P, Q, W = ("mat", "B"), *(("vec", name) for name in "pqw")
+C, V = ("mat", "C"), ("vec", "x")
+NOWHERE: Tree = ("sum",)
+
+
+def form(x: Tree, matrix: Tree, y: Tree) -> Tree:
+    return ("dot", x, ("apply", matrix, y))
+
+
+def less(left: Tree, operator: str, right: Tree) -> Relation:
+    return Relation(left, operator, right)
+
+
+def bound(left: Tree, right: Tree, **known: object) -> BoundEveryN:
+    """With nothing known beside what is said."""
+    nothing = {"symmetric": (), "rates": (), "given": (), "norms": (), "least": ()}
+    return BoundEveryN(left, right, **(nothing | known))  # type: ignore[arg-type]
+
+
+def on_points() -> dict[str, Case]:
+    """Relations, at points."""
+    square, real, above = ("mul", X, X), Variable("x"), Variable("x", F(0))
+    positive, y_too = less(ZERO, "<=", X), less(ZERO, "<=", ("var", "y"))
+    product, both = ("mul", X, ("var", "y")), (Variable("x"), Variable("y"))
+    either = Implies(both, (positive, y_too), less(ZERO, "<=", product))
+    inside = ForAll(less(X, "<=", num(1)), F(-1), F(1))
+    half = ("div", X, ("add", num(1), square))
+    zero_inside = ForAll(less(ZERO, "<", X), F(0), F(1))
+    one_inside = ForAll(less(X, "<", num(1)), F(0), F(1))
+    root = ("sqrt", square)
+    return {
+        "low": (ForAll(positive, F(0)), ForAll(positive), Witness(at(x=-1))),
+        "high": (inside, replace(inside, high=F(2)), Witness(at(x=2))),
+        "open low": (replace(zero_inside, open_low=True), zero_inside, Witness(at(x=0))),
+        "open high": (replace(one_inside, open_high=True), one_inside, Witness(at(x=1))),
+        "equality": (ForAll(less(ZERO, "<=", square)), ForAll(less(ZERO, "<", square)), Witness(at(x=0))),
+        "a value": (
+            ForAll(less(("pow", ("sqrt", X), 0), "<=", num("1/2")), F(-2), F(-1)),
+            ForAll(less(("pow", ("abs", X), 0), "<=", num("1/2")), F(-2), F(-1)),
+            Witness(at(x=-1)),
+        ),
+        "a positive variable": (Identity(root, X, (above,)), Identity(root, X), Witness(at(x=-1))),
+        "a variable that is not 0": (
+            Implies((above,), (), less(ZERO, "<", X)),
+            Implies((replace(above, strict=False),), (), less(ZERO, "<", X)),
+            Witness(at(x=0)),
+        ),
+        "a hypothesis": (
+            Implies((real,), (less(num(1), "<=", X),), less(num(1), "<=", square)),
+            Implies((real,), (), less(num(1), "<=", square)),
+            Witness(at(x=0)),
+        ),
+        "a strict hypothesis": (
+            Implies((real,), (less(ZERO, "<", X),), less(ZERO, "<", square)),
+            Implies((real,), (positive,), less(ZERO, "<", square)),
+            Witness(at(x=0)),
+        ),
+        "one hypothesis": (either, replace(either, hypotheses=(y_too,)), Witness(at(x=-1, y=1))),
+        "the other hypothesis": (either, replace(either, hypotheses=(positive,)), Witness(at(x=1, y=-1))),
+        "the size of x": (NormBound(X, 1, num(1), 1), NormBound(X, 1, num(1), 0), Witness(at(x1=2))),
+        "the number of entries": (
+            NormBound(half, 1, num("1/2")),
+            NormBound(half, 2, num("1/2")),
+            Witness(at(x1=1, x2=1)),
+        ),
+        "equal numbers": (
+            Constant(less(num(1), "<=", num(1))),
+            Constant(less(num(1), "<", num(1))),
+            ExactNumbers(),
+        ),
+        "a number that has a value": (
+            Constant(less(("mul", ZERO, NO_VALUE), "<", ZERO)),
+            Constant(less(("mul", ZERO, ("sqrt", num(2))), "<", ZERO)),
+            ExactNumbers(),
+        ),
+        "a value in balls": (
+            Constant(less(NO_VALUE, "<", num("1/2"))),
+            Constant(less(("pow", ("sqrt", num(2)), 0), "<", num("1/2"))),
+            SeparateBalls(128),
+        ),
+        "nearly equal numbers": (
+            Constant(less(("sqrt", num(2)), "<", ("add", ("sqrt", num(2)), num(F(1, 10**30))))),
+            Constant(less(("sqrt", num(2)), "<", ("add", ("sqrt", num(2)), num(F(-1, 10))))),
+            SeparateBalls(32),
+        ),
+    }
+
+
+def on_entries() -> dict[str, Case]:
+    """Identities and bounds for every n, at entries."""
+    turned = EveryN(form(Z, A, Y), form(Y, A, Z))
+    loose = entries(2, **{"A[1_1]": 1, "A[1_2]": 2, "A[2_1]": 3, "A[2_2]": 1})
+    loose = replace(loose, point=(*loose.point, *at(**{"y[1]": 1, "y[2]": 2, "z[1]": 3, "z[2]": 1})))
+    solved = EveryN(form(Y, A, V), ("dot", Y, Z), given=(Given("A", "x", Z),))
+    still = EveryN(form(Z, A, Y), ZERO, rates=((V, Y), (A, NOWHERE)), given=(Given("A", "x", NOWHERE),))
+    one = entries(A=0, x=1, y=1, z=1)
+    one = replace(one, point=tuple((k, F(0) if k == "x[1]" else F(1)) for k, _ in one.point))
+    rated = EveryN(("rate", ("mul", S, S)), ("mul", num(2), S, T), rates=((S, T),))
+    twice = EveryN(
+        ("dot", Q, W),
+        ZERO,
+        ("A", "B"),
+        ((A, NOWHERE), (B, NOWHERE), (Y, W), (Z, NOWHERE)),
+        (Given("A", "x", Y), Given("B", "x", Z), Given("A", "q", ("apply", B, P))),
+    )
+    ones = entries(A=1, B=1, p=1, q=1, w=1, x=1, y=1, z=1)
+    singular = replace(
+        twice,
+        symmetric=("A",),
+        rates=((A, NOWHERE), (Y, W)),
+        given=(Given("A", "x", Y), Given("A", "q", NOWHERE)),
+    )
+    bent = EveryN(form(Z, C, Y), form(Y, C, Z), ("A",), ((A, B), (B, C)))
+    skew = {f"B[{i},{j}]": F(1) for i in (1, 2) for j in (1, 2)}
+    skew |= {"C[1,1]": F(1), "C[1,2]": F(2), "C[2,1]": F(3), "C[2,2]": F(1)}
+    skew |= {"y[1]": F(1), "y[2]": F(2), "z[1]": F(3), "z[2]": F(1)}
+    yy, known = ("dot", Y, Y), bound(("dot", Y, Y), ("pow", S, 2), norms=(((Y,), S),))
+    least = bound(("neg", yy), ("neg", S), least=((yy, S),))
+    at_zero = bound(yy, ZERO, rates=((V, Y),), norms=(((V,), ZERO),))
+    sided = bound(("add", turned.right, ("neg", turned.left)), ZERO)
+    moved = bound(still.left, ZERO, rates=still.rates, given=still.given)
+    squared = bound(("rate", ("mul", S, S)), ("mul", num(2), S, T), rates=((S, T),))
+    faster = ((S, ("mul", num(2), T)),)
+    put = bound(("add", solved.left, ("neg", solved.right)), ZERO, given=solved.given)
+    return {
+        "symmetry": (replace(turned, symmetric=("A",)), turned, loose),
+        "what is given": (solved, replace(solved, given=()), entries(A=1, x=1, y=1, z=2)),
+        "a derivative": (rated, replace(rated, rates=faster), entries(s=1, t=1)),
+        "x of what is given moves": (still, replace(still, rates=((A, NOWHERE),)), one),
+        "all of what is given moves": (still, replace(still, rates=()), one),
+        "what is given twice": (twice, replace(twice, rates=()), ones),
+        "what is given by a singular matrix": (
+            singular,
+            replace(singular, rates=()),
+            entries(A=0, q=1, w=1, x=1, y=0),
+        ),
+        "a symmetric matrix that moves": (
+            bent,
+            replace(bent, symmetric=()),
+            EntriesWitness(2, tuple(skew.items())),
+        ),
+        "a bound of a norm": (known, replace(known, norms=()), entries(s=1, y=2)),
+        "a lower bound": (least, replace(least, least=()), entries(s=1, y=0)),
+        "a bound that is reached": (at_zero, replace(at_zero, rates=()), entries(x=0, y=1)),
+        "symmetry in a bound": (replace(sided, symmetric=("A",)), sided, loose),
+        "what is given moves, in a bound": (moved, replace(moved, rates=()), one),
+        "what is given, in a bound": (put, replace(put, given=()), entries(A=1, x=2, y=1, z=1)),
+        "a derivative in a bound": (squared, replace(squared, rates=faster), entries(s=1, t=1)),
+    }
+
+
+def on_small_values() -> dict[str, Case]:
+    """Relations for small values, of angles and between printed numbers."""
+    one, x = Variable("x"), Variable("x", F(0))
+    shown, small = less(EPS, "<", X), less(T, "<=", num(1))
+    nothing = SmallWitness((), F(1))
+    sine, twice = ("sin", X), ("mul", num(2), ("sin", X))
+    both = TrigonometricBound(((sine, F(1)), (twice, F(2))))
+    printed = Agrees(("mul", X, ("var", "y")), (("x", "1.5"), ("y", "1.500000")), "2.31")
+    as_read = Agrees(X, (("x", "1.54000"),), "1.5")
+    return {
+        "a range beside small values": (
+            ForSmall("eps", (x,), (), shown),
+            ForSmall("eps", (one,), (), shown),
+            SmallWitness(at(x=0), F(1)),
+        ),
+        "a bounded variable": (
+            ForSmall("eps", (), (), small, ("t",)),
+            ForSmall("eps", (Variable("t"),), (), small),
+            SmallWitness(at(t=2), F(1)),
+        ),
+        "a bounded variable above 0": (
+            ForSmall("eps", (), (), less(ZERO, "<", T), ("t",)),
+            ForSmall("eps", (Variable("t"),), (), less(ZERO, "<", T)),
+            SmallWitness(at(t=0), F(1)),
+        ),
+        "a hypothesis on small values": (
+            ForSmall("eps", (one,), (less(ZERO, "<", X),), shown),
+            ForSmall("eps", (one,), (), shown),
+            SmallWitness(at(x=-1), F(1)),
+        ),
+        "a strict hypothesis on small values": (
+            ForSmall("eps", (one,), (less(ZERO, "<", X),), shown),
+            ForSmall("eps", (one,), (less(ZERO, "<=", X),), shown),
+            SmallWitness(at(x=0), F(1)),
+        ),
+        "small values alone": (
+            ForSmall("eps", (), (), less(EPS, "<", num("1/2"))),
+            ForSmall("eps", (), (), less(EPS, "<", num("-1/2"))),
+            nothing,
+        ),
+        "equality for small values": (
+            ForSmall("eps", (), (), less(EPS, "<=", EPS)),
+            ForSmall("eps", (), (), less(EPS, "<", EPS)),
+            nothing,
+        ),
+        "a value for small values": (
+            ForSmall("eps", (), (), less(("add", EPS, NO_VALUE), "<", num("1/2"))),
+            ForSmall("eps", (), (), less(("add", EPS, ("pow", EPS, 0)), "<", num("1/2"))),
+            nothing,
+        ),
+        "the bound of an entry": (
+            TrigonometricBound(((sine, F(1)),)),
+            TrigonometricBound(((sine, F(1, 10)),)),
+            EntryWitness(0, False, at(x=1)),
+        ),
+        "from below": (
+            TrigonometricBound(((sine, F(1)),)),
+            TrigonometricBound(((sine, F(1, 10)),)),
+            EntryWitness(0, True, at(x=-1)),
+        ),
+        "an entry without a bound": (
+            TrigonometricBound(((sine, None),)),
+            TrigonometricBound(((sine, F(1, 10)),)),
+            EntryWitness(0, False, at(x=1)),
+        ),
+        "the bound of this entry": (
+            both,
+            replace(both, entries=((sine, F(1)), (twice, F(1)))),
+            EntryWitness(1, False, at(x=1)),
+        ),
+        "what is added": (
+            TrigonometricPositive((("add", num(2), sine),)),
+            TrigonometricPositive((sine,)),
+            EntryWitness(0, True, at(x=-1)),
+        ),
+        "a bound from below": (
+            TrigonometricPositive((("add", num(2), sine),)),
+            TrigonometricPositive((("add", num(-2), sine),)),
+            EntryWitness(0, True, at(x=1)),
+        ),
+        "how one number is rounded": (
+            printed,
+            replace(printed, inputs=(("x", "1.500000"), ("y", "1.500000"))),
+            OutsideRounding(128),
+        ),
+        "how the other number is rounded": (
+            replace(printed, inputs=(("x", "1.500000"), ("y", "1.5"))),
+            replace(printed, inputs=(("x", "1.500000"), ("y", "1.500000"))),
+            OutsideRounding(128),
+        ),
+        "how the result is rounded": (as_read, replace(as_read, printed="1.50"), OutsideRounding(128)),
+    }
+
+
+def on_postures() -> dict[str, Case]:
+    """Bounds and identities of an arm, at postures."""
+    mean = (((0, 0, 1), F(1)),)  # p
+    share = (((0, 0, 0, 0, 1), F(1)),)
+    plain = (((0, 0, 0, 0, 0), F(1)),)
+    uneven = MassSymmetric(((plain, share), (plain, plain)), ((F(1), F(1)),))
+    moving = MovingPosture(AT, (), RATES)
+    pull = (((1, 0, 1), F(1)),)  # p sin q
+    swing = (((0, 0, 0), F(3)), ((0, 1, 1), F(1)))  # 3 + p cos q
+    ranged, wider = ((F(1), F(2)),), ((F(1), F(3)),)
+    mass = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1))),),)  # p + cos q
+    top, side = (F(0),), (F(11, 7),)
+    straight, fall = (F(0), F(0)), vector(1, 0, 0)
+    alone = PostureWitness(AT, (), (F(1), F(1)), (F(100), F(0)))
+    return {
+        "a parameter of M": (uneven, replace(uneven, parameters=wider), MovingPosture(AT, (F(3),), RATES)),
+        "what has no rate": (CoriolisAtRest(MASS, (), SYMBOLS), CoriolisAtRest(MASS, (), STILL), moving),
+        "both halves of C": (CoriolisTorque(MASS, (), SPLIT), CoriolisTorque(MASS, (), STILL), moving),
+        "the sign of U": (
+            GravityOfPotential((SINE,), (((0, 1), F(-1)),), ()),
+            GravityOfPotential((SINE,), COSINE, ()),
+            MovingPosture((F(1),), (), (F(0),)),
+        ),
+        "the range of M from above": (
+            MassBelow(mass, ranged, F(7, 2)),
+            MassBelow(mass, wider, F(7, 2)),
+            PostureWitness(top, (F(3),), (F(1),)),
+        ),
+        "the range of M from below": (
+            MassAbove(((mean,),), ranged, F(1, 2)),
+            MassAbove(((mean,),), ((F(0), F(2)),), F(1, 2)),
+            PostureWitness(top, (F(0),), (F(1),)),
+        ),
+        "the range of g": (
+            GravityBelow(1, (pull,), ranged, F(5, 2)),
+            GravityBelow(1, (pull,), wider, F(5, 2)),
+            PostureWitness(side, (F(3),), ()),
+        ),
+        "the range of C": (
+            CoriolisBelow(((swing,),), ranged, F(5, 4)),
+            CoriolisBelow(((swing,),), wider, F(5, 4)),
+            PostureWitness(side, (F(3),), (F(1),), (F(1),)),
+        ),
+        "the size of x beside M": (
+            MassBelow(MASS, (), F(6)),
+            MassBelow(MASS, (), F(1)),
+            PostureWitness(straight, (), (F(5), F(2))),
+        ),
+        "the sizes of x and y beside C": (
+            CoriolisBelow(MASS, (), F(5, 3)),
+            CoriolisBelow(MASS, (), F(1, 10)),
+            alone,
+        ),
+        "the least energy of links": (
+            ChainAbove(LINKS, F(0)),
+            ChainAbove(LINKS, F(1)),
+            PostureWitness(AT, (), (F(-2), F(5))),
+        ),
+        "the size of x beside links": (
+            ChainBelow(LINKS, F(6)),
+            ChainBelow(LINKS, F(5)),
+            PostureWitness(straight, (), (F(5), F(2))),
+        ),
+        "the sizes beside C of links": (
+            ChainCoriolisBelow(LINKS, F(5, 3)),
+            ChainCoriolisBelow(LINKS, F(1, 10)),
+            PostureWitness(AT, (), (F(1), F(1))),
+        ),
+        "the torque of links": (
+            ChainGravityBelow(LINKS, fall, (1,), F(3)),
+            ChainGravityBelow(LINKS, fall, (1,), F(29, 10)),
+            PostureWitness((F(8, 5), F(0)), (), ()),
+        ),
+        "the way down": (
+            ChainGravityBelow(LINKS, vector(0, 0, 1), (1,), F(0)),
+            ChainGravityBelow(LINKS, fall, (1,), F(0)),
+            PostureWitness((F(8, 5), F(0)), (), ()),
+        ),
+        "a joint that is not meant": (
+            ChainGravityBelow(LINKS, fall, (2,), F(1)),
+            ChainGravityBelow(LINKS, fall, (1, 2), F(1)),
+            PostureWitness((F(8, 5), F(0)), (), ()),
+        ),
+    }
+
+
+def on_states() -> dict[str, Case]:
+    """Statements about the closed loop, at states, and what is built of others."""
+    slow, quick = decreasing(UNIT, F(1, 10)), decreasing(UNIT, F(10))
+    moving = StateWitness((F(1),), (), (F(0),), (F(0),), (F(1),))
+    driven = replace(slow, viscous=((F(-5), F(1)),))
+    weighed = replace(slow, mass=RANGING["mass"], parameters=((F(9, 10), F(1)),))
+    heavy = replace(moving, parameters=(F(1000),), e=(F(-1),), w=(F(-3),))
+    light = PostureWitness((F(0),), (F(-1),), (F(1),))
+    lighter = ((F(-1), F(1)),)
+    everywhere = replace(weighed, parameters=lighter)
+    one = Resting(RESTING.family, RESTING.m, RESTING.kp[:1], RESTING.torque[:1], RESTING.errors[:1])
+    damped = PositiveAndDecreasing(Bisection(), BoxTree("."))
+    needed = DampingBelow(((UNIT,),), ((F(1), F(1)),), (), "tanh", None, (F(1),), (F(1),), num(1))
+    above = DampingAbove(F(1), F(1, 10), ExactNumbers(), damped)
+    true, false = (Constant(less(num(k), "<", num(1))) for k in (0, 2))
+    return {
+        "a small ε₀": (slow, quick, moving),
+        "the weights of h": (replace(quick, coupling=(F(1, 100),)), quick, moving),
+        "the friction": (slow, driven, replace(moving, viscous=(F(-5),), w=(F(3),))),
+        "a parameter of the loop": (weighed, replace(weighed, parameters=((F(9, 10), F(1000)),)), heavy),
+        "an arm with mass": (weighed, everywhere, light),
+        "the torque at rest": (one, replace(one, torque=(F(10),)), RestWitness(0, F(1))),
+        "the error at rest": (one, replace(one, errors=(F(2, 5),)), RestWitness(0, F(1, 2))),
+        "the stiffness at rest": (one, replace(one, kp=(F(2),)), RestWitness(0, F(1))),
+        "the function at rest": (one, replace(one, m=9), RestWitness(0, F(4, 5))),
+        "an error that nothing bounds": (
+            RESTING,
+            replace(RESTING, errors=(F(3, 5), F(1, 2))),
+            RestWitness(1, F(1)),
+        ),
+        "another joint at rest": (
+            RESTING,
+            replace(RESTING, torque=(F(10), F(5))),
+            RestWitness(0, F(1)),
+        ),
+        "V that falls": (replace(needed, viscous=((F(-5), F(1)),)), needed, above),
+        "M ≻ 0 where V falls": (replace(needed, mass=((MINUS,),)), needed, above),
+        "the bound of the damping": (replace(needed, bound=num(3)), needed, above),
+        "the part that is false": (
+            AllOf((("a", true), ("b", true))),
+            AllOf((("a", true), ("b", false))),
+            OnePart(1, ExactNumbers()),
+        ),
+    }
+
+
+CASES = on_points() | on_entries() | on_small_values() | on_postures() | on_states()
+
+
+Part = tuple[Statement, Proof]
+
+
+def arms() -> dict[str, tuple[Part, Part]]:
+    """Two statements about two arms, each with its proof, by what tells the arms apart."""
+    one, other = (decreasing(UNIT, F(1, 10), viscous=F(b)) for b in (1, 2))
+    damped, corners = PositiveAndDecreasing(Bisection(), BoxTree(".")), MassAtCorners((Bisection(),) * 2)
+    heavy = tuple(replace(link, mass=F(2)) for link in LINKS)
+    double = tuple(tuple(tuple((p, 2 * c) for p, c in entry) for entry in row) for row in MASS)
+    mean = ((((0, 0, 1), F(1)),),)
+    ranged = [MassAbove((mean,), ((F(1), F(high)),), F(1, 2)) for high in (2, 3)]
+    still = tuple(ChainGravityBelow(LINKS, vector(0, 0, z), (1, 2), F(0)) for z in (1, 2))
+    mass = MassAbove(MASS, (), F(0)), Links(LINKS)
+    half = (((1, 0), F(1, 2)),)
+    pulled = GravityOfPotential((SINE,), (((0, 1), F(-1)),), ()), SameHarmonics()
+    both = GravityBelow(2, (ACROSS, ()), (), F(1)), HarmonicSizes()
+    return {
+        "M": (mass, (MassBelow(double, (), F(12)), Bisection())),
+        "number of joints": (mass, (GravityBelow(1, (SINE,), (), F(1)), HarmonicSizes())),
+        "range of parameters": ((ranged[0], corners), (ranged[1], corners)),
+        "B": ((one, damped), (other, damped)),
+        "M of links": ((ChainAbove(LINKS, F(0)), OwnMoments()), (ChainAbove(heavy, F(0)), OwnMoments())),
+        "M or links": (mass, (ChainIdentity(heavy, "rate"), ByDefinition())),
+        "free fall": ((still[0], NoTorque()), (still[1], NoTorque())),
+        "g": (
+            pulled,
+            (GravityOfPotential((half,), (((0, 1), F(-1, 2)),), ()), SameHarmonics()),
+        ),
+        "potential": (
+            pulled,
+            (GravityOfPotential((SINE,), (((0, 1), F(-1)), ((0, 0), F(1))), ()), SameHarmonics()),
+        ),
+        "g of a bound": (both, (GravityBelow(2, (ACROSS, ACROSS), (), F(2)), HarmonicSizes())),
+        "M inside": (
+            (AllOf((("inner", mass[0]),)), EveryPart((mass[1],))),
+            (MassBelow(double, (), F(12)), Bisection()),
+        ),
+    }
+
+
+ACROSS = (((1, 0, 0, 0), F(1)),)
+"""sin q1 of two joints."""
+
+
+def together(*parts: Part) -> Part:
+    """All of some statements."""
+    named = tuple((f"part {k}", statement) for k, (statement, _) in enumerate(parts, 1))
+    return AllOf(named), EveryPart(tuple(proof for _, proof in parts))
+
+
+def good() -> Iterator[tuple[str, Statement, Proof]]:
+    """Refutations by what functions of time may be, and statements about one arm."""
+    motion = Given("A", "w", ("sum", Y, ("scale", num(-1), ("apply", C, Q))))
+    rates = ((A, ("sum", C, ("transpose", C))), (Q, W))
+    fall = EveryN(("rate", form(Q, A, Q)), ZERO, ("A",), rates, (motion,))
+    yield "solved", fall, entries(A=2, C=1, q=1, w=0, y=1)
+    still = EveryN(("dot", Y, V), ZERO, rates=((Q, W),), given=(Given("B", "x", NOWHERE),))
+    yield "still", still, entries(B=0, w=1, x=1, y=1)
+    inside = bound(("dot", Y, Y), ZERO, rates=((V, Y),), norms=(((V,), num(1)),))
+    yield "inside", inside, entries(x=0, y=1)
+    identity = ChainIdentity(LINKS, "rate"), ByDefinition()
+    for name, parts in {
+        "written": ((MassAbove(MASS, (), F(0)), Links(LINKS)), (MassBelow(MASS, (), F(6)), Bisection())),
+        "linked": ((ChainAbove(LINKS, F(0)), OwnMoments()), identity),
+    }.items():
+        yield f"arm-{name}", *together(*parts)
+
+
+def certified(name: str, statement: Statement, proof: Proof, verdict: str, grade: str) -> bytes:
+    about = About(name, statement.text()[:200], None, None, "truths")
+    used = {package: version(package) for package in ("lyapcheck", "python-flint")}
+    return Certificate(about, statement, verdict, grade, proof, {}, used).text().encode()
+
+
+def main() -> None:
+    """Write the files, and what is expected of them."""
+    arena = Added("tru")
+    for name, statement, proof in good():
+        accepted = verify(statement, proof)
+        content = certified(name, statement, proof, accepted.verdict, accepted.grade)
+        arena.add(f"good/{name}.tru.json", content, ["accepted"], "")
+    for name, (true, false, proof) in CASES.items():
+        content = certified(name, true, proof, "refuted", verify(false, proof).grade)
+        arena.add(f"bad/true.tru.{plain(name)}.json", content, ["refused"], f"true because of {name}")
+    for name, parts in arms().items():
+        grade = weakest(verify(*part).grade for part in parts)
+        content = certified(name, *together(*parts), "proved", grade)
+        arena.add(f"bad/arms.tru.{plain(name)}.json", content, ["refused"], f"parts about two arms: {name}")
+    arena.entries.sort(key=lambda entry: entry["path"])
+    (ARENA / "expected.json").write_text(json.dumps(arena.entries, indent=1, ensure_ascii=False) + "\n")
+
+
+def plain(name: str) -> str:
+    """A name as part of that of a file."""
+    return "-".join(word for word in name.replace("≻ 0 ", "").replace("ε₀", "eps0").replace(",", "").split())
+
+
+if __name__ == "__main__":
+    main()

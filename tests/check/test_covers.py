@@ -1,0 +1,168 @@
+"""Which judged statements answer a question: each direction of each field, turned round."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Iterator
+from dataclasses import fields, replace
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from lyapcheck.check import kinds
+from lyapcheck.check.covers import ROWS, require_covered
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.inertia import Bisection, MassAbove, MassBelow
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Statement
+from lyapcheck.check.verify import verify
+from lyapcheck.control.judgement import judged_statement
+from lyapcheck.promise import GUARDED, Promise, promised, promises_as_seen
+
+F = Fraction
+SINE, COSINE = (1, 0, 0), (0, 1, 0)
+"""Exponents of s1, c1 and one parameter."""
+MASS = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1, 2))),),)
+"""M(q) = p + ½ cos q."""
+RANGE = ((F(2), F(3)),)
+SHOWN: dict[str, Statement] = {
+    "MassAbove": MassAbove(MASS, RANGE, F(1)),
+    "MassBelow": MassBelow(MASS, RANGE, F(4)),
+    "GravityBelow": GravityBelow(1, (((SINE, F(5)),),), RANGE, F(6)),
+    "GravityOfPotential": GravityOfPotential((((SINE, F(5)),),), ((COSINE, F(-5)),), RANGE),
+    "Decreasing": Decreasing(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), F(1, 10), ()),
+    "Resting": Resting("hyperbolic", 1, (F(5),), (F(1),), (F(1, 3),)),
+}
+EASIER: dict[str, Any] = {
+    "parameters": ((F(9, 4), F(11, 4)),),
+    "viscous": ((F(9, 4), F(11, 4)),),
+    "MassAbove.low": F(1, 2),
+    "MassBelow.high": F(5),
+    "GravityBelow.high": F(7),
+    "Resting.torque": (F(1, 2),),
+    "Resting.errors": (F(1, 2),),
+}
+"""Other values of a question that what is shown answers all the same."""
+HARDER: dict[str, Any] = {
+    "parameters": ((F(2), F(4)),),
+    "viscous": ((F(1), F(3)),),
+    "MassAbove.low": F(3, 2),
+    "MassBelow.high": F(3),
+    "GravityBelow.high": F(5),
+    "Resting.torque": (F(2),),
+    "Resting.errors": (F(1, 4),),
+    "mass": (((((0, 0, 1), F(1)),),),),
+    "gravity": (((SINE, F(4)),),),
+    "potential": ((COSINE, F(-4)),),
+    "joints": 2,
+    "family": "tanh",
+    "m": 2,
+    "kp": (F(6),),
+    "kv": (F(2),),
+    "eps0": F(1, 20),
+    "coupling": (F(1),),
+}
+"""Values of which nothing is shown, as the other side of each direction."""
+
+
+def of(table: dict[str, Any]) -> Iterator[tuple[Statement, Statement, str]]:
+    for kind, shown in SHOWN.items():
+        for one in fields(shown):  # type: ignore[arg-type]
+            key = f"{kind}.{one.name}" if f"{kind}.{one.name}" in table else one.name
+            if key in table:
+                yield shown, replace(shown, **{one.name: table[key]}), f"{kind}.{one.name}"  # type: ignore[type-var]
+
+
+@pytest.mark.parametrize(
+    ("shown", "asked", "field"), [*of(EASIER)], ids=lambda x: x if isinstance(x, str) else ""
+)
+def test_an_easier_question_is_answered_and_not_the_other_way_round(
+    shown: Statement, asked: Statement, field: str
+) -> None:
+    require_covered(shown, asked)
+    with pytest.raises(Refused, match=field):
+        require_covered(asked, shown)
+
+
+@pytest.mark.parametrize(
+    ("shown", "asked", "field"), [*of(HARDER)], ids=lambda x: x if isinstance(x, str) else ""
+)
+def test_a_harder_question_is_not(shown: Statement, asked: Statement, field: str) -> None:
+    with pytest.raises(Refused, match=field):
+        require_covered(shown, asked)
+
+
+def test_every_field_of_the_examples_is_tried_in_every_direction() -> None:
+    tried = {field for _, _, field in of(HARDER)}
+    assert tried == {f"{kind}.{one.name}" for kind, one_of in SHOWN.items() for one in fields(one_of)}  # type: ignore[arg-type]
+
+
+def test_every_kind_with_directions_has_one_for_each_field() -> None:
+    known: dict[str, type[Statement]] = {}
+    for module in pkgutil.iter_modules(kinds.__path__):
+        known |= vars(importlib.import_module(f"{kinds.__name__}.{module.name}"))
+    for kind, rows in ROWS.items():
+        assert set(rows) == {one.name for one in fields(known[kind])}, kind  # type: ignore[arg-type]
+
+
+def test_a_kind_without_directions_answers_itself_alone() -> None:
+    from lyapcheck.check.kinds.damping import DampingBelow
+
+    one = DampingBelow(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), ("num", "1"))
+    require_covered(one, one)
+    with pytest.raises(Refused, match="no directions"):
+        require_covered(one, replace(one, viscous=EASIER["viscous"]))
+    with pytest.raises(Refused, match="asked for as MassBelow"):
+        require_covered(SHOWN["MassAbove"], SHOWN["MassBelow"])
+
+
+def test_an_error_without_a_bound_answers_no_bound() -> None:
+    shown = replace(SHOWN["Resting"], errors=(None,))  # type: ignore[type-var]
+    require_covered(SHOWN["Resting"], shown)
+    with pytest.raises(Refused, match=r"Resting\.errors"):
+        require_covered(shown, SHOWN["Resting"])
+
+
+def test_each_part_of_a_conjunction_answers_the_part_of_its_name() -> None:
+    low, high = SHOWN["MassAbove"], SHOWN["MassBelow"]
+    both = AllOf((("low", low), ("high", high)))
+    require_covered(both, AllOf((("low", replace(low, low=F(1, 2))), ("high", high))))  # type: ignore[type-var]
+    for asked in (
+        AllOf((("low", replace(low, low=F(3, 2))), ("high", high))),  # type: ignore[type-var]
+        AllOf((("high", high), ("low", low))),
+        AllOf((("low", low),)),
+    ):
+        with pytest.raises(Refused):
+            require_covered(both, asked)
+
+
+@pytest.mark.parametrize("key", ["parameters", "MassAbove.low"])
+def test_what_covers_is_followed_by_proofs(key: str) -> None:
+    """An answer to a harder question must not be had: the checker itself refutes or leaves it open."""
+    shown = MassAbove(MASS, RANGE, F(149, 100))
+    name = key.rpartition(".")[2]
+    easier, harder = (
+        replace(shown, **{name: table[key]}) for table in (EASIER, {**HARDER, "parameters": ((F(1), F(3)),)})
+    )
+    assert verify(shown, Bisection()).verdict == verify(easier, Bisection()).verdict == "proved"
+    with pytest.raises(Refused):
+        verify(harder, Bisection())
+
+
+def test_a_promise_is_about_what_was_asked() -> None:
+    shown = judged_statement(SHOWN["MassAbove"], [Bisection()])
+    promise = Promise(replace(SHOWN["MassAbove"], low=F(1, 2)), shown)  # type: ignore[type-var]
+    assert promise.says("λmin(M) is at least 0.5, proved") == "λmin(M) is at least 0.5, proved"
+    with promises_as_seen():
+        assert not GUARDED.search(
+            promise.says("At most, at least: PROVED, certified, accepted, every, stable")
+        )
+    harder, reason = promised(replace(SHOWN["MassAbove"], low=F(3, 2)), shown)  # type: ignore[type-var]
+    assert (harder, "MassAbove.low" in reason) == (None, True)
+    undecided = judged_statement(replace(SHOWN["MassAbove"], low=F(2)), [Bisection()])  # type: ignore[type-var]
+    assert promised(undecided.statement, undecided)[0] is None

@@ -1,0 +1,252 @@
+"""k_c along a chain with a certificate: the power beside C, the bound beside boxes, what must not pass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction as F
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
+from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.motion import coriolis_power
+from lyapcheck.check.loop.storage import Shown, hinges
+from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.moving_arm import coriolis_bounded
+from lyapcheck.claims.procedures import propose
+from lyapcheck.constants import arm_constants
+from lyapcheck.constants.extreme import extreme
+from lyapcheck.constants.storage import storage_proof
+from lyapcheck.constants.storage.bounds import BoundWithProof
+from lyapcheck.robots import load
+from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.verdicts import Verdict
+from tests.helpers.committed import ROOT
+from tests.search.test_constants_storage import arm_of
+
+UNIT = ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))
+NOWHERE, AHEAD, AXIS = (F(0), F(0), F(0)), (F(1), F(0), F(0)), (F(0), F(0), F(1))
+
+
+def refused(statement: ChainCoriolisBelow, proof: Proof) -> bool:
+    try:
+        return verify(statement, proof).verdict != "proved"
+    except Refused:
+        return True
+
+
+def shown_for(name: str, folder: Path) -> tuple[ChainCoriolisBelow, RateBounds]:
+    shown = storage_proof(arm_of(name, folder).chain, "k_c")
+    assert isinstance(shown, BoundWithProof)
+    assert isinstance(shown.statement, ChainCoriolisBelow)
+    assert isinstance(shown.proof, RateBounds)
+    return shown.statement, shown.proof
+
+
+@pytest.mark.parametrize("name", ["leaning", "ur5"])
+def test_the_power_along_the_links_is_that_of_coriolis_torques(name: str, tmp_path: Path) -> None:
+    arm = arm_of(name, tmp_path)
+    q, x, z = np.random.default_rng(1).uniform(-3, 3, (3, arm.n))
+    power = coriolis_power(Algebra(float), hinges(arm.chain.links), *(np.sin(q), np.cos(q)), z, x)
+    assert power == pytest.approx(z @ NumericModel(arm).coriolis(q, x) @ x, rel=1e-10)
+
+
+@given(st.integers(2, 5), st.integers(0, 10**6))
+@settings(max_examples=60, deadline=None)
+def test_no_slopes_within_the_bounds_exceed_what_they_are_said_to_show(n: int, seed: int) -> None:
+    """zᵀC(q, x)x of random slopes ½ ∂M/∂q_j at the border of ± diag(Q_j), by its own definition."""
+    random = np.random.default_rng(seed)
+    Q = 10.0 ** random.uniform(-1, 1, (n - 1, n))
+    rates = tuple(Shown(tuple(map(F, row)), ()) for row in Q.tolist())
+    crossed, squared = (tuple(map(F, (10.0 ** random.uniform(-1, 1, n - 1)).tolist())) for _ in range(2))
+    slopes = [np.zeros((n, n))]
+    for row in Q:
+        turn = np.linalg.qr(random.normal(size=(n, n)))[0]
+        signs = turn @ np.diag(random.choice([-1.0, 1.0], n)) @ turn.T
+        slopes.append(np.sqrt(row)[:, None] * signs * np.sqrt(row))
+    half = np.array(slopes)  # of M_ij along q_k: half[k, i, j]
+    c = np.einsum("kij->ijk", half) + np.einsum("jik->ijk", half) - half
+    x = random.normal(size=(200, n))
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    torque = np.einsum("ijk,sj,sk->si", c, x, x)
+    for _ in range(20):  # uphill, to where the sizes are largest
+        z = torque / np.maximum(np.linalg.norm(torque, axis=1, keepdims=True), 1e-300)
+        x = x + np.einsum("si,ijk,sk->sj", z, c + np.swapaxes(c, 1, 2), x) / np.abs(c).max()
+        x /= np.linalg.norm(x, axis=1, keepdims=True)
+        torque = np.einsum("ijk,sj,sk->si", c, x, x)
+    reached = float(RateBounds(rates, crossed, squared).reached)
+    assert np.linalg.norm(torque, axis=1).max() <= reached * (1 + 1e-9)
+
+
+def test_two_joints_lose_less_than_a_half_and_what_shows_less_is_refused(tmp_path: Path) -> None:
+    arm = arm_of("pelican2", tmp_path)
+    statement, proof = shown_for("pelican2", tmp_path)
+    exact = arm_constants(arm, 2000, names=["k_c"])[0].enclosure
+    assert exact.upper < statement.high <= exact.lower * F(3, 2)
+    assert refused(replace(statement, high=exact.lower * F(999, 1000)), proof)
+    assert refused(replace(statement, high=proof.reached * F(999_999, 1_000_000)), proof)
+    assert not refused(replace(statement, high=statement.high * F(1001, 1000)), proof)
+    assert refused(replace(statement, links=statement.links[:1]), proof)
+    assert refused(replace(statement, links=(*statement.links, statement.links[1])), proof)
+    assert refused(replace(statement, links=(statement.links[0], heavier(statement.links[1]))), proof)
+
+
+def heavier(link: RigidLink) -> RigidLink:
+    return replace(link, mass=link.mass * 2)
+
+
+def test_three_joints_with_skew_axes(tmp_path: Path) -> None:
+    arm = arm_of("leaning", tmp_path)
+    statement, proof = shown_for("leaning", tmp_path)
+    exact = arm_constants(arm, 1000, names=["k_c"])[0].enclosure
+    assert exact.lower <= statement.high <= exact.lower * 2
+    wide = replace(statement, high=100 * statement.high)
+    assert not refused(wide, proof)
+    for changed in of_other_numbers(proof):
+        assert refused(wide, changed)
+
+
+def of_other_numbers(proof: RateBounds) -> Iterator[RateBounds]:
+    """Of each joint bounds a little too small, or of one sign alone; shares that are none; too few of all."""
+    for k, bound in enumerate(proof.rates):
+        for prices in (
+            tuple(x * F(9, 10) for x in bound.prices),
+            (*bound.prices[:-1], -bound.prices[-1]),
+            bound.prices[:-1],
+            (*bound.prices, F(1)),
+        ):
+            yield with_bound(proof, k, replace(bound, prices=prices))
+        up, down = bound.forms
+        for forms in ((up,), (), (up, down, down), (up[:-1], down)):
+            yield with_bound(proof, k, replace(bound, forms=forms))
+        yield with_bound(proof, k, proof.rates[1 - k])
+    # of the last joint what shows one sign may show the other: half a turn of it changes the sign
+    up, down = proof.rates[0].forms
+    for forms in ((up, up), (down, down), (down, up)):
+        yield with_bound(proof, 0, replace(proof.rates[0], forms=forms))
+    yield replace(proof, rates=proof.rates[:-1])
+    yield replace(proof, rates=(*proof.rates, proof.rates[-1]))
+    for name in ("crossed", "squared"):
+        first, *others = getattr(proof, name)
+        for shares in ((F(0), *others), (-first, *others), tuple(others), (first, *others, F(1))):
+            yield replace(proof, **{name: shares})
+
+
+def with_bound(proof: RateBounds, k: int, bound: Any) -> RateBounds:
+    return replace(proof, rates=(*proof.rates[:k], bound, *proof.rates[k + 1 :]))
+
+
+@pytest.mark.parametrize("joints", [2, 5])
+def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints: int, tmp_path: Path) -> None:
+    """Joints about one axis, on which all bodies have their centres of mass."""
+    links = (arm_of("pelican2", tmp_path).chain.links * 3)[:joints]
+    chain = Chain(tuple(replace(link, origin=NOWHERE, com=NOWHERE) for link in links), NOWHERE)
+    shown = storage_proof(chain, "k_c")
+    assert shown is not None
+    assert shown.bound < F(1, 500)
+
+
+def test_one_joint_has_no_coriolis_torque(tmp_path: Path) -> None:
+    links = arm_of("pelican2", tmp_path).chain.links[:1]
+    shown = storage_proof(Chain(links, NOWHERE), "k_c")
+    assert shown is not None
+    assert shown.bound == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "most"), [("px100", F(16, 10)), ("ur5", F(16, 10)), ("panda", F(2))])
+def test_the_certificate_of_published_arms_is_above_what_is_reached_and_within_twice(
+    name: str, most: F
+) -> None:
+    arm = load(str(ROOT / "examples" / f"{name}.toml"))
+    shown = storage_proof(arm.chain, "k_c")
+    assert shown is not None
+    assert extreme(arm, "k_c").value <= shown.bound <= most * extreme(arm, "k_c").value
+
+
+def test_zero_is_refuted_of_two_joints_at_a_posture_with_one_vector(tmp_path: Path) -> None:
+    links = arm_of("pelican2", tmp_path).chain.links
+    at = PostureWitness((F(0), F(1)), (), (F(1), F(1)))
+    assert verify(ChainCoriolisBelow(links, F(0)), at).verdict == "refuted"
+    assert refused(ChainCoriolisBelow(links, F(1)), at)
+    with pytest.raises(Refused, match="y none"):
+        verify(ChainCoriolisBelow(links, F(0)), replace(at, y=(F(1), F(1))))
+    with pytest.raises(Refused):
+        verify(ChainCoriolisBelow(links, F(-1)), at)
+
+
+@pytest.mark.parametrize("size", [F(1, 10), F(1), F(10)])
+def test_the_bound_that_a_posture_refutes(size: F) -> None:
+    """Two bodies at distance 1: C(q, x)x = sin q₂ (−2x₁x₂ − x₂², x₁²) has length √2 at x = (−1, 1)."""
+    nothing = (NOWHERE,) * 3
+    links = tuple(RigidLink(AXIS, origin, F(1), AHEAD, nothing, UNIT) for origin in (NOWHERE, AHEAD))
+    at = PostureWitness((F(0), F(11, 7)), (), (-size, size))
+    reached = F(707, 1000)
+    assert verify(ChainCoriolisBelow(links, reached * F(99, 100)), at).verdict == "refuted"
+    with pytest.raises(Refused):
+        verify(ChainCoriolisBelow(links, reached * F(101, 100)), at)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"mass": F(-1)},
+        {"axis": (F(0), F(0), F(2))},
+        {"turn": ((F(1), F(1), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
+        {"turn": ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(-1)))},
+        {"inertia": ((F(-1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
+    ],
+)
+def test_links_that_are_none(change: dict[str, Any]) -> None:
+    first, second = (RigidLink(AXIS, AHEAD, F(1), AHEAD, UNIT, UNIT) for _ in range(2))
+    at = PostureWitness((F(0), F(1)), (), (F(1), F(1)))
+    with pytest.raises(Refused, match="must have a unit axis, a rotation"):
+        verify(ChainCoriolisBelow((first, replace(second, **change)), F(0)), at)
+
+
+@pytest.mark.parametrize("times", [F(1), F(101, 100), F(2), F(100)])
+def test_any_larger_bound_is_proved(times: F, tmp_path: Path) -> None:
+    statement, _ = shown_for("pelican2", tmp_path)
+    larger = replace(statement, high=statement.high * times)
+    result = propose(larger)
+    assert result.proof is not None
+    assert verify(larger, result.proof).verdict == "proved"
+
+
+def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path: Path) -> None:
+    arm = arm_of("pelican2", tmp_path)
+    smaller = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c").value * F(9, 10))
+    result = propose(smaller)
+    assert result.verdict is Verdict.REFUTED
+    assert result.proof is not None
+    assert verify(smaller, result.proof).verdict == "refuted"
+
+
+def test_between_what_is_reached_and_what_is_shown_a_bound_is_open(tmp_path: Path) -> None:
+    arm = arm_of("pelican2", tmp_path)
+    between = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c").value * F(11, 10))
+    result = propose(between)
+    assert result.proof is None
+    assert "take a larger one" in result.reason
+
+
+@pytest.mark.slow
+def test_property_26_of_many_joints_has_the_bound_of_the_constant() -> None:
+    arm = load(str(ROOT / "examples" / "px100.toml"))
+    statement = coriolis_bounded(arm)
+    (constant,) = arm_constants(arm, names=["k_c"])
+    assert constant.shown is not None
+    assert type(statement) is type(constant.shown.statement)
+    assert constant.shown.bound < statement.high < F(1003, 1000) * constant.shown.bound
+    assert propose(statement).verdict is Verdict.PROVED
