@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.convex import solved
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.convex import solved
 from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.schur import SchurProblem
 

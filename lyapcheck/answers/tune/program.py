@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from lyapcheck.answers.tune.gain_range import GainRange
-from lyapcheck.search.convex import Ended, solved
+from lyapcheck.convex import Ended, solved
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import clarabel
 import cvxpy as cp
 import numpy as np
 import pytest
+from scipy import sparse
 
-from lyapcheck.search.convex import PANIC, Ended, solved
+from lyapcheck.convex import PANIC, Ended, solved, solved_cones
 
 
 class Panic(BaseException):
@@ -80,3 +82,29 @@ def test_almost_is_told_from_solved_and_both_from_failed(monkeypatch, status, va
     assert solution.ended is ended
     assert bool(solution.values) == (ended is not Ended.FAILED)
     assert bool(solution.reason) == (ended is not Ended.SOLVED)
+
+
+def least(constant, tolerance=1e-8):
+    """The least x with x ≥ 1 and x·0 ≤ constant."""
+    rows = sparse.csc_matrix(np.array([[-1.0], [0.0]]))
+    return solved_cones(np.ones(1), rows, np.array([-1.0, constant]), [1, 1], tolerance)
+
+
+def test_matrices_are_solved():
+    solution = least(1.0)
+    assert (solution.ended, solution.reason) == (Ended.SOLVED, "")
+    assert solution.values[0] == pytest.approx([1.0], abs=1e-6)
+
+
+def test_of_matrices_without_an_answer_the_last_point_is_kept_apart():
+    solution = least(-1.0)
+    assert solution.ended is Ended.FAILED
+    assert solution.reason in {"Clarabel says PrimalInfeasible", "Clarabel gives no numbers"}
+
+
+def test_what_clarabel_raises_is_a_reason(monkeypatch):
+    def fail(*_):
+        raise Panic("no luck")
+
+    monkeypatch.setattr(clarabel, "DefaultSolver", fail)
+    assert least(1.0).reason == f"{PANIC}: no luck"
