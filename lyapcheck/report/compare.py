@@ -123,6 +123,12 @@ def read_report(path: Path) -> dict[str, Any]:
         rule = f"has the schema {schema!r}, known is {SCHEMAS[0]!r}"
         repair = "write the old report again with this version"
         raise InputError(Problem(str(file), None, "--compare", "", rule, repair))
+    try:
+        compare(result, result, str(file))
+    except (LookupError, TypeError, AttributeError, ValueError) as error:
+        rule = f"has other rows than a report ({type(error).__name__}: {error})"
+        repair = "name a report.json as lyapcheck report writes it"
+        raise InputError(Problem(str(file), None, "--compare", "", rule, repair)) from error
     return dict(result)
 
 

@@ -52,7 +52,7 @@ def base_lines(folder: Path, arm: str, m: int = 1) -> dict[str, str]:
     gains, n = shlex.quote(str(gain_file(folder, arm, m))), load(arm).n
     goal = ",".join(["10"] * n)
     return {
-        "bounds": f"bounds {gains} --target={goal} --max-boxes 20 --jobs 1 --time 0.1",
+        "bounds": f"bounds {gains} --target={goal} --time 0.1",
         "check": f"check scalar.py --m {m} --only h.odd",
         "epsilon": f"epsilon {gains} --max-boxes 20 --starts 1 --jobs 1",
         "gate": f"gate {gains}",
