@@ -127,7 +127,18 @@ def at_most(value: Fraction, digits: int) -> str:
 
 def _last_unit(value: Fraction, digits: int) -> Fraction:
     """What the last of so many significant digits counts."""
-    return Fraction(10) ** ((math.floor(math.log10(value)) if value else 0) + 1 - digits)
+    return Fraction(10) ** ((_decimal_exponent(value) if value else 0) + 1 - digits)
+
+
+def _decimal_exponent(value: Fraction) -> int:
+    """The whole number e with 10^e ≤ value < 10^(e + 1), also of what no double holds."""
+    bits = value.numerator.bit_length() - value.denominator.bit_length()
+    result = math.floor(bits * math.log10(2))
+    while Fraction(10) ** (result + 1) <= value:
+        result += 1
+    while Fraction(10) ** result > value:
+        result -= 1
+    return result
 
 
 def decimal_text(value: Fraction | int, places: int | None = None) -> str:

@@ -166,7 +166,7 @@ def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option:
     [
         (["--overshoot", "5", "--damping", "1"], "--damping = 1: cannot go with targets"),
         (["--goal", "1,2,3"], "--goal = 1,2,3: has a meaning with targets only"),
-        (["--settle", "-1"], "--settle = -1: must be positive"),
+        (["--settle", "-1"], "--settle = -1: must be above 0 and at most 1e+06"),
         (["--settle", "1", "--goal", "1,2"], "write --goal 45,45,45"),
         (["--best"], "--best = True: has a meaning with targets only"),
         (["--settle", "1", "--goal", "0,0,0"], "--goal = 0,0,0: is where the motion starts"),

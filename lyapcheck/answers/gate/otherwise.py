@@ -96,7 +96,7 @@ def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, 
     loop = closed_loop_of(gains, arm, Fraction(1), ranges=ranges)
     if friction is not None:
         loop = replace(loop, viscous=friction)
-    proof, _ = norm_proof(loop, mass_proof(mass_of(arm)), conic=False)
+    proof, _ = norm_proof(loop, mass_proof(mass_of(arm)))
     if proof is None:
         return None
     result = judged_statement(proof.statement, [proof.certificate])
