@@ -101,10 +101,15 @@ def _(statement: AllOf, proof: Proof) -> str:
 
 
 @proved.register
+def _(statement: Decreasing, proof: Proof) -> str:
+    return arm_script(statement, proof)
+
+
+@proved.register
 def _(statement: GateAccepted, proof: Proof) -> str:
     stability = proof.stability if isinstance(proof, GateParts) else ()
     each = zip(statement.stability, stability, strict=True)
-    parts = [gate_script(statement, proof), *(script(part, own, "proved") for part, own in each)]
+    parts = [gate_script(statement, proof), *(proved(part, own) for part, own in each)]
     return "".join(f"split. {{ {part} }} " for part in parts[:-1]) + parts[-1]
 
 

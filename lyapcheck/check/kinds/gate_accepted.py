@@ -82,8 +82,8 @@ class GateAccepted(Total):
         limited = known in ([], ["19"]) or None not in self.limits
         require(limited, "limits", "", "must be known where a condition needs them")
         if self.gravity:
-            self.gradient.require_well_formed()
             require(len(self.gravity) == n, "gravity", len(self.gravity), f"must be {n}, one a joint")
+            self.gradient.require_well_formed()
         else:
             require(not self.potential, "potential", "", "must be empty without gravity")
         for part in self.stability:
@@ -223,10 +223,15 @@ def by_parts(statement: GateAccepted, proof: GateParts) -> Accepted:
     gamma = gamma_between(statement.family, statement.m, proof.digits)
     for name, i in statement.comparisons():
         require(statement.holds(name, i, gamma.upper), f"({name})", f"joint {i + 1}", "is not shown to hold")
+    for subject, have, want in (
+        ("gravity", proof.gravity, statement.bounds),
+        ("stability", proof.stability, statement.stability),
+    ):
+        require(len(have) == len(want), subject, len(have), f"must be one a part, {len(want)}")
+    pairs: list[tuple[Statement, Proof]] = [*zip(statement.bounds, proof.gravity, strict=True)]
+    pairs += zip(statement.stability, proof.stability, strict=True)
+    pairs += [(statement.gradient, SameHarmonics())] if statement.gravity else []
     grades = ["exact" if gamma.width == 0 or not statement.conditions else "enclosure"]
-    pairs = [*zip(statement.bounds, proof.gravity, strict=True)]
-    pairs += zip(statement.stability, proof.stability, strict=True)  # type: ignore[arg-type]
-    pairs += [(statement.gradient, SameHarmonics())] if statement.gravity else []  # type: ignore[list-item]
     grades += [require_proved(part, own, type(part).__name__) for part, own in pairs]
     return Accepted("proved", weakest(grades))
 
