@@ -12,11 +12,10 @@ from lyapcheck.compiled.writer import Writer
 from lyapcheck.lyapunov.numeric import LyapunovNumeric, formula
 
 CHOICE = re.compile(r"\(\((.+?)\) \? \(\s*(\S+)\s*\)\s*: \(\s*(\S+)\s*\)\)")
-FUNCTIONS = (
-    "from math import copysign, fabs, sqrt, sin, cos, expm1, log, log1p\nfrom numba import njit, prange"
-)
 LOOP = """
-{functions}
+from math import copysign, cos, expm1, fabs, log, log1p, sin, sqrt
+
+from numba import njit, prange
 
 @njit(fastmath=True)
 def smaller(a, b): return b if a > b else a
@@ -42,7 +41,7 @@ def numba_loop(kept: LyapunovNumeric, name: str) -> Callable[..., np.ndarray]:
     lines = [line for line in CHOICE.sub(r"(\2 if \1 else \3)", text).splitlines() if line]
     body = "\n        ".join(_python(line) for line in lines)
     made: dict[str, Any] = {"np": np}
-    exec(LOOP.format(functions=FUNCTIONS, body=body), made)
+    exec(LOOP.format(body=body), made)
     p = np.array([*kept.kp, *kept.kv, *kept.viscous, kept.eps0])
     return lambda q, e, w: made["run"](q, e, w, p)
 
