@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from lyapcheck.answers.check import ClaimResult, ProofResult
     from lyapcheck.answers.check.run import run_proof
+    from lyapcheck.answers.derive import derivation
     from lyapcheck.answers.epsilon import EpsilonResult, epsilon
     from lyapcheck.answers.explain import explain
     from lyapcheck.answers.gate import GateResult, gate
@@ -87,6 +88,7 @@ __all__ = [
     "__version__",
     "build_report",
     "build_table",
+    "derivation",
     "epsilon",
     "explain",
     "gamma_less_than",
@@ -146,6 +148,7 @@ _HOMES = {
     "Verdict": "verdicts",
     "build_report": "report.build:build",
     "build_table": "answers.table",
+    "derivation": "answers.derive",
     "epsilon": "answers.epsilon",
     "explain": "answers.explain",
     "gamma_less_than": "family.compared",

@@ -12,17 +12,49 @@ from pathlib import Path
 OFF = "LYAPCHECK_NO_COMPILER"
 """Set to 1, this environment variable keeps lyapcheck from compiling anything."""
 
+X86 = platform.machine() in ("x86_64", "AMD64")
 FLAGS = (
     "-std=gnu11",
     "-O3",
     "-march=native",
+    *(("-mprefer-vector-width=512",) if X86 else ()),
     "-fno-math-errno",
     "-fno-trapping-math",
     "-fopenmp-simd",
     "-shared",
     "-fPIC",
 )
-"""No option here lets the compiler reorder sums or forget infinities."""
+"""No option here lets the compiler reorder sums or forget infinities and NaN.
+
+-Ofast would: and linked with it, a library sets the whole process to round subnormal numbers to 0.
+"""
+FUNCTIONS = ("sin", "cos", "expm1", "log", "log1p", "atan")
+VECTORS = X86 and platform.libc_ver() >= ("glibc", "2.35")
+"""Whether the C library has each of `FUNCTIONS` for vectors; expm1 and log1p are the youngest."""
+
+
+def prelude() -> str:
+    """The functions that loops call, one declared after the other.
+
+    Where the C library has none for vectors, they are called one lane at a time. The name in quotes keeps the
+    compiler from joining sin and cos of one angle.
+    """
+    simd = ' __attribute__((const, simd("notinbranch")))' if VECTORS else ""
+    named = (
+        [f'double v_{name}(double) __asm__("{name}"){simd};' for name in FUNCTIONS]
+        if VECTORS
+        else [f"#define v_{name} {name}" for name in FUNCTIONS]
+    )
+    return "\n".join(
+        [
+            "#include <math.h>",
+            *named,
+            "/* of NaN in a, both are NaN */",
+            "static inline double smaller(double a, double b) { return a > b ? b : a; }",
+            "static inline double larger(double a, double b) { return a < b ? b : a; }",
+        ]
+    )
+
 
 PATIENCE = 120
 """Seconds after which a compiler counts as broken."""
@@ -38,7 +70,8 @@ def compiler() -> str | None:
 
 def compile_library(source: str, path: Path, command: str) -> bool:
     """Compile C source into a shared library at ``path``; whether that went well."""
-    arguments = [command, *FLAGS, "-x", "c", "-", "-o", str(path), "-lm"]
+    libraries = ["-lmvec", "-lm"] if VECTORS else ["-lm"]
+    arguments = [command, *FLAGS, "-x", "c", "-", "-o", str(path), *libraries]
     try:
         done = subprocess.run(
             arguments, input=source.encode(), capture_output=True, timeout=PATIENCE, check=False

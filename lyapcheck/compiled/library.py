@@ -1,52 +1,54 @@
-"""From C source to functions that can be called: from the cache, freshly compiled, or not at all."""
+"""From C source to functions that can be called: from the cache, freshly compiled, or not at all.
+
+A damaged library would crash the loader of the system, so that only whole ones are handed out; what is loaded
+is a private copy of the bytes that were checked.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
-import hashlib
-from functools import lru_cache
-from importlib.resources import files
+import tempfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from lyapcheck.compiled import store
-from lyapcheck.compiled.compiler import compile_library, compiler, machine
+from lyapcheck import store
+from lyapcheck.compiled.compiler import compile_library
+from lyapcheck.temporary import pending
+
+ROOM = "kernels"
 
 
-def library(source: str) -> ctypes.CDLL | None:
-    """The library of a source that builds on ``elementary.c``; none where nothing can be compiled.
+def library(key: str, command: str, source: Callable[[], str | None]) -> ctypes.CDLL | None:
+    """The library kept under a key, or what the compiler makes of its source; none where that fails.
 
-    Soundness: the name of a kept library is the SHA-256 of its source, the compiler, its options and the
-    processor, so another source or another computer never meets it.
+    Args:
+        key: the digest of all that the library depends on, compiler and processor included.
+        command: the compiler.
+        source: writes the C text; asked only where nothing is kept.
     """
-    command = compiler()
-    return (
-        None
-        if command is None
-        else _loaded(resource("elementary.c") + source, command, str(store.directory()))
-    )
-
-
-def resource(name: str) -> str:
-    """The text of a C file of this folder."""
-    return files("lyapcheck.compiled").joinpath(name).read_text(encoding="utf-8")
-
-
-@lru_cache(maxsize=64)
-def _loaded(source: str, command: str, cache: str) -> ctypes.CDLL | None:
-    """One library a source, compiler and cache; ``cache`` only tells caches apart."""
-    key = hashlib.sha256(f"{machine(command)}\n{source}".encode()).hexdigest()
     try:
-        with store.workplace() as place:
-            _fetch(key, source, command, place / "kernel.so")
-            return ctypes.CDLL(str(place / "kernel.so"))  # it stays in memory when its file is gone
+        with workplace() as place:
+            path = place / "kernel.so"
+            _fetch(key, command, source, path)
+            return ctypes.CDLL(str(path))  # it stays in memory when its file is gone
     except OSError:
         return None
 
 
-def _fetch(key: str, source: str, command: str, path: Path) -> None:
+def _fetch(key: str, command: str, source: Callable[[], str | None], path: Path) -> None:
     """Put the library at ``path``, if it is kept or can be compiled."""
-    body = store.kept(key)
+    body = store.kept(ROOM, f"{key}.so")
     if body is not None:
         path.write_bytes(body)
-    elif compile_library(source, path, command):
-        store.keep(key, path.read_bytes())
+        return
+    text = source()
+    if text is not None and compile_library(text, path, command):
+        store.keep(ROOM, f"{key}.so", path.read_bytes())
+
+
+@contextlib.contextmanager
+def workplace() -> Iterator[Path]:
+    """A private directory that is gone afterwards."""
+    with tempfile.TemporaryDirectory(prefix="lyapcheck-") as name, pending(name):
+        yield Path(name)

@@ -1,8 +1,8 @@
-"""The operations beyond + - * / that numeric forms need, for NumPy arrays and CasADi graphs."""
+"""The operations beyond + - * / that formulas need, for NumPy arrays, CasADi graphs and written code."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -19,6 +19,21 @@ class Arithmetic:
     sqrt: Callable[[Any], Any]
     log: Callable[[Any], Any]
     arctan: Callable[[Any], Any]
+    nearest: Callable[[Any], Any]
+    """The nearest whole number (any of two at a tie)."""
+    sin: Callable[[Any], Any]
+    cos: Callable[[Any], Any]
+    expm1: Callable[[Any], Any]
+    log1p: Callable[[Any], Any]
+    copysign: Callable[[Any, Any], Any]
+    lift: Callable[[Any], Any] = float
+    """An exact number as a value."""
+    names: Callable[[Sequence[Any]], list[Any]] = list
+    """Values that are used more than once: as they are, but where formulas are written down."""
+
+    def name(self, value: Any) -> Any:
+        """A value that is used more than once."""
+        return self.names([value])[0]
 
 
 @cache
@@ -34,6 +49,12 @@ def arrays() -> Arithmetic:
         sqrt=np.sqrt,
         log=np.log,
         arctan=np.arctan,
+        nearest=np.rint,
+        sin=np.sin,
+        cos=np.cos,
+        expm1=np.expm1,
+        log1p=np.log1p,
+        copysign=np.copysign,
     )
 
 
@@ -50,4 +71,10 @@ def graphs() -> Arithmetic:
         sqrt=ca.sqrt,
         log=ca.log,
         arctan=ca.atan,
+        nearest=lambda a: ca.floor(a + 0.5),
+        sin=ca.sin,
+        cos=ca.cos,
+        expm1=ca.expm1,
+        log1p=ca.log1p,
+        copysign=ca.copysign,
     )

@@ -1,94 +1,165 @@
-"""V and dV/dt at a state, written once for arrays and for recorded code.
+"""V, dV/dt and the motion at a state of (11), in any arithmetic: arrays, graphs, or a loop being written.
 
-References: (12), (15) of ``reyes2019family``, the latter in the form of `lyapcheck.lyapunov.quadratic`.
+What they are made of besides the arm and the family comes from `lyapcheck.derive`.
+
+References: (6), (11), (12), (15) of ``reyes2019family``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from functools import cached_property
+from typing import Any
 
-from lyapcheck.lyapunov import quadratic
+from lyapcheck.derive.evaluate import function, values_of
+from lyapcheck.derive.plain import Forms
+from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.robots.dynamics import ArmAtAngles
+from lyapcheck.robots.elimination import solve_definite
 from lyapcheck.robots.plant import Plant
 
 Vector = Sequence[Any]
-
-
-class Forms(Protocol):
-    """The functions that the formulas need beyond + − ·, elementwise in one arithmetic."""
-
-    def sin(self, x: Any) -> Any:
-        """sin x."""
-
-    def cos(self, x: Any) -> Any:
-        """cos x."""
-
-    def sqrt(self, x: Any) -> Any:
-        """√x."""
-
-    def ratio(self, a: Any, b: Any) -> Any:
-        """a/b for b ≥ 0, and 0 where b = 0."""
-
-    def h(self, x: Any) -> Any:
-        """h(x) of the family."""
-
-    def dh(self, x: Any) -> Any:
-        """h'(x)."""
-
-    def potential(self, x: Any) -> Any:
-        """U(x)."""
+FormsAt = Callable[[Any], Forms]
 
 
 @dataclass(frozen=True, eq=False)
-class LyapunovFunction:
-    """What V and dV/dt are made of besides the state.
+class AtState:
+    """One state, or columns of them, with its controller.
 
     Args:
-        model: the arm, without uncertain parameters.
-        forms: the arithmetic and the family.
+        model: the arm.
+        of: the arithmetic.
+        forms: h, h' and U at a value of it.
+        q: n angles, rad.
+        e: q_d − q, rad.
+        w: q̇, rad/s.
         kp: diagonal of K_p, N·m.
         kv: diagonal of K_v, N·m.
         viscous: diagonal of B, N·m·s/rad.
-        eps0: ε₀.
+        uncertain: parameters of the arm by name; nominal where missing.
     """
 
     model: Plant
-    forms: Forms
+    of: Arithmetic
+    forms: FormsAt
+    q: Vector
+    e: Vector
+    w: Vector
     kp: Vector
     kv: Vector
     viscous: Vector
-    eps0: Any
+    uncertain: Mapping[str, Any] | None = None
 
-    def value(self, q: Vector, e: Vector, w: Vector) -> Any:
-        """V = ½ (w − ε h)ᵀ M (w − ε h) + Σ k_pi U(e_i)."""
-        of = self.forms
-        eps = self.eps0 * self._shrink(e)[1]
-        M = self.model.mass_at(*self._turns(q), float)
-        y = [a - eps * of.h(x) for a, x in zip(w, e, strict=True)]
-        kinetic = quadratic.dot(y, [quadratic.dot(row, y) for row in M])
-        return 0.5 * kinetic + quadratic.dot(self.kp, [of.potential(x) for x in e])
+    def value(self, eps0: Any) -> Any:
+        """V of (12), J."""
+        U = {"U": [x.potential for x in self.at_e], "w": self.w, "kp": self.kp}
+        return self._of("value", U | {"M": self.mass, "h": self.h}, epsilon_0=eps0)[0]
 
-    def rate(self, q: Vector, e: Vector, w: Vector) -> Any:
-        """dV/dt = −ε hᵀ K_p h − (w − ε h)ᵀ (B w + K_v h(w) + ε S w)."""
-        of, (r, shrink) = self.forms, self._shrink(e)
-        eps, h = self.eps0 * shrink, [of.h(x) for x in e]
-        S = self._coupling(q, e, h, r, shrink)
-        damped = [b * x + k * of.h(x) for b, k, x in zip(self.viscous, self.kv, w, strict=True)]
-        Xw = [d + eps * quadratic.dot(row, w) for d, row in zip(damped, S, strict=True)]
-        y = [a - eps * b for a, b in zip(w, h, strict=True)]
-        corner = quadratic.dot(h, [k * b for k, b in zip(self.kp, h, strict=True)])
-        return -(eps * corner + quadratic.dot(y, Xw))
+    def coefficients(self) -> list[Any]:
+        """a₀, a₁, a₂ of dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀², W."""
+        gains = {"kp": self.kp, "kv": self.kv, "b": self.viscous, "g": self.hw, "w": self.w}
+        return self._of("rate", self._terms | gains)
 
-    def _coupling(self, q: Vector, e: Vector, h: Vector, r: Any, shrink: Any) -> list[list[Any]]:
-        of, turns = self.forms, self._turns(q)
-        M, Ch = self.model.mass_at(*turns, float), self.model.coriolis_at(*turns, h, float)
-        return quadratic.coupling(M, Ch, h, [of.dh(x) for x in e], [of.ratio(x, r) for x in e], shrink)
+    def rate(self, eps0: Any) -> Any:
+        """dV/dt along (11), W."""
+        a0, a1, a2 = self.coefficients()
+        return (a1 + a2 * eps0) * eps0 - a0
 
-    def _turns(self, q: Vector) -> tuple[list[Any], list[Any]]:
-        return [self.forms.sin(x) for x in q], [self.forms.cos(x) for x in q]
+    def fast(self, joint: int | None = None) -> list[list[Any]]:
+        """F, (n, n), with a₁ = wᵀ F w + …: what decides for fast states; not symmetric.
 
-    def _shrink(self, e: Vector) -> tuple[Any, Any]:
-        """r = ‖e‖ and 1/(1 + r)."""
-        r = self.forms.sqrt(quadratic.dot(e, e))
-        return r, 1.0 / (1.0 + r)
+        It is linear in h and h' together; the part that one joint has in it if that is named.
+        """
+        known, n = self._terms, self.model.n
+        if joint is not None:
+            h, d = ([0.0 * x if i != joint else x for i, x in enumerate(known[name])] for name in "hd")
+            known = known | {"h": h, "d": d, "G": self.arm.coriolis(h)}
+        entries = self._of("fast", known)
+        return [entries[i * n : (i + 1) * n] for i in range(n)]
+
+    def slope(self) -> list[Any]:
+        """∂a₂/∂w, n."""
+        return self._of("slope", self._terms)
+
+    def acceleration(self) -> list[Any]:
+        """ẇ = M⁻¹ (K_p h − K_v h(w) − B w − C(q, w) w), rad/s²."""
+        gains = {"kp": self.kp, "kv": self.kv, "b": self.viscous, "h": self.h, "g": self.hw, "w": self.w}
+        names = self.of.names
+        C = [names(row) for row in self.arm.coriolis(self.w)]
+        return solve_definite(self.mass, names(self._of("force", gains | {"C": C})), names)
+
+    def damping(self) -> Any:
+        """wᵀBw + wᵀK_v h(w), what the energy loses, W."""
+        rows = zip(self.viscous, self.kv, self.w, self.hw, strict=True)
+        return total(b * w * w + k * w * f for b, k, w, f in rows)
+
+    def torque(self) -> list[Any]:
+        """τ = K_p h − K_v h(w) + g, N·m."""
+        rows = zip(self.kp, self.h, self.kv, self.hw, self.arm.gravity(), strict=True)
+        return [kp * f - kv * v + g for kp, f, kv, v, g in rows]
+
+    def _of(self, name: str, letters: Mapping[str, Any], **numbers: Any) -> list[Any]:
+        values = {"s": self.near} | numbers
+        for letter, known in letters.items():
+            values |= values_of(letter, known)
+        return function(self.model.n, name)(self.of.names, **values)
+
+    @cached_property
+    def _terms(self) -> dict[str, Any]:
+        G = [self.of.names(row) for row in self.arm.coriolis(self.h)]
+        return {"M": self.mass, "G": G, "h": self.h, "d": [x.dh for x in self.at_e], "n": self.unit}
+
+    @cached_property
+    def arm(self) -> ArmAtAngles:
+        """The arm at these angles."""
+        of = self.of
+        turns = [of.sin(x) for x in self.q], [of.cos(x) for x in self.q]
+        return self.model.at(*turns, of.lift, self.uncertain, of.name)
+
+    @cached_property
+    def mass(self) -> list[list[Any]]:
+        """M(q), kg·m²."""
+        rows, n = self.arm.mass(), self.model.n
+        upper = [(i, j) for i in range(n) for j in range(i, n)]
+        named = dict(zip(upper, self.of.names([rows[i][j] for i, j in upper]), strict=True))
+        return [[named[min(i, j), max(i, j)] for j in range(n)] for i in range(n)]
+
+    @cached_property
+    def at_e(self) -> list[Forms]:
+        """The family at e."""
+        return [self.forms(x) for x in self.e]
+
+    @cached_property
+    def h(self) -> list[Any]:
+        """h(e)."""
+        return [x.h for x in self.at_e]
+
+    @cached_property
+    def hw(self) -> list[Any]:
+        """h(w)."""
+        return [self.forms(x).h for x in self.w]
+
+    @cached_property
+    def r(self) -> Any:
+        """‖e‖."""
+        return self.of.sqrt(total(x * x for x in self.e))
+
+    @cached_property
+    def near(self) -> Any:
+        """1/(1 + ‖e‖)."""
+        return self.of.name(1.0 / (1.0 + self.r))
+
+    @cached_property
+    def unit(self) -> list[Any]:
+        """e/‖e‖, and 0 at e = 0."""
+        inverse = self.of.name(1.0 / self.of.where(self.r > 0.0, self.r, 1.0))
+        return self.of.names([x * inverse for x in self.e])
+
+
+def total(terms: Any) -> Any:
+    """The sum of one term or more."""
+    first, *rest = terms
+    for term in rest:
+        first = first + term
+    return first

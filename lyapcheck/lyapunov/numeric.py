@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Sequence
-from functools import cached_property, lru_cache
+from dataclasses import dataclass
+from functools import cache, lru_cache, partial
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
+from lyapcheck import store
 from lyapcheck._types import Array
-from lyapcheck.compiled.columns import ColumnForms
-from lyapcheck.compiled.forms import PlainForms, has_plain_forms
-from lyapcheck.compiled.state_map import StateMap, state_map
-from lyapcheck.compiled.straight_line import StraightLine, Term
+from lyapcheck.compiled.loop import Loop, loop
+from lyapcheck.derive.plain import Forms, has_plain_forms, plain_forms
 from lyapcheck.family import Family
-from lyapcheck.lyapunov.along import LyapunovFunction
+from lyapcheck.family.arithmetic import Arithmetic, arrays
+from lyapcheck.lyapunov.along import AtState, FormsAt
 from lyapcheck.robots.plant import Plant
-
-Columns = list[Array]
-Name = Literal["value", "rate"]
 
 BLOCK = 8192
 """States evaluated together by NumPy: all intermediate columns of a small arm then stay in the cache."""
@@ -26,12 +26,55 @@ BLOCK = 8192
 LARGE = 32_768
 """From here on a compiled loop is worth its compilation of about a second, which happens once a computer."""
 
+OUTPUTS: dict[str, tuple[int, Callable[[AtState, Any], list[Any]]]] = {
+    "value": (1, lambda at, eps0: [at.value(eps0)]),
+    "rate": (1, lambda at, eps0: [at.rate(eps0)]),
+    "coefficients": (3, lambda at, eps0: at.coefficients()),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class OwnForms:
+    """The forms of a family by its own functions on arrays."""
+
+    family: Family
+    x: Array
+
+    @property
+    def h(self) -> Array:
+        """h(x)."""
+        return self.family.h(self.x)
+
+    @property
+    def dh(self) -> Array:
+        """h'(x)."""
+        return self.family.dh(self.x)
+
+    @property
+    def potential(self) -> Array:
+        """U(x)."""
+        return self.family.potential(self.x)
+
+
+def array_forms(family: Family) -> FormsAt:
+    """The forms of the compiled loops on arrays, or a family's own where it has none."""
+    return forms_in(family, arrays()) if has_plain_forms(family) else partial(OwnForms, family)
+
+
+def forms_in(family: Family, of: Arithmetic) -> FormsAt:
+    """The forms of compiled loops in an arithmetic."""
+
+    def forms(x: Any) -> Forms:
+        return plain_forms(family, of, x)
+
+    return forms
+
 
 class LyapunovNumeric:
     """V of (12) and its derivative along (11) for one controller on one arm.
 
     Batches of `LARGE` states and more go through compiled loops where a C compiler is found, all others
-    through NumPy; the two agree to 1e-12 of the sum of the absolute terms. See `engine`.
+    through NumPy by the same expressions; the two agree to 1e-12 of the sum of the absolute terms.
 
     Args:
         model: the arm; uncertain parameters at their nominal values.
@@ -56,66 +99,77 @@ class LyapunovNumeric:
 
     def V(self, q: Array, e: Array, w: Array) -> Array:
         """V = ½ (w − ε h)ᵀ M (w − ε h) + Σ k_pi U(e_i), J; states (..., n) in rad and rad/s."""
-        return self._at("value", q, e, w)
+        (values,) = self._at("value", q, e, w)
+        return np.asarray(values)
 
     def rate(self, q: Array, e: Array, w: Array) -> Array:
         """dV/dt along (11) at q, e = q_d − q and w = q̇, W; states (..., n) in rad and rad/s."""
-        return self._at("rate", q, e, w)
+        (values,) = self._at("rate", q, e, w)
+        return np.asarray(values)
+
+    def coefficients(self, q: Array, e: Array, w: Array, large: int = LARGE) -> Array:
+        """a₀, a₁, a₂ of dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀², (3, ...), W; compiled from so many states on."""
+        return self._at("coefficients", q, e, w, large)
+
+    def at_columns(self, q: Array, e: Array, w: Array) -> AtState:
+        """What else is known at states (count, n), as columns of NumPy."""
+        forms, columns = array_forms(self.family), [list(np.ascontiguousarray(x.T)) for x in (q, e, w)]
+        gains = self.kp, self.kv, self.viscous
+        return AtState(self.model, arrays(), forms, columns[0], columns[1], columns[2], *gains)
 
     def engine(self, count: int = LARGE) -> Literal["compiled", "numpy"]:
         """What serves a batch of ``count`` states; asking about a large one compiles what it needs."""
-        value, rate = self._kernel("value", count), self._kernel("rate", count)
-        return "numpy" if value is None or rate is None else "compiled"
+        known = count >= LARGE and all(self._loop(name) is not None for name in ("value", "rate"))
+        return "compiled" if known else "numpy"
 
-    def _at(self, name: Name, q: Array, e: Array, w: Array) -> Array:
+    def _at(self, name: str, q: Array, e: Array, w: Array, large: int | None = None) -> Array:
         states = [np.asarray(x, dtype=np.float64) for x in np.broadcast_arrays(q, e, w)]
         shape = states[0].shape[:-1]
-        flat = [np.ascontiguousarray(x).reshape(-1, self.model.n) for x in states]
-        values = self._by_kernel(name, flat)
-        if values is None:
-            values = _blocks(getattr(self._columns, name), flat)
-        return values.reshape(shape)
+        columns = [x.reshape(-1, self.model.n).T for x in states]
+        count = columns[0].shape[1]
+        known = self._loop(name) if count >= (LARGE if large is None else large) else None
+        numbers = np.array([*self.kp, *self.kv, *self.viscous, self.eps0])[:, None]
+        if known is not None:
+            values = known(*columns, np.broadcast_to(numbers, (len(numbers), count)))
+        else:
+            values = np.empty((OUTPUTS[name][0], count))
+            for start in range(0, count, BLOCK):
+                block = slice(start, start + BLOCK)
+                with np.errstate(all="ignore"):
+                    at = self.at_columns(*(x[:, block].T for x in columns))
+                    values[:, block] = np.stack(OUTPUTS[name][1](at, self.eps0))
+        return values.reshape(-1, *shape)
 
-    def _by_kernel(self, name: Name, flat: list[Array]) -> Array | None:
-        """None where there is no kernel, or a state is beyond what it can do."""
-        kernel = self._kernel(name, len(flat[0]))
-        q, e, w = (x[None] for x in flat)
-        return None if kernel is None else kernel(q, e, w, self._parameters)
-
-    def _kernel(self, name: Name, count: int) -> StateMap | None:
-        if count < LARGE or not has_plain_forms(self.family):
-            return None
-        return _compiled(self.model, self.family, name)
-
-    @property
-    def _parameters(self) -> Array:
-        return np.array([[*self.kp, *self.kv, *self.viscous, self.eps0]])
-
-    @cached_property
-    def _columns(self) -> LyapunovFunction:
-        return LyapunovFunction(
-            self.model, ColumnForms(self.family), self.kp, self.kv, self.viscous, self.eps0
-        )
+    def _loop(self, name: str) -> Loop | None:
+        return _compiled(self.model, self.family, name) if has_plain_forms(self.family) else None
 
 
-def _blocks(value: Callable[[Columns, Columns, Columns], Array], states: list[Array]) -> Array:
-    columns = [np.ascontiguousarray(x.T) for x in states]
-    count = len(states[0])
-    result = np.empty(count)
-    for start in range(0, count, BLOCK):
-        block = slice(start, start + BLOCK)
-        result[block] = value(*[list(x[:, block]) for x in columns])
-    return result
-
-
-@lru_cache(maxsize=32)
-def _compiled(model: Plant, family: Family, name: Name) -> StateMap | None:
+def _compiled(model: Plant, family: Family, name: str) -> Loop | None:
     """The loop over states; gains, B and ε₀ are its parameters."""
-    n = model.n
+    n, write = model.n, partial(formula, model, family, name)
+    return loop(question(name, model, family), (n, n, n, 3 * n + 1), OUTPUTS[name][0], write)
 
-    def formula(code: StraightLine, q: list[Term], e: list[Term], w: list[Term], p: list[Term]) -> list[Any]:
-        forms = PlainForms(code, family)
-        certificate = LyapunovFunction(model, forms, p[:n], p[n : 2 * n], p[2 * n : 3 * n], p[3 * n])
-        return [getattr(certificate, name)(q, e, w)]
 
-    return state_map(formula, n, 3 * n + 1, 1)
+def formula(model: Plant, family: Family, name: str, writer: Any, inputs: Sequence[Any]) -> list[Any]:
+    """What the loop does with (q, e, w, parameters)."""
+    (q, e, w, p), of, n = inputs, writer.arithmetic, model.n
+    at = AtState(model, of, forms_in(family, of), q, e, w, p[:n], p[n : 2 * n], p[2 * n : 3 * n])
+    return OUTPUTS[name][1](at, p[3 * n])
+
+
+def question(name: str, model: Plant, family: Family) -> tuple[str, ...]:
+    """What the loops of an arm and a family depend on, a family of a user's own with its source."""
+    return name, arm_digest(model), repr(family), _source_of(type(family))
+
+
+@cache
+def _source_of(kind: type) -> str:
+    return Path(inspect.getfile(kind)).read_text(encoding="utf-8")
+
+
+@lru_cache(maxsize=256)
+def arm_digest(model: Plant) -> str:
+    """Of all that M, C, g of an arm depend on."""
+    known = model.dynamics
+    state = known.__getstate__() if hasattr(type(known), "__setstate__") else known
+    return store.exact(state, model.parameters)

@@ -30,6 +30,19 @@ class Code:
 
 
 @dataclass(frozen=True)
+class Equation:
+    """A formula on lines of its own.
+
+    Args:
+        text: the formula in letters and signs, of several lines where it needs them.
+        latex: the same in LaTeX, one expression; made by lyapcheck, never from a user's text.
+    """
+
+    text: str
+    latex: str
+
+
+@dataclass(frozen=True)
 class Figure:
     """A drawing in a file beside the document.
 
@@ -78,7 +91,7 @@ class Section:
     blocks: tuple[Block, ...]
 
 
-Block = Paragraph | Bullets | Code | Figure | Table | Section
+Block = Paragraph | Bullets | Code | Equation | Figure | Table | Section
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from urllib.parse import quote
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import (
+    Block,
+    Bullets,
+    Code,
+    Document,
+    Equation,
+    Figure,
+    Paragraph,
+    Section,
+    Table,
+)
 from lyapcheck.output.elements import Child, Markup, element
 from lyapcheck.output.escapes import html_text
+from lyapcheck.output.mathml import latex as formula
 
 _SIDES = {"l": "left", "r": "right"}
 VIEWPORT = element("meta", name="viewport", content="width=device-width, initial-scale=1")
@@ -61,6 +72,8 @@ def blocks(result: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterat
                 yield Markup("<ul>")
                 yield from (element("li", item) for item in items)
                 yield Markup("</ul>")
+            case Equation(_, latex):
+                yield formula(latex)
             case Code(text):
                 shown = Markup("\n".join(map(html_text, text.splitlines())))
                 yield element("pre", element("code", shown))

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import (
+    Block,
+    Bullets,
+    Code,
+    Document,
+    Equation,
+    Figure,
+    Paragraph,
+    Section,
+    Table,
+)
 from lyapcheck.output.escapes import latex_text, printable
 
 LONGEST = 40
@@ -33,6 +43,8 @@ def _block(block: Block, level: int) -> Iterator[str]:
             yield from _bullets(items)
         case Code(text):
             yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
+        case Equation(_, latex):
+            yield from (r"\[", printable(latex), r"\]")
         case Figure(path, caption):
             yield from (latex_text(caption), r"\begin{quote}\ttfamily", latex_text(path), r"\end{quote}")
         case Section(title, blocks):

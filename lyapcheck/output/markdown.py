@@ -6,7 +6,17 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from urllib.parse import quote
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import (
+    Block,
+    Bullets,
+    Code,
+    Document,
+    Equation,
+    Figure,
+    Paragraph,
+    Section,
+    Table,
+)
 from lyapcheck.output.escapes import markdown_text, printable
 
 
@@ -30,6 +40,8 @@ def _block(block: Block, level: int) -> Iterator[str]:
             yield from _bullets(items)
         case Code(text):
             yield from _fenced(text)
+        case Equation(_, latex):
+            yield from _fenced(latex, "math")
         case Figure(path, caption):
             yield from (f"![{markdown_text(caption)}]({quote(path)})", "", markdown_text(caption))
         case Section(title, blocks):
@@ -43,10 +55,10 @@ def _block(block: Block, level: int) -> Iterator[str]:
             yield from map(_row, block.rows)
 
 
-def _fenced(text: str) -> Iterator[str]:
+def _fenced(text: str, language: str = "") -> Iterator[str]:
     """Lines between fences longer than any in them; indented lines would go on a list that stands before."""
     fence = "`" * max(3, *(len(run) + 1 for run in re.findall("`+", text)), 3)
-    yield fence
+    yield f"{fence}{language}"
     yield from map(printable, text.splitlines())
     yield fence
 

@@ -8,7 +8,17 @@ from itertools import zip_longest
 from textwrap import wrap
 from unicodedata import combining, east_asian_width
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import (
+    Block,
+    Bullets,
+    Code,
+    Document,
+    Equation,
+    Figure,
+    Paragraph,
+    Section,
+    Table,
+)
 from lyapcheck.output.escapes import printable
 
 WIDTH = 80
@@ -64,7 +74,7 @@ class _Writer:
                 yield from _wrapped(text)
             case Bullets(items):
                 yield from self.bullets(items)
-            case Code(text):
+            case Code(text) | Equation(text):
                 yield from (f"    {printable(line)}" for line in text.splitlines())
             case Figure(path, caption):
                 yield from _wrapped(f"{caption} [{path}]")

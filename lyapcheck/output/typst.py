@@ -7,7 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import (
+    Block,
+    Bullets,
+    Code,
+    Document,
+    Equation,
+    Figure,
+    Paragraph,
+    Section,
+    Table,
+)
 from lyapcheck.output.escapes import printable
 
 LAYOUT = """#set document(title: {title}, date: none)
@@ -56,7 +66,7 @@ def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
                 yield f"#par[#{quoted(text)}]"
             case Bullets(items):
                 yield from (f"- #{quoted(item)}" for item in items)
-            case Code(text):
+            case Code(text) | Equation(text):
                 yield f"#raw(block: true, {quoted_lines(text)})"
             case Figure(path, caption):
                 words = f"caption: [#{quoted(caption)}]"

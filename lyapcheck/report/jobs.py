@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import InputError
-from lyapcheck.files.decimals import at_least, at_most
 from lyapcheck.files.names import file_stem
+from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, KINDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read

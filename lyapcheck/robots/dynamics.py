@@ -24,6 +24,7 @@ from lyapcheck.robots.chain import ChainInMotion
 
 T = TypeVar("T")
 Lift = Callable[[Fraction], T]
+Tidy = Callable[[Any], Any] | None
 Values = Mapping[str, Any]
 Rows = list[list[Any]]
 
@@ -71,7 +72,9 @@ class Dynamics(ABC):
     names: tuple[str, ...]
 
     @abstractmethod
-    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> ArmAtAngles:
+    def at(
+        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
+    ) -> ArmAtAngles:
         """The arm at some angles.
 
         Args:
@@ -79,6 +82,7 @@ class Dynamics(ABC):
             cos: (n,).
             values: of the parameters by name.
             lift: turns an exact number into a value of that arithmetic.
+            tidy: brings values on the way into a form that stays short.
         """
 
     @property
@@ -148,7 +152,9 @@ class Polynomials(Dynamics):
         """g."""
         return [trig.to_terms(entry) for entry in self.gravity]
 
-    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> ArmAtAngles:
+    def at(
+        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
+    ) -> ArmAtAngles:
         """The values of the polynomials."""
         return _Evaluated(self, [*sin, *cos, *(values[name] for name in self.names)], lift)
 
@@ -247,11 +253,13 @@ class Chain(Dynamics):
         mass = tuple(tuple(map(trig.normal_form, row)) for row in posture.mass())
         return Polynomials(mass, trig.normal_form(posture.potential()), self.names)
 
-    def at(self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T]) -> ArmAtAngles:
+    def at(
+        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
+    ) -> ArmAtAngles:
         """The polynomials of few joints, else the chain."""
         if self.n <= FEW_JOINTS:
             return self.polynomials.at(sin, cos, values, lift)
-        return self._posture(sin, cos, values, Algebra(lift))
+        return self._posture(sin, cos, values, Algebra(lift, tidy))
 
     def fixed(self, values: Mapping[str, Fraction]) -> Chain:
         """The links with numbers for their parameters."""

@@ -12,7 +12,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
-from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift
+from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift, Tidy
 from lyapcheck.robots.number import Number
 
 P = TypeVar("P", bound="Plant")
@@ -94,7 +94,12 @@ class Plant:
         return None if self.chain is None else chain_bounds(self.chain)
 
     def at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
+        self,
+        sin: Sequence[T],
+        cos: Sequence[T],
+        lift: Lift[T],
+        parameters: Mapping[str, T] | None = None,
+        tidy: Tidy = None,
     ) -> ArmAtAngles:
         """The arm at some angles in any arithmetic, see `Dynamics`; parameters not given are nominal."""
         known = parameters or {}
@@ -102,7 +107,7 @@ class Plant:
             name: known[name] if name in known else lift(number.value)
             for name, number in self.parameters.items()
         }
-        return self.dynamics.at(sin, cos, values, lift)
+        return self.dynamics.at(sin, cos, values, lift, tidy)
 
     def mass_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None

@@ -1,9 +1,6 @@
 """dV/dt over many sampled states at once, as the quadratic in ε₀ that it is.
 
-    dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀²,   s = 1/(1 + ‖e‖)
-    a₀ = wᵀBw + wᵀK_v h(w)
-    a₁ = s [wᵀ(H'M − s ê(Mh)ᵀ − C(q,h))w − hᵀK_p h + hᵀ(Bw + K_v h(w))]
-    a₂ = s² [hᵀC(q,h)w + s (êᵀw) hᵀMh − hᵀM(h'∘w)]
+    dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀²
 
 so the smallest ε₀ at which a given state has dV/dt = 0 is a root, not a search.
 
@@ -12,16 +9,20 @@ References: ``reyes2019family`` (15).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import Any
 
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.lyapunov.along import AtState
 from lyapcheck.search.controlled_arm import ControlledArm
 
 _STEPS = 6
 """Fixed-point steps towards the worst w."""
+MANY = 10_000
+"""States from which a compiled loop is used where there is a compiler."""
 _LARGE_ERROR = 0.3
 """rad; for m >= 2 h' has its peak beyond, and hardly anything happens below."""
 
@@ -65,38 +66,22 @@ class Quadratic:
 
 def quadratic(controlled: ControlledArm, states: States) -> Quadratic:
     """The coefficients of dV/dt in ε₀ at each state."""
-    family, w = controlled.family, states.w
-    h, dh, hw = family.h(states.e), family.dh(states.e), family.h(w)
-    s, along = _nearness(states.e)
-    mass = controlled.numeric.mass(states.q)
-    coriolis = controlled.numeric.coriolis(states.q, h)
-    mw, mh, cw = _times(mass, w), _times(mass, h), _times(coriolis, w)
-    ew = _dot(along, w)
-    damping = controlled.viscous * w + controlled.kv * hw
-    fast = _dot(dh * w, mw) - s * ew * _dot(h, mw) - _dot(w, cw)
-    slow = _dot(h, damping) - _dot(h, controlled.kp * h)
-    last = _dot(h, cw) + s * ew * _dot(h, mh) - _dot(mh, dh * w)
-    return Quadratic(_dot(w, damping), s * (fast + slow), s * s * last)
+    return Quadratic(*controlled.lyapunov.coefficients(states.q, states.e, states.w, MANY))
 
 
 def fastest_directions(controlled: ControlledArm, q: Array, e: Array) -> tuple[Array, Array]:
     """The 1/ε₀ that fast states refute at each (q, e), and the directions of w that do so.
 
-        1/ε₀ = λmax(B^(−½) S B^(−½)) / (1 + r),   S = sym(H'M − ê(Mh)ᵀ/(1 + r) − C(q,h))
+        1/ε₀ = λmax(B^(−½) sym F B^(−½)),   a₁ = wᵀ F w + …
 
     with B replaced by B + K_v for the linear function; directions are of unit length.
     """
-    h, dh = controlled.family.h(e), controlled.family.dh(e)
-    s, along = _nearness(e)
-    mass = controlled.numeric.mass(q)
-    form = dh[:, :, None] * mass - controlled.numeric.coriolis(q, h)
-    form -= s[:, None, None] * along[:, :, None] * _times(mass, h)[:, None, :]
+    symmetric = _symmetric(controlled.lyapunov.at_columns(q, e, np.zeros_like(e)))
     scale = 1 / np.sqrt(controlled.fast_damping)
-    symmetric = (form + np.swapaxes(form, 1, 2)) / 2 * scale[:, None] * scale
-    values, vectors = np.linalg.eigh(symmetric)
+    values, vectors = np.linalg.eigh(symmetric * scale[:, None] * scale)
     directions = vectors[:, :, -1] * scale
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    return np.asarray(s * values[:, -1]), directions
+    return np.asarray(values[:, -1]), directions
 
 
 def sample(controlled: ControlledArm, count: int, seed: int) -> States:
@@ -142,24 +127,21 @@ def slow_sample(controlled: ControlledArm, count: int, seed: int) -> States:
 def worst_rates(controlled: ControlledArm, states: States) -> States:
     """The states with w moved to where dV/dt is largest at the ε₀ refuted now, if that refutes a smaller one.
 
-    With D = diag(h(w_i)/w_i) held, dV/dt is a quadratic in w with the maximum ½ ε Y⁻¹Xᵀh wherever Y ≻ 0.
-    Where no ε₀ is refuted yet, it is twice the 4 k_p/(b + k_v) at which one joint fails near the origin.
+    With D = diag(h(w_i)/w_i) held, −dV/dt is wᵀYw − 2 bᵀw and a number, Y = B + K_v D − ε₀ sym F and b = ½ (ε
+    (B + K_v D) h + ε₀² ∂a₂/∂w), largest at Y⁻¹b wherever Y ≻ 0. Where no ε₀ is refuted yet, it is twice the
+    4 k_p/(b + k_v) at which one joint fails near the origin.
     """
-    family = controlled.family
     now = quadratic(controlled, states).reciprocal()
-    s, along = _nearness(states.e)
     slowest = np.max((controlled.viscous + controlled.kv) / controlled.kp) / 8
-    eps = s / np.maximum(now, slowest)
-    h, dh = family.h(states.e), family.dh(states.e)
-    mass, coriolis = controlled.numeric.mass(states.q), controlled.numeric.coriolis(states.q, h)
-    mh = _times(mass, h)
-    damping = controlled.viscous + controlled.kv * family.secant(states.w)
-    form = dh[:, :, None] * mass - coriolis - s[:, None, None] * along[:, :, None] * mh[:, None, :]
-    Y = damping[:, :, None] * np.eye(controlled.n) - eps[:, None, None] * (form + np.swapaxes(form, 1, 2)) / 2
-    balance = damping * h - eps[:, None] * _times(np.swapaxes(form, 1, 2), h)
+    eps0 = 1 / np.maximum(now, slowest)
+    at = controlled.lyapunov.at_columns(states.q, states.e, states.w)
+    damping = controlled.viscous + controlled.kv * controlled.family.secant(states.w)
+    Y = damping[:, :, None] * np.eye(controlled.n) - eps0[:, None, None] * _symmetric(at)
+    near = (eps0 * at.near)[:, None] * damping * _rows(at.h, len(now))
+    middle = (near + (eps0 * eps0)[:, None] * _rows(at.slope(), len(now))) / 2
     safe = np.abs(np.linalg.det(Y)) > 1e-12
     Y = np.where(safe[:, None, None], Y, np.eye(controlled.n))
-    moved = States(states.q, states.e, eps[:, None] / 2 * np.linalg.solve(Y, balance[:, :, None])[:, :, 0])
+    moved = States(states.q, states.e, np.linalg.solve(Y, middle[:, :, None])[:, :, 0])
     better = safe & (quadratic(controlled, moved).reciprocal() > now)
     return States(states.q, states.e, np.where(better[:, None], moved.w, states.w))
 
@@ -191,19 +173,21 @@ def _corners(states: States) -> Array:
 
 def size(controlled: ControlledArm, eps0: float, states: States) -> Array:
     """‖z‖² = ε‖h(e)‖² + ‖w‖², by which dV/dt is made comparable between slow and fast states."""
-    h = controlled.family.h(states.e)
-    return eps0 * _nearness(states.e)[0] * _dot(h, h) + _dot(states.w, states.w)
+    h, near = controlled.family.h(states.e), 1 / (1 + np.linalg.norm(states.e, axis=1))
+    return np.asarray(eps0 * near * np.sum(h * h, axis=1) + np.sum(states.w * states.w, axis=1))
 
 
-def _nearness(e: Array) -> tuple[Array, Array]:
-    """s = 1/(1 + ‖e‖) and ê, which is 0 at e = 0."""
-    r = np.linalg.norm(e, axis=1)
-    return 1 / (1 + r), e / np.where(r > 0, r, 1.0)[:, None]
+def fast(at: AtState, joint: int | None = None) -> Array:
+    """F of each state, (count, n, n); of h(e) with all but one joint left out if that is named."""
+    count = np.size(at.near)
+    return np.stack([_rows(row, count) for row in at.fast(joint)], axis=1)
 
 
-def _dot(x: Array, y: Array) -> Array:
-    return cast("Array", np.einsum("ki,ki->k", x, y))
+def _symmetric(at: AtState) -> Array:
+    rows = fast(at)
+    return (rows + np.swapaxes(rows, 1, 2)) / 2
 
 
-def _times(rows: Array, x: Array) -> Array:
-    return cast("Array", np.einsum("kij,kj->ki", rows, x))
+def _rows(columns: Sequence[Any], count: int) -> Array:
+    """Columns, some of them perhaps numbers, as rows of states."""
+    return np.stack([np.broadcast_to(x, count) for x in columns], axis=1)

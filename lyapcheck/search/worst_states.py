@@ -19,6 +19,7 @@ import casadi as ca
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.robots import graph
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import States, fastest_directions, quadratic
@@ -62,31 +63,21 @@ class Expressions:
     q: Any
     e: Any
     w: Any
-    near: Any
-    """1/(1 + ‖e‖)"""
-    h: Any
     a0: Any
     a1: Any
     a2: Any
     fast: Any
-    """wᵀSw / (1 + r): what of a₁ is left for fast states."""
+    """wᵀFw."""
 
 
 def expressions(controlled: ControlledArm) -> Expressions:
-    """a₀, a₁, a₂ of `lyapcheck.search.sample` and wᵀSw/(1 + r) as CasADi expressions."""
-    n = controlled.n
+    """a₀, a₁, a₂ of dV/dt and wᵀFw, all that is left of a₁ for fast states, as CasADi expressions."""
+    n, forms = controlled.n, controlled.family.casadi
     q, e, w = (ca.SX.sym(name, n) for name in "qew")
-    forms, rates = controlled.family.casadi(e), controlled.family.casadi(w)
-    h, dh = forms.h, forms.dh
-    r = ca.sqrt(ca.dot(e, e) + 1e-24)
-    s, ew = 1 / (1 + r), ca.dot(e, w) / r
-    mass = graph.mass(controlled.fixed, q)
-    mw, mh, cw = mass @ w, mass @ h, graph.coriolis(controlled.fixed, q, h) @ w
-    damping = ca.DM(controlled.viscous) * w + ca.DM(controlled.kv) * rates.h
-    fast = s * (ca.dot(dh * w, mw) - s * ew * ca.dot(h, mw) - ca.dot(w, cw))
-    slow = s * (ca.dot(h, damping) - ca.dot(h, ca.DM(controlled.kp) * h))
-    last = s * s * (ca.dot(h, cw) + s * ew * ca.dot(h, mh) - ca.dot(mh, dh * w))
-    return Expressions(q, e, w, s, h, ca.dot(w, damping), fast + slow, last, fast)
+    gains = ca.DM(controlled.kp), ca.DM(controlled.kv)
+    at = at_symbols(controlled.fixed, q, e, w, *gains, forms, kink=1e-24)
+    a0, a1, a2 = at.coefficients()
+    return Expressions(q, e, w, a0, a1, a2, ca.bilin(graph.matrix(at.fast()), w, w))
 
 
 def fast_states(controlled: ControlledArm, starts: States) -> States:

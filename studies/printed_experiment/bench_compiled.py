@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.compiled.forms import PlainForms, has_plain_forms
-from lyapcheck.compiled.library import library
-from lyapcheck.compiled.straight_line import StraightLine, TooLong
+from lyapcheck.compiled.compiler import prelude
+from lyapcheck.compiled.loop import compiled
+from lyapcheck.compiled.writer import TooLong, Writer
+from lyapcheck.derive.plain import has_plain_forms, plain_forms
 from lyapcheck.family import Family
+from lyapcheck.lyapunov.numeric import arm_digest
 from lyapcheck.robots import RobotModel
 from studies.printed_experiment.bench_step import BenchStep, parameter_count
 
@@ -42,10 +44,17 @@ def compiled_bench(
     """Compile the bench; none where there is no compiler or the arm's formulas are too long."""
     if not has_plain_forms(family):
         return None
-    try:
-        result = library(_source(model, family, period, substeps, sweeps))
-    except TooLong:
-        return None
+    question = (
+        arm_digest(model),
+        model.encoder,
+        model.torque_limit,
+        family,
+        period,
+        substeps,
+        sweeps,
+        *_files(),
+    )
+    result = compiled(question, lambda: _source(model, family, period, substeps, sweeps))
     if result is None:
         return None
     whole, place = ctypes.c_int64, ctypes.c_void_p
@@ -54,39 +63,47 @@ def compiled_bench(
     return CompiledBench(result.bench_runs)
 
 
-def _source(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str:
+def _files() -> list[str]:
+    """What the loop is made of besides lyapcheck."""
+    here = files("studies.printed_experiment")
+    return [here.joinpath(name).read_text(encoding="utf-8") for name in ("bench.c", "bench_step.py")]
+
+
+def _source(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str | None:
     sizes = {"N": model.n, "P": parameter_count(model), "LANES": LANES, "SUBSTEPS": substeps}
     defines = [f"#define {name} {value}" for name, value in (sizes | {"PERIOD": period.hex()}).items()]
-    parts = [_controller(model, family, period), _arm(model, family, period, substeps, sweeps)]
-    template = files("studies.printed_experiment").joinpath("bench.c").read_text(encoding="utf-8")
-    return "\n".join([*defines, *parts, template])
+    try:
+        parts = [_controller(model, family, period), _arm(model, family, period, substeps, sweeps)]
+    except TooLong:
+        return None
+    return "\n".join([prelude(), "#include <stdint.h>", *defines, *parts, _files()[0]])
 
 
 def _controller(model: RobotModel, family: Family, period: float) -> str:
-    code, n = StraightLine(), model.n
-    q, last = _names(code, "y", n), _names(code, "last", n)
-    torque, readings = _step(model, family, code, period, 0).controller(q, last)
+    writer, n = Writer(), model.n
+    q, last = _names(writer, "y", n), _names(writer, "last", n)
+    torque, readings = _step(model, family, writer, period, 0).controller(q, last)
     places = [f"{x}[{i}][l]" for x in ("torque", "last") for i in range(n)]
-    body = code.store(places, [*torque, *readings])
+    body = writer.body(places, [*torque, *readings])
     return _function("controller", "double last[N][LANES], double torque[N][LANES]", body)
 
 
 def _arm(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> str:
-    code, n = StraightLine(), model.n
-    y, torque = _names(code, "y", 2 * n), _names(code, "torque", n)
-    step = _step(model, family, code, period, sweeps)
+    writer, n = Writer(), model.n
+    y, torque = _names(writer, "y", 2 * n), _names(writer, "torque", n)
+    step = _step(model, family, writer, period, sweeps)
     q, w = step.move(y[:n], y[n:], torque, period / substeps)
-    body = code.store([f"y[{i}][l]" for i in range(2 * n)], [*q, *w])
+    body = writer.body([f"y[{i}][l]" for i in range(2 * n)], [*q, *w])
     return _function("arm", "const double torque[N][LANES]", body)
 
 
-def _step(model: RobotModel, family: Family, code: StraightLine, period: float, sweeps: int) -> BenchStep:
-    parameters = _names(code, "p", parameter_count(model))
-    return BenchStep(model, code, PlainForms(code, family), parameters, period, sweeps)
+def _step(model: RobotModel, family: Family, writer: Writer, period: float, sweeps: int) -> BenchStep:
+    parameters, of = _names(writer, "p", parameter_count(model)), writer.arithmetic
+    return BenchStep(model, of, lambda x: plain_forms(family, of, x).h, parameters, period, sweeps)
 
 
-def _names(code: StraightLine, array: str, count: int) -> list[Any]:
-    return [code.name(f"{array}[{i}][l]") for i in range(count)]
+def _names(writer: Writer, array: str, count: int) -> list[Any]:
+    return [writer.read(f"{array}[{i}][l]") for i in range(count)]
 
 
 def _function(name: str, arguments: str, body: str) -> str:

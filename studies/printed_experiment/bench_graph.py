@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -11,39 +12,9 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.family import Family
+from lyapcheck.family.arithmetic import graphs
 from lyapcheck.robots import RobotModel
 from studies.printed_experiment.bench_step import BenchStep, parameter_count
-
-_CALLS: dict[str, Callable[..., Any]] = {
-    "copysign": ca.copysign,
-    "fabs": ca.fabs,
-    "larger": ca.fmax,
-    "smaller": ca.fmin,
-    "rint": lambda x: ca.floor(x + 0.5),
-}
-
-
-class _Graph:
-    """The arithmetic of `BenchStep` on CasADi's symbols, for one family."""
-
-    def __init__(self, family: Family) -> None:
-        self._family = family
-
-    def call(self, function: str, *arguments: Any) -> Any:
-        """A function under its name in C."""
-        return _CALLS[function](*arguments)
-
-    def sin(self, x: Any) -> Any:
-        """sin x."""
-        return ca.sin(x)
-
-    def cos(self, x: Any) -> Any:
-        """cos x."""
-        return ca.cos(x)
-
-    def h(self, x: Any) -> Any:
-        """h(x)."""
-        return self._family.casadi(x).h
 
 
 class GraphBench:
@@ -69,9 +40,9 @@ class GraphBench:
 @lru_cache(maxsize=32)
 def graph_bench(model: RobotModel, family: Family, period: float, substeps: int, sweeps: int) -> GraphBench:
     """The bench as a graph."""
-    n, arithmetic = model.n, _Graph(family)
+    n, of = model.n, replace(graphs(), lift=lambda x: ca.SX(float(x)))
     state, numbers = ca.SX.sym("state", 3 * n), ca.SX.sym("numbers", parameter_count(model))
-    step = BenchStep(model, arithmetic, arithmetic, ca.vertsplit(numbers), period, sweeps)  # type: ignore[arg-type]
+    step = BenchStep(model, of, lambda x: family.casadi(x).h, ca.vertsplit(numbers), period, sweeps)
     q, w, last = (ca.vertsplit(state[i * n : (i + 1) * n]) for i in range(3))
     torque, readings = step.controller(q, last)
     for _ in range(substeps):

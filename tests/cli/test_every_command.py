@@ -18,6 +18,7 @@ CERTIFICATE = Path(__file__).parents[1] / "arena" / "good" / "asy.A.rho.m1.json"
 CALLS = {
     "bounds": ("one.toml --target 10 --time 0.1 --friction 0.01", Exit.PROVED),
     "check": ("scalar.py --m 1 --only h.odd", Exit.PROVED),
+    "derive": ("--m 1 --n 1", Exit.PROVED),
     "epsilon": ("one.toml --max-boxes 20 --starts 1", Exit.PROVED),
     "explain": ("16.6", Exit.PROVED),
     "gate": ("one.toml", Exit.REFUTED),

@@ -60,7 +60,6 @@ SAID = {
     "report.plain": (1, "what a claim had, as data"),
     "report.page.claims": (1, SORTING),
     "report.verdict": (2, GATHERED),
-    "simulate.batch.numpy_integrator": (1, "steps of an integrator"),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
 """Modules in which verdicts are written down: how often, and what for."""

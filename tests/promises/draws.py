@@ -92,7 +92,7 @@ class Arm:
         return tuple(result)
 
     def at(self, shares: list[Fraction]) -> Arm:
-        """A member: each range at one of the shares, in turn. A payload is a mass of the last link."""
+        """A member: each range at one of the shares, in turn; a payload is a mass of the last link."""
         rest = iter(shares * 10)
         joints = tuple(
             replace(joint, **{key: getattr(joint, key).at(next(rest)) for key in ("mass", *MOTOR)})
@@ -101,7 +101,7 @@ class Arm:
         load = self.payload.at(next(rest)).value
         last = joints[-1]
         heavy = replace(last, mass=Ranged(*[last.mass.value + load] * 3))
-        return Arm((*joints[:-1], heavy), self.urdf, self.printed)
+        return Arm((*joints[:-1], heavy), self.urdf)
 
     def written(self, folder: Path, name: str) -> str:
         """The arm's file or files; returns the name of the arm file."""

@@ -24,6 +24,8 @@ def condition_options(conditions: tuple[str, ...]) -> list[str]:
 def test_accepted_over_ranges_is_accepted_at_a_member(
     arm: Arm, family: str, share: Fraction, conditions: tuple[str, ...], at: list[Fraction]
 ) -> None:
+    if arm.n > 2:  # M ≻ 0 over ranges of three masses takes seconds
+        conditions = tuple(one for one in conditions if one not in ("scalar", "lasalle"))
     with TemporaryDirectory() as name:
         folder = Path(name)
         whole = near_the_border(folder, arm.written(folder, "arm"), arm.n, family, arm.options, share)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import fields
 from fractions import Fraction
 
@@ -20,8 +19,6 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.simulate import indices
 from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.batch import simulate as batch_module
-from lyapcheck.simulate.batch.compiled_integrator import compiled_runs
-from lyapcheck.simulate.batch.values import compiled_value
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.task import PAPER_TASK
@@ -44,13 +41,8 @@ def starts(n: int, count: int, size: float = 2.0) -> np.ndarray:
 
 
 @pytest.fixture
-def no_compiler(monkeypatch) -> Iterator[None]:
+def no_compiler(monkeypatch) -> None:
     monkeypatch.setenv(OFF, "1")
-    compiled_runs.cache_clear()
-    compiled_value.cache_clear()
-    yield
-    compiled_runs.cache_clear()
-    compiled_value.cache_clear()
 
 
 def torques(gain_set: GainSet, model, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:

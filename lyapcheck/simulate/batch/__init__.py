@@ -1,4 +1,4 @@
-"""Thousands of runs of the closed loop at once, by compiled code or NumPy in the same steps of DOP853."""
+"""Thousands of runs of the closed loop at once, in steps of DOP853."""
 
 from lyapcheck.simulate.batch.runs import Runs
 from lyapcheck.simulate.batch.simulate import simulate_many

@@ -10,12 +10,10 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.family import Family
-from lyapcheck.simulate.batch.compiled_integrator import compiled_runs
-from lyapcheck.simulate.batch.integrator import InitialValueProblems
-from lyapcheck.simulate.batch.numpy_integrator import NumpyRuns
+from lyapcheck.simulate.batch.integrator import InitialValueProblems, integrated
+from lyapcheck.simulate.batch.right_side import RightSide
 from lyapcheck.simulate.batch.runs import IntegratedRuns, Runs, runs_of
 from lyapcheck.simulate.batch.task import BatchTask, batch_task, grouped
-from lyapcheck.simulate.batch.values import values_of
 from lyapcheck.simulate.indices import bands
 from lyapcheck.simulate.integrate import MAX_STEPS
 
@@ -30,8 +28,8 @@ TOLERANCE = 1e-12
 POINTS = 501
 """Samples of a run: every 10 ms of the paper's five seconds."""
 
-_NUMBERS_AT_ONCE, _RUNS_AT_ONCE = 4_000_000, 1000
-"""Numbers of paths held at once (32 MB), and runs between two reports of progress."""
+_NUMBERS_AT_ONCE, _RUNS_AT_ONCE = 8_000_000, 1000
+"""Numbers of paths held at once (64 MB), and runs: more do not stay in the cache, fewer waste calls."""
 
 
 def simulate_many(
@@ -53,8 +51,8 @@ def simulate_many(
     """Move an arm along (11) from many starts, with many gains, or with many values of its parameters.
 
     ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w for R runs, each with its own steps of the method
-    DOP853: by compiled code where there is a C compiler, else by NumPy, in the same steps. Whatever is given
-    once holds for all runs.
+    DOP853. Their right side is compiled where there is a C compiler, else evaluated by NumPy from the same
+    expressions. Whatever is given once holds for all runs.
 
     Args:
         gain_set: the controller, or R of them, of any families.
@@ -94,15 +92,16 @@ def simulate_many(
     engines: list[str] = []
     done = 0
     for family, chosen in _shares(task, points):
-        integrator = compiled_runs(model, family) or NumpyRuns(model, family)
+        side = RightSide(model, family)
         q_d, y0, own = (np.ascontiguousarray(x[chosen]) for x in (task.q_d, task.y0, task.parameters))
         settling = bands(q_d - y0[:, : model.n])
-        paths = integrator(InitialValueProblems(y0, own, settling, T, points, tolerance, max_steps))
+        problems = InitialValueProblems(y0, own, settling, T, points, tolerance, max_steps)
+        paths = integrated(side, problems)
         part = IntegratedRuns(T, q_d, paths, energy=not eps0)
-        columns = part.rows() | (_motions(model, family, part, own) if motions else {})
+        columns = part.rows() | (_motions(side, part, own) if motions else {})
         for name, column in columns.items():
             rows.setdefault(name, np.empty((runs, *column.shape[1:]), column.dtype))[chosen] = column
-        engines.append(integrator.name)
+        engines.append(side.engine)
         done += chosen.size
         (on_progress or silent)(done / runs, "")
     return runs_of(np.linspace(0.0, T, points), rows, " and ".join(dict.fromkeys(engines)))
@@ -116,8 +115,8 @@ def _shares(task: BatchTask, points: int) -> Iterator[tuple[Family, NDArray[np.i
             yield family, chosen[start : start + size]
 
 
-def _motions(model: RobotModel, family: Family, part: IntegratedRuns, parameters: Array) -> dict[str, Array]:
+def _motions(side: RightSide, part: IntegratedRuns, parameters: Array) -> dict[str, Array]:
     """q, w and V at all samples; NaN where a run failed."""
-    n, y = model.n, part.paths.y
-    q, w = y[:, :, :n], y[:, :, n : 2 * n]
-    return {"q": q, "w": w, "V": values_of(model, family, q, part.q_d[:, None] - q, w, parameters)}
+    n, y, columns = side.model.n, part.paths.y, np.ascontiguousarray(parameters.T)
+    V = np.stack([side.watched(y[:, k].T, columns)[n] for k in range(y.shape[1])], axis=1)
+    return {"q": y[:, :, :n], "w": y[:, :, n : 2 * n], "V": V}

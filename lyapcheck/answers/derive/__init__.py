@@ -1,0 +1,142 @@
+"""What SymPy derives from U_m, beside what the checker proves of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from lyapcheck.errors import argument_error
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.derive.formulas import Formula
+    from lyapcheck.answers.derive.rows import Agreement
+
+MOST_JOINTS = 7
+"""Of the entries in which SymPy decides that V and dV/dt are what is printed."""
+LARGEST_M = 40
+"""SymPy isolates the roots of γ_m and ρ_m so far within seconds."""
+
+
+@dataclass(frozen=True)
+class Derivation(Answer):
+    """Formulas, and what SymPy and the checker say of each.
+
+    Args:
+        ms: members of the family.
+        n: joints.
+        robot: the arm, empty where none was asked for.
+        parts: headings with their formulas.
+        rows: what was derived, and judged.
+    """
+
+    schema = "lyapcheck/derive/1"
+
+    ms: tuple[int, ...]
+    n: int
+    robot: str
+    parts: tuple[tuple[str, tuple[Formula, ...]], ...]
+    rows: tuple[Agreement, ...]
+
+    @property
+    def agreed(self) -> bool:
+        """Whether SymPy and the checker agree on all of it."""
+        return all(row.agree for row in self.rows)
+
+    def document(self) -> Document:
+        """Which of the two agree, the formulas, the comparison."""
+        agreed, members = sum(row.agree for row in self.rows), ", ".join(map(str, self.ms))
+        mark = "✓" if self.agreed else "✗"
+        title = (
+            f"{mark} SymPy and the checker agree on {agreed} of {len(self.rows)} derivations, m = {members}"
+        )
+        return Document(title, (*self.blocks(), Paragraph(NEXT)), NOTES)
+
+    def blocks(self) -> Iterator[Block]:
+        """The comparison, then the formulas."""
+        yield self.table()
+        for title, formulas in self.parts:
+            yield Section(title, tuple(block for one in formulas for block in one.blocks()))
+
+    def section(self) -> Section:
+        """The same for a report."""
+        return Section("What SymPy derives, and the checker proves", tuple(self.blocks()))
+
+    def table(self) -> Table:
+        """A row a derivation."""
+        heads = ("what", "SymPy derives", "the checker judged now", "agree")
+        cells = (
+            (row.what, row.derived, self._judged(row), "yes" if row.agree else "no") for row in self.rows
+        )
+        return Table(heads, tuple(cells), align="llll")
+
+    def data(self) -> dict[str, Any]:
+        """``formulas`` by part, and ``results``: a row a derivation."""
+        formulas = [{"part": title, **formula.data()} for title, several in self.parts for formula in several]
+        rows = [{**asdict(row), "agree": row.agree} for row in self.rows]
+        asked = {"m": list(self.ms), "n": self.n, "robot": self.robot or None}
+        return {**asked, "agree": self.agreed, "formulas": formulas, "results": rows}
+
+    def _judged(self, row: Agreement) -> str:
+        claim = f", claim {row.claim}" if row.claim else ""
+        return f"{row.verdict} [{row.grade}]{claim}"
+
+
+NEXT = "next: lyapcheck check published.py --only 8,12,14,15 --certificates DIR"
+NOTES = (
+    "Equalities are decided by polynomials over the rationals: s = sinh x, cosh² = 1 + s², a letter for each "
+    "entry of M, C and the gains. C is the matrix of the Christoffel symbols, H = diag(h′(q̃)), "
+    "h_v = h(q̇), u_i² = 2m U(q̃_i), κ_p the diagonal of K_p.",
+    "From these expressions come the graph that optimisers see, NumPy's V and dV/dt and the compiled loops.",
+)
+
+
+def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None) -> Derivation:
+    """What SymPy derives from U_m for n joints, or for an arm, each thing judged by the checker as well.
+
+    Args:
+        m: one member of the family, or several.
+        n: joints; those of the arm where there is one.
+        robot: a built-in arm or the path of an arm file.
+
+    Raises:
+        InputError: an m or n out of range, an arm that cannot be read or whose M(q) is too long.
+
+    Soundness: SymPy decides by normal forms of polynomials alone; `verdict` is the checker's, of statements
+        that are written from what SymPy derived.
+
+    References: (6), (8), (11), (12), (13), (15) of reyes2019family.
+
+    Example:
+        >>> found = derivation(2)
+        >>> found.agreed, len(found.rows)
+        (True, 6)
+        >>> found.rows[2].derived
+        '1 positive root, γ = 1.053569219'
+    """
+    from lyapcheck.answers.derive import parts, rows
+    from lyapcheck.derive.arm import written_arm
+    from lyapcheck.derive.family import member
+    from lyapcheck.robots import load
+
+    ms = tuple([m] if isinstance(m, int) else m)
+    for one in ms:
+        _require("m", one, LARGEST_M)
+    model = None if robot is None else load(robot)
+    joints = n if model is None else model.n
+    _require("n", joints, MOST_JOINTS)
+    arm = None if model is None else written_arm(model)
+    members = [member(one) for one in ms]
+    judged = [row for one in members for row in rows.of_member(one)] + rows.of_loop(joints)
+    shown = [*map(parts.family, members), parts.value(), parts.rate()]
+    if model is not None and arm is not None:
+        judged += rows.of_arm(model, arm)
+        shown.append(parts.arm(model, arm))
+    return Derivation(ms, joints, "" if model is None else model.name, tuple(shown), tuple(judged))
+
+
+def _require(name: str, value: int, most: int) -> None:
+    if not 1 <= value <= most:
+        raise argument_error(name, value, f"must be from 1 to {most}", f"give {name} = 2")

@@ -1,0 +1,40 @@
+"""``lyapcheck derive``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lyapcheck.cli.m_range import parse_m
+from lyapcheck.cli.options import add_format, add_members
+from lyapcheck.cli.show import show
+from lyapcheck.output.formats import Format
+from lyapcheck.verdicts import Exit
+
+if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    add_members(parser, "2")
+    parser.add_number("--n", int, "Joints for which V and dV/dt are decided entry by entry.", default=2)
+    about = "A built-in arm or an arm file, whose M, C and g are written out; n is then its own."
+    parser.add_argument("--robot", metavar="ROBOT", help=about)
+    add_format(parser, Format)
+
+
+def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
+    """What SymPy derives from U_m: h, h', the polynomials of γ and ρ, V of (12) and (13), dV/dt of (15).
+
+    Beside each stands what the checker proves of it, judged now from the formula that SymPy has derived.
+
+    Examples:
+      lyapcheck derive
+      lyapcheck derive --m 1:3 --n 3 --format latex
+      lyapcheck derive --robot reyes-kelly2
+    """
+    from lyapcheck.answers.derive import derivation
+
+    answer = derivation(parse_m(m), n, robot)
+    show(answer, format)
+    return Exit.PROVED if answer.agreed else Exit.REFUTED

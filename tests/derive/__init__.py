@@ -1,0 +1,1 @@
+"""What SymPy derives, and what is made of it."""
