@@ -22,21 +22,21 @@ class AcceptedGains(Protocol):
     """What the fixture hands to a test."""
 
     def __call__(
-        self, path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
+        self, path: str | Path, *, robot: str | None = None, conditions: Sequence[str] | None = None
     ) -> GateAnswer:
         """See :func:`assert_accepted`; a relative path is meant from pytest's root directory."""
         ...
 
 
 def assert_accepted(
-    path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
+    path: str | Path, *, robot: str | None = None, conditions: Sequence[str] | None = None
 ) -> GateAnswer:
     """Fail unless every gain set of a file is accepted by the conditions.
 
     Args:
         path: a gain file.
         robot: an arm that replaces the one the file names.
-        conditions: which of ``10``, ``10p``, ``19``, ``scalar`` and ``global`` must hold.
+        conditions: which must hold; if missing those that the file names, else (10p) and (19).
 
     Returns:
         What the gate found, one result a gain set.
@@ -52,7 +52,7 @@ def assert_accepted(
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.errors import argument_error
 
-    if not conditions:
+    if conditions is not None and not conditions:
         raise argument_error("conditions", "", "names no condition", "use some, for instance 10p and 19")
     results = gate(read_gain_file(path), robot, conditions)
     complaints = [line for result in results for line in _complaints(result)]
@@ -67,7 +67,7 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
     root = request.config.rootpath
 
     def accepted(
-        path: str | Path, *, robot: str | None = None, conditions: Sequence[str] = ("10p", "19")
+        path: str | Path, *, robot: str | None = None, conditions: Sequence[str] | None = None
     ) -> GateAnswer:
         __tracebackhide__ = True
         return assert_accepted(root / path, robot=robot, conditions=conditions)

@@ -3,7 +3,7 @@
 A kept file is its content followed by the SHA-256 of that, written beside its place and moved there in one
 step: a killed run leaves no half file, and a damaged one is not found. Keys of answers are digests of the
 question, of the versions behind it and of the source of lyapcheck itself, so that another version asks anew.
-Whoever takes an answer that holds verdicts has the checker judge its certificates again.
+Answers that hold verdicts are taken through `lyapcheck.kept`, which has their certificates judged again.
 """
 
 from __future__ import annotations
@@ -14,28 +14,33 @@ import json
 import os
 import stat
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from lyapcheck.control.paper import proofs_folder
 from lyapcheck.temporary import pending
-
-T = TypeVar("T")
 
 OFF = "LYAPCHECK_NO_STORE"
 """Set in the environment, so that worker processes know it too, where nothing is to be taken or kept."""
 ANSWERS = "answers"
 BEHIND = ("lyapcheck", "casadi", "clarabel", "cvxpy", "matplotlib", "numpy", "python-flint", "scipy", "sympy")
+LARGEST = 200_000_000
+"""Bytes of a kept file."""
 _DIGEST = hashlib.sha256().digest_size
 
 
 def switch_off() -> None:
     """Take and keep nothing, in this process and those that it starts."""
     os.environ[OFF] = "1"
+
+
+def off() -> bool:
+    """Whether nothing is to be taken or kept."""
+    return bool(os.environ.get(OFF))
 
 
 def home() -> Path:
@@ -47,15 +52,8 @@ def home() -> Path:
 
 def kept(kind: str, name: str) -> bytes | None:
     """The content of a kind kept under a name, if it is there, ours alone to write, and whole."""
-    path = home() / kind / name
     try:
-        if not _private(path.parent.stat()):
-            return None
-        with open(path, "rb", opener=_as_it_is) as file:
-            status = os.fstat(file.fileno())
-            if not _private(status) or not stat.S_ISREG(status.st_mode):
-                return None
-            content = file.read()
+        content = _content(home() / kind / name)
     except (OSError, RuntimeError):
         return None
     body, digest = content[:-_DIGEST], content[-_DIGEST:]
@@ -76,7 +74,7 @@ def keep(kind: str, name: str, body: bytes) -> Path | None:
 
 def take(question: Mapping[str, Any]) -> Any | None:
     """The answer kept for a question, as plain data; none if there is none, or it is damaged."""
-    if os.environ.get(OFF):
+    if off():
         return None
     body = kept(ANSWERS, key_of(question))
     try:
@@ -85,38 +83,11 @@ def take(question: Mapping[str, Any]) -> Any | None:
         return None
 
 
-def has(question: Mapping[str, Any]) -> bool:
-    """Whether there is anything under a question, or nothing is to be kept."""
-    return bool(os.environ.get(OFF)) or (home() / ANSWERS / key_of(question)).is_file()
-
-
 def put(question: Mapping[str, Any], answer: Any) -> None:
     """Keep the answer to a question, plain data; without a word where that is not possible."""
-    if not os.environ.get(OFF):
+    if not off():
         text = json.dumps(answer, ensure_ascii=False, separators=(",", ":"))
         keep(ANSWERS, key_of(question), gzip.compress(text.encode(), 3, mtime=0))
-
-
-def remembered(
-    question: Mapping[str, Any],
-    read: Callable[[Any], T | None],
-    compute: Callable[[], T],
-    written: Callable[[T], Any],
-) -> T:
-    """The answer to a question: what is kept, where it is read as one, else computed now and kept.
-
-    Args:
-        question: plain data.
-        read: what is kept, judged again; ``None`` where it does not hold.
-        compute: the answer.
-        written: an answer as plain data.
-    """
-    answer = take(question)
-    result = None if answer is None else read(answer)
-    if result is None:
-        result = compute()
-        put(question, written(result))
-    return result
 
 
 def key_of(question: Mapping[str, Any]) -> str:
@@ -132,7 +103,15 @@ def made_with() -> str:
 
 @cache
 def _versions() -> tuple[tuple[str, str], ...]:
-    return tuple((name, version(name)) for name in BEHIND)
+    return tuple((name, _version(name)) for name in BEHIND)
+
+
+def _version(name: str) -> str:
+    """Of a package, empty where it is not installed."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
 
 
 def exact(*subjects: object) -> str:
@@ -197,9 +176,21 @@ def _write(folder: Path, content: bytes) -> Path:
     return Path(name)
 
 
-def _as_it_is(path: str, flags: int) -> int:
-    """Opened once, without waiting and without following a link: what is looked at is what is read."""
-    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
+def _content(path: Path) -> bytes:
+    """The bytes of a kept file; none of one that is no file of ours alone, or a link.
+
+    Looked at by the descriptor that is read: nothing can take its place in between.
+
+    Raises:
+        OSError: it is not there.
+    """
+    flags = [getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOFOLLOW", "O_CLOEXEC", "O_BINARY")]
+    if not _private(path.parent.stat()):
+        return b""
+    with os.fdopen(os.open(path, os.O_RDONLY | sum(flags)), "rb") as file:
+        status = os.fstat(file.fileno())
+        whole = _private(status) and stat.S_ISREG(status.st_mode) and status.st_size <= LARGEST
+        return file.read(LARGEST) if whole else b""
 
 
 def _private(status: os.stat_result) -> bool:

@@ -10,7 +10,7 @@ from lyapcheck.output.document import Document, Paragraph, Table
 from lyapcheck.store import Held
 
 WHAT = {
-    "answers": "proofs that the checker has accepted, ε₀, reports; judged anew when they are taken",
+    "answers": "certificates of claims and of ε₀; judged anew when they are taken",
     "kernels": "compiled code of simulations and samplers",
 }
 

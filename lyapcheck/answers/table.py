@@ -11,6 +11,7 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
 from lyapcheck.family.compared import gamma_less_than
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Document, Paragraph
@@ -147,7 +148,7 @@ class Table(Answer):
     def _notes(self) -> list[str]:
         """A line for each printed γ in the table, and what is proved about large m."""
         printed = [
-            f"The paper prints γ_{row.m} = {float(PRINTED_GAMMA[row.m]):g}: "
+            f"The paper prints γ_{row.m} = {decimal_text(PRINTED_GAMMA[row.m])}: "
             + ("an upper bound of h." if printed_bounds(row.m) else "not an upper bound, h exceeds it.")
             for row in self.rows
             if row.m in PRINTED_GAMMA
@@ -166,7 +167,7 @@ class Table(Answer):
         printed = PRINTED_GAMMA.get(row.m)
         result["slope_at_0"] = str(slope_at_zero(row.m))
         result["gamma_printed"] = (
-            None if printed is None else {"value": f"{float(printed):g}", "bounds_h": printed_bounds(row.m)}
+            None if printed is None else {"value": decimal_text(printed), "bounds_h": printed_bounds(row.m)}
         )
         if self.asymptotes is not None:
             tail = self.asymptotes[index]

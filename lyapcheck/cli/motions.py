@@ -67,6 +67,8 @@ class Job:
     unfinished: list[Unfinished] = field(default_factory=list)
     varied: tuple[tuple[str, RobotModel], ...] = ()
     """The arm at other values of its numbers, each with what was changed."""
+    arms: str = ""
+    """All of these arms in words."""
 
     @property
     def cases(self) -> list[tuple[GainSet, RobotModel]]:
@@ -133,7 +135,7 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
             plot_run(run, number, job.output.plot)
     if job.output.certificates is not None:
         write_certificates(job.output.certificates, broken)
-    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file)
+    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms)
     return job.output.write(answer, lambda: runs_csv(runs))
 
 

@@ -35,8 +35,12 @@ def trials_of(
         InputError: a target or an angle that cannot be used.
     """
     from lyapcheck.answers.tune.response.wishes import Trials, Wishes
+    from lyapcheck.simulate.indices import LEAST_STEP
 
     tasks = tasks_of(robot, *motion)
+    for task, goal in zip(tasks, motion[1] or [""], strict=True):
+        if not any(abs(step) >= LEAST_STEP for step in task.step):
+            raise argument_error("--goal", goal, "is where the motion starts", "give another goal or --start")
     shares = parse_decimals("--peak-share", peak_share) or ONE
     if len(set(shares)) > 1:
         raise argument_error(

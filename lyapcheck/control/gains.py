@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
+from lyapcheck.control.deciding import KNOWN
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
@@ -29,6 +30,7 @@ class GainSet:
         family: name of the bounded function h; ``linear`` is PD with gravity compensation.
         angle_unit: ``deg`` where linear gains are meant per degree.
         index: its number in the file, from 0.
+        condition: the conditions that decide about it, as its file says; empty where the file says nothing.
 
     References: (6) of reyes2019family.
     """
@@ -40,6 +42,7 @@ class GainSet:
     family: str = "hyperbolic"
     angle_unit: str = "rad"
     index: int = 0
+    condition: tuple[str, ...] = ()
 
     @property
     def n(self) -> int:
@@ -112,8 +115,9 @@ def read_gain_file(path: str | Path) -> GainFile:
     notes = Notes(document.name, document.line)
     top = Fields(document.data, (), notes)
     robot = top.text("robot") or None
+    condition = conditions_of(top)
     tables = top.tables("gains", required=True)
-    sets = [gain_set_of(table, index) for index, table in enumerate(tables)]
+    sets = [gain_set_of(table, index, condition) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds = _bounds(top.table("bounds"))
     top.close()
@@ -124,8 +128,31 @@ def read_gain_file(path: str | Path) -> GainFile:
     return GainFile(document.name, beside(robot, Path(path)), gains, bounds, document)
 
 
-def gain_set_of(table: Fields, index: int) -> GainSet | None:
-    """The gain set of one table of a file; nothing where something is wrong with it, which is noted."""
+def conditions_of(table: Fields) -> tuple[str, ...]:
+    """Read ``condition``, a list of conditions; empty where the key is absent or wrong, which is noted."""
+    value = table.raw("condition")
+    if value is None:
+        return ()
+    repair = 'write condition = ["10p", "19"]'
+    if not isinstance(value, list) or not value:
+        table.fail("condition", "must be a list of conditions", repair)
+        return ()
+    wrong = [name for name in value if name not in KNOWN]
+    if wrong:
+        table.fail("condition", f"must be of {', '.join(KNOWN)}", repair)
+    elif len(set(value)) < len(value):
+        table.fail("condition", "has a condition twice", "give each once")
+    return () if wrong else tuple(dict.fromkeys(value))
+
+
+def gain_set_of(table: Fields, index: int, condition: tuple[str, ...] = ()) -> GainSet | None:
+    """The gain set of one table of a file; nothing where something is wrong with it, which is noted.
+
+    Args:
+        table: of the file.
+        index: its number, from 0.
+        condition: of the whole file; that of the set goes before it.
+    """
     name = table.text("name", required=True)
     family = table.choice("family", names(), "hyperbolic")
     m = table.integer("m", 1, LARGEST_M, required=family == "hyperbolic")
@@ -135,13 +162,14 @@ def gain_set_of(table: Fields, index: int) -> GainSet | None:
     if angle == "deg" and family != "linear":
         table.fail("angle", f"the gains of {family} are torques, not torques per angle", "remove angle")
     kp, kv = table.numbers("kp", required=True), table.numbers("kv", required=True)
+    condition = conditions_of(table) or condition
     table.close()
     if kp is None or kv is None:
         return None
     if len(kp) != len(kv):
         rule = f"has {len(kv)} gain{'s' if len(kv) > 1 else ''} where kp has {len(kp)}"
         table.fail("kv", rule, "give both as many gains as the arm has joints")
-    return GainSet(name, m, kp, kv, family, angle, index)
+    return GainSet(name, m, kp, kv, family, angle, index, condition)
 
 
 def _bounds(table: Fields | None) -> Bounds:

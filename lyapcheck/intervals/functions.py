@@ -1,7 +1,7 @@
 """Elementary functions and norms over intervals.
 
-The platform's sin, cos and the family's own functions are taken to be right within 2⁻⁴⁹ relatively (eight
-units in the last place); tests compare them with balls at many points.
+The sin and cos of the platform are taken to be right within 2⁻⁴⁹ relatively (eight units in the last place),
+a family within what `lyapcheck.intervals.family` says. Tests compare them with balls at many points.
 """
 
 from __future__ import annotations
@@ -15,20 +15,26 @@ from lyapcheck._types import Array
 from lyapcheck.intervals.interval import Interval, down, up
 
 LIBRARY_SLACK = 2.0**-49
-_TINY = 1e-300
+TINY = 1e-300
 _ROUNDING = 1e-15
 _SQUARABLE = 1e-140
 
 
-def widened(low: Array, high: Array) -> Interval:
+def widened(low: Array, high: Array, slack: float = LIBRARY_SLACK, least: Array | float = TINY) -> Interval:
     """The interval between two values of a library function, widened by what the library may be wrong.
 
     An undefined value becomes an infinite end.
+
+    Args:
+        low: the smaller value.
+        high: the larger one.
+        slack: what it may be wrong relatively.
+        least: what it may be wrong beside that.
     """
     with np.errstate(invalid="ignore"):
         return Interval(
-            down(low - (np.abs(low) * LIBRARY_SLACK + _TINY)),
-            up(high + (np.abs(high) * LIBRARY_SLACK + _TINY)),
+            down(low - (np.abs(low) * slack + least)),
+            up(high + (np.abs(high) * slack + least)),
         )
 
 
@@ -103,6 +109,6 @@ def _largest_share(x: Array, rest: Interval) -> Array:
     with np.errstate(all="ignore"):
         square = x * x + np.where(x >= 0, rest.lo, rest.hi)
         share = x / np.sqrt(square)
-        bound = share + (np.abs(share) * LIBRARY_SLACK + _TINY)
+        bound = share + (np.abs(share) * LIBRARY_SLACK + TINY)
     bound = np.where(np.isfinite(square), bound, np.where(x < 0, 0.0, 1.0))
     return np.where(np.isnan(bound), 1.0, np.minimum(bound, 1.0))

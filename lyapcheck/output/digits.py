@@ -1,11 +1,52 @@
-"""Enclosures in decimals: rounded outward, or the digits that are certain."""
+"""Numbers in decimals: rounded to the safe side, enclosed, or the digits that are certain.
+
+``at_most`` and ``at_least`` are the only way to print a number next to a word of proof.
+"""
 
 from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TypeAlias
+
+from flint import arb
 
 from lyapcheck.check.numbers.enclosure import Enclosure
+
+SHOWN = 4
+"""Significant digits that people see, the same in every command."""
+PLAIN = range(-6, 15)
+"""Powers of ten whose numbers are written without an exponent."""
+Exact: TypeAlias = "Fraction | int | float | arb | Enclosure"
+
+
+def at_most(x: Exact, digits: int = SHOWN) -> str:
+    """Return the shortest decimal of ``digits`` significant digits that is not below ``x``.
+
+    Args:
+        x: a number, or a ball or an enclosure, whose upper end counts.
+        digits: 1 or more.
+
+    Raises:
+        ValueError: ``x`` is not a number.
+
+    Example:
+        >>> at_most(Fraction(2, 3)), at_most(2.5), at_most(-Fraction(2, 3), 2)
+        ('0.6667', '2.5', '-0.66')
+    """
+    return _safe(x, digits, upward=True)
+
+
+def at_least(x: Exact, digits: int = SHOWN) -> str:
+    """Return the shortest decimal of ``digits`` significant digits that is not above ``x``.
+
+    The lower end of a ball or an enclosure counts; see ``at_most`` for the rest.
+
+    Example:
+        >>> at_least(Fraction(2, 3)), at_least(10**20 + 1), at_least(Fraction(1, 3 * 10**9), 2)
+        ('0.6666', '1e+20', '3.3e-10')
+    """
+    return _safe(x, digits, upward=False)
 
 
 def decimals(number: Enclosure, digits: int) -> tuple[str, str]:
@@ -35,6 +76,61 @@ def correct_digits(number: Enclosure, digits: int) -> str:
         if low == high and low != 0:
             return _decimal(low, places)
     return "[{}, {}]".format(*written)
+
+
+def _safe(x: Exact, digits: int, *, upward: bool) -> str:
+    """A decimal on one side of a number; a sign of infinity where no decimal is on that side."""
+    if digits < 1:
+        raise ValueError(f"{digits} significant digits; use 1 or more")
+    value = _end(x, upward)
+    if isinstance(value, float):
+        return "∞" if value > 0 else "-∞"
+    if value == 0:
+        return "0"
+    power = _integer_digits(abs(value)) - digits
+    scaled = value / Fraction(10) ** power
+    units = math.ceil(scaled) if upward else math.floor(scaled)
+    while units % 10 == 0:
+        units, power = units // 10, power + 1
+    return _written(units, power)
+
+
+def _end(x: Exact, upward: bool) -> Fraction | float:
+    """The end that counts, exactly, or an infinity.
+
+    Raises:
+        ValueError: ``x`` is not a number.
+    """
+    if isinstance(x, Enclosure):
+        return x.upper if upward else x.lower
+    if isinstance(x, arb):
+        if x.is_nan():
+            raise ValueError("a ball that is not a number has no decimal")
+        if not x.is_finite():
+            return _infinite_end(x, upward)
+        ends = Enclosure.from_arb(x)
+        return ends.upper if upward else ends.lower
+    if isinstance(x, float) and not math.isfinite(x):
+        if math.isnan(x):
+            raise ValueError("nan has no decimal")
+        return x
+    return Fraction(x)
+
+
+def _infinite_end(x: arb, upward: bool) -> float:
+    """The infinity that such a ball reaches on that side."""
+    if x.mid().is_finite():
+        return math.inf if upward else -math.inf
+    return math.inf if x > 0 else -math.inf
+
+
+def _written(units: int, power: int) -> str:
+    """``units`` times 10^power, with an exponent only where the number is very large or small."""
+    last = len(str(abs(units))) - 1
+    if power + last in PLAIN:
+        return _decimal(units, -power) if power < 0 else str(units * 10**power)
+    text = _decimal(units, last)
+    return f"{text}e{power + last:+d}"
 
 
 def _places(number: Enclosure, digits: int) -> int:

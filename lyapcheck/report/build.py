@@ -16,8 +16,6 @@ from lyapcheck.report.subject import Subject
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
 
-PACKAGES = ("lyapcheck", "sympy", "casadi", "cvxpy", "clarabel", "numpy", "scipy", "python-flint")
-
 
 def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     """Compute a report.
@@ -32,8 +30,6 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     Soundness: every verdict is the one of the command of the same name.
     """
     from lyapcheck.answers.table import build_table
-    from lyapcheck.report.bench import bench
-    from lyapcheck.report.jobs import goal_of
     from lyapcheck.robots import load
 
     model, notes = load(subject.robot), published_notes()
@@ -56,10 +52,10 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         runs=result.runs,
         sensitivity=result.sensitivity,
         findings=weighed,
-        bench=bench(model, tuple(subject.of_family.values()), goal_of(model), result.cells),
+        map=result.cells,
         figures=dict(sorted(result.figures.items())),
         certificates=dict(sorted(result.certificates.items())),
-        versions={name: version(name) for name in PACKAGES},
+        versions={name: version(name) for name in result.packages},
         seed=SEED,
     )
 

@@ -10,10 +10,9 @@ from multiprocessing import get_context
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck import store
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.processes import main_unnamed
-from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
     draw_comparisons,
@@ -25,9 +24,7 @@ from lyapcheck.report.drawings import (
 )
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
-from lyapcheck.report.jobs import gains_job, map_job, proofs_job, with_the_map
-from lyapcheck.report.kept import question, read, written
-from lyapcheck.report.model import behind
+from lyapcheck.report.jobs import Done, done, gains_job, map_job, proofs_job, with_the_map
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending, work_in
 
@@ -38,13 +35,13 @@ if TYPE_CHECKING:
     from lyapcheck.report.notes import Notes
     from lyapcheck.report.subject import Subject
 
-Job = Future[Any]
+Job = Future[Done]
 
 WORKERS = 2
 
 
 def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
-    """The long computations, from the store if all that they decided is decided so again.
+    """The long computations: a process for each core; what can be drawn of one is drawn when it is done.
 
     Args:
         subject: arm, members and gains.
@@ -52,16 +49,6 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         gate: the gate's results, for a figure.
         progress: receives the fraction done and a few words.
     """
-    return store.remembered(
-        question(subject),
-        lambda kept: read(kept, subject),
-        lambda: _afresh(subject, notes, gate, progress),
-        written,
-    )
-
-
-def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress: Progress) -> Computed:
-    """A process for each core; what can be drawn of one is drawn when it is done."""
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), work_in)
     with TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
@@ -70,21 +57,21 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, progress)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
     study = None if subject.own else printed_experiment(of_the_report, load(subject.robot))
-    mapped: MapData = jobs.map.result()
-    parts = [with_the_map(job.result(), mapped.for_sets) for job in jobs.sets]
-    proofs: ProofsData = jobs.proofs.result()
+    mapped: MapData = jobs.map.result().result
+    parts = [with_the_map(job.result().result, mapped.for_sets) for job in jobs.sets]
+    proofs: ProofsData = jobs.proofs.result().result
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs.proofs), *(part.certificates for part in parts)]:
         certificates |= made
     certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
     certificates |= {one.cell.path: one.certificate for one in mapped.cells if one.certificate}
-    rows = tuple(row for part in proofs.proofs for row in part.rows)
+    rows = [row for part in proofs.proofs for row in part.rows]
     if subject.own:
-        needed = {proof: _behind_own(proof, rows, notes) for proof in {row.proof for row in rows}}
-        unwanted = {row.certificate for row in rows if row.id not in needed[row.proof]}
-        rows = tuple(row for row in rows if row.id in notes.own.get(row.proof, ()))
-        certificates = {path: text for path, text in certificates.items() if path not in unwanted}
+        known = {row.certificate for row in rows}
+        rows, fresh = as_the_gate_judges(rows, gate)
+        gone = known - {row.certificate for row in rows}
+        certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
     figures |= draw_sides(proofs.small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
         claims=tuple(row for row in rows if row.proof == "published"),
@@ -96,13 +83,8 @@ def _afresh(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         cells=tuple(one.cell for one in mapped.cells),
         figures=figures,
         certificates=certificates,
+        packages=tuple(sorted(frozenset[str]().union(*(job.result().packages for job in jobs.labels)))),
     )
-
-
-def _behind_own(proof: str, rows: Sequence[ClaimRow], notes: Notes) -> set[str]:
-    """The claims that a report on an arm of one's own has, and all that they rest on."""
-    own = [row for row in rows if row.proof == proof]
-    return set().union(*(behind(name, own) for name in notes.own.get(proof, ())))
 
 
 @dataclass(frozen=True)
@@ -129,7 +111,7 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     labels: dict[Job, str] = {}
 
     def start(label: str, work: Callable[..., Any], *arguments: Any) -> Job:
-        job = pool.submit(work, *arguments)
+        job = pool.submit(done, work, *arguments)
         labels[job] = label
         return job
 
@@ -147,7 +129,7 @@ def _drawn(jobs: Jobs, progress: Progress) -> Files:
     progress(0.0, f"{len(jobs.labels)} computations on {WORKERS} processes")
     try:
         for done, job in enumerate(as_completed(jobs.labels), start=1):
-            result = job.result()
+            result = job.result().result
             progress(done / len(jobs.labels), f"{jobs.labels[job]} done")
             if job in jobs.drawings:
                 figures |= jobs.drawings[job](result)

@@ -14,7 +14,7 @@ from lyapcheck.report.study import StudyRow
 
 @dataclass(frozen=True)
 class Computed:
-    """Rows, figures by file name, and certificates by their paths."""
+    """Rows, figures by file name, certificates by their paths, and the packages that were loaded for it."""
 
     claims: tuple[ClaimRow, ...]
     others: tuple[ClaimRow, ...]
@@ -25,3 +25,4 @@ class Computed:
     cells: tuple[MapCell, ...]
     figures: Mapping[str, str | bytes]
     certificates: Mapping[str, str]
+    packages: tuple[str, ...]

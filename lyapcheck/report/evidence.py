@@ -178,7 +178,7 @@ def rests(report: Report) -> Iterator[Section]:
         blocks += [Paragraph(words), Code("lyapcheck recheck certificates/"), *_kernel(report)]
     boxes = {row.boxes for row in report.epsilon}
     budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
-    blocks.append(Paragraph(f"{versions}. Seed {report.seed}.{budget}"))
+    blocks.append(Paragraph(f"Computed with {versions}. Seed {report.seed}.{budget}"))
     yield Section(f"What this rests on: {report.robot.title}", tuple(blocks))
 
 

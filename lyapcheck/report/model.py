@@ -6,14 +6,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.report.claim_row import ClaimRow
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.answer import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
-    from lyapcheck.report.bench import Bench
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
+    from lyapcheck.report.map_cell import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.report.study import StudyRow
     from lyapcheck.robots import RobotModel
@@ -111,10 +112,10 @@ class Report:
         runs: simulated runs, one a gain set, the PD baseline last.
         sensitivity: the printed experiment on the arms that are assumed possible; none if there is none.
         findings: the heaviest first.
-        bench: what the page needs to try gains.
+        map: places over m and k_v; empty where no map was made.
         figures: SVG text, PNG and CSV by file name.
         certificates: by their paths, those that the checker has accepted.
-        versions: the software that was used.
+        versions: of the packages that the computations loaded.
         seed: the seed of every random search.
     """
 
@@ -130,7 +131,7 @@ class Report:
     runs: tuple[RunRow, ...]
     sensitivity: StudyRow | None
     findings: tuple[Finding, ...]
-    bench: Bench
+    map: tuple[MapCell, ...]
     figures: Mapping[str, str | bytes] = field(repr=False)
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
@@ -175,3 +176,9 @@ def behind(claim: str, rows: Iterable[ClaimRow]) -> set[str]:
 def applies(result: GateResult) -> bool:
     """Whether the conditions of the gate are about gains at all: without γ they have no limit."""
     return any(check.limit is not None for check in result.checks)
+
+
+def keeps_limits(result: GateResult) -> bool:
+    """Whether no motor saturates at any state: (11), of which stability is proved, knows no limit."""
+    bounds_hold = result.verdict_of(("gravity",)) != REJECTED
+    return bounds_hold and ACCEPTED in (result.verdict_of(("10p",)), result.verdict_of(("10i",)))

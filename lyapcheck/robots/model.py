@@ -39,6 +39,11 @@ class RobotModel(Plant):
     remarks: tuple[str, ...] = ()
     printed: PrintedTorques | None = None
 
+    @property
+    def dry(self) -> bool:
+        """Whether the file gives dry friction to a joint."""
+        return any(number is not None and number.bounds[1] > 0 for number in self.coulomb)
+
     @cached_property
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted about this arm, one sentence each."""

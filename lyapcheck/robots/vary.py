@@ -77,7 +77,11 @@ class Vary:
         return key == self.name or key.endswith(f"_{self.name}")
 
     def of(self, number: Number) -> Number:
-        """The number with the range in place of its own; its value stays where it lies within."""
+        """The number with the range in place of its own.
+
+        The value stays where it lies within. Else it is the nearest end, a member of the range and not the
+        nominal value any more; ``outside`` names such numbers.
+        """
         low, high = (
             (self.low * number.value, self.high * number.value) if self.relative else (self.low, self.high)
         )
@@ -135,11 +139,9 @@ def varied(
 
 def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> dict[str, Number]:
     """The masses of links that change, by the name of their joint; a payload adds to the last one."""
-    chain = model.dynamics
-    if not isinstance(chain, Chain):
+    if not isinstance(model.dynamics, Chain):
         return {}
-    links = zip(model.joints, chain.links, strict=True)
-    known = {f"{joint}_mass": _mass(model, link.mass) for joint, link in links}
+    known = _masses_of(model)
     result = varied_numbers(known, varies) if "mass" in parts else dict(known)
     last = f"{model.joints[-1]}_mass"
     for vary in varies:
@@ -148,6 +150,15 @@ def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> 
             low, high = (end + more for end, more in zip(own.bounds, (vary.low, vary.high), strict=True))
             result[last] = replace(own, value=own.value + vary.low, low=low, high=high)
     return {key: number for key, number in result.items() if number is not known[key]}
+
+
+def _masses_of(model: RobotModel) -> dict[str, Number]:
+    """The masses of known links, by the name of their joint."""
+    chain = model.dynamics
+    if not isinstance(chain, Chain):
+        return {}
+    links = zip(model.joints, chain.links, strict=True)
+    return {f"{joint}_mass": _mass(model, link.mass) for joint, link in links}
 
 
 def _mass(model: RobotModel, mass: Fraction | ParameterShare) -> Number:
@@ -215,16 +226,28 @@ def _unknown(wrong: Sequence[Vary], known: Sequence[str], rule: str, repair: str
     ]
 
 
+def outside(own: RobotModel, model: RobotModel) -> tuple[str, ...]:
+    """Name the numbers whose value in the arm file lies outside their range.
+
+    Args:
+        own: the arm as its file describes it, which is not an arm in the ranges if any is named.
+        model: the same arm with ranges.
+    """
+    known = own.numbers | _masses_of(own)
+    rows = [(key, known[key].value, number.bounds) for key, number in model.numbers.items() if key in known]
+    return tuple(key for key, value, (low, high) in rows if not low <= value <= high)
+
+
 def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, RobotModel]]:
     """The arm at the ends of what varies: each number alone if these are few, else all of a name together.
 
     Yields:
-        What was changed, and the arm with exact numbers. Between the ends nothing is tried.
+        What was changed, and the arm with exact numbers. Between the ends nothing is tried, and where numbers
+        move together not every corner is; ``corners_text`` says how many are.
     """
-    keys = [key for key in model.numbers if any(_is_meant(one, key, model) for one in varies)]
-    groups = [[key] for key in keys if model.numbers[key].ranged]
+    groups = _moved(model, varies)
     if 2 ** len(groups) > MOST_CORNERS:
-        groups = [[key for (key,) in groups if _is_meant(one, key, model)] for one in varies]
+        groups = _together(groups, model, varies)
     for ends in product((0, 1), repeat=len(groups)):
         values = {
             key: model.numbers[key].bounds[end]
@@ -233,6 +256,31 @@ def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, Ro
         }
         text = ", ".join(f"{key} = {decimal_text(value)}" for key, value in values.items())
         yield text, at_values(model, values)
+
+
+def corners_text(model: RobotModel, varies: Sequence[Vary]) -> str:
+    """Say which corners of the ranges ``corners`` yields, and how many corners there are."""
+    alone = _moved(model, varies)
+    total = 2 ** len(alone)
+    if total <= MOST_CORNERS:
+        return "the corner of the ranges" if total == 1 else f"all {total} corners of the ranges"
+    tried = 2 ** len(_together(alone, model, varies))
+    return f"{tried} of {total} corners of the ranges (numbers of one name move together)"
+
+
+def _moved(model: RobotModel, varies: Sequence[Vary]) -> list[list[str]]:
+    """The numbers that have a range of more than one value, each in a list of its own."""
+    keys = [key for key in model.numbers if any(_is_meant(one, key, model) for one in varies)]
+    return [[key] for key in keys if model.numbers[key].ranged]
+
+
+def _together(groups: Sequence[Sequence[str]], model: RobotModel, varies: Sequence[Vary]) -> list[list[str]]:
+    """The same numbers, those of one name in one list; a name of one number goes before that of all."""
+    result: dict[str, list[str]] = {}
+    for (key,) in groups:
+        meant = [one for one in varies if _is_meant(one, key, model)]
+        result.setdefault(min(meant, key=lambda one: one.name != key).name, []).append(key)
+    return list(result.values())
 
 
 def _is_meant(vary: Vary, key: str, model: RobotModel) -> bool:

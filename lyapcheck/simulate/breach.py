@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.simulate.confirm import Sample, exceeds, rises
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ class Breach:
             if self.confirmed
             else "simulated, in floating point"
         )
-        result = f"{self.value:.6g} {self.unit}, at most {self.limit:.6g} was promised"
+        result = f"{at_least(self.value, 9)} {self.unit}, at most {at_most(self.limit, 9)} was promised"
         return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
 
     @property

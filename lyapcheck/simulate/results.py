@@ -68,6 +68,7 @@ def run_of(
         torque_limit=torque_limits(model),
         complete=complete,
         notes=(*notes, *model.assumptions),
+        without_dry_friction=model.dry and motion.kind == "reference",
     )
 
 

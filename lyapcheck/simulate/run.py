@@ -83,6 +83,8 @@ class Run:
     """What the reader must know: assumptions and the settings of the bench."""
     breach: Breach | None = None
     """The first promise of theory that this reference run broke."""
+    without_dry_friction: bool = False
+    """Whether the arm file gives dry friction that the run leaves out."""
 
     @property
     def name(self) -> str:

@@ -68,6 +68,8 @@ class Sweep:
     notes: tuple[str, ...]
     breach: Breach | None
     """What the first run that broke a promise says when it is run alone."""
+    without_dry_friction: bool = False
+    """Whether the arm file gives dry friction that the run leaves out."""
 
     @property
     def name(self) -> str:
@@ -124,6 +126,7 @@ def sweep(
         torque_limit=torque_limits(model),
         notes=model.assumptions,
         breach=None,
+        without_dry_friction=model.dry,
     )
     return _explained(result, gain_set, model)
 

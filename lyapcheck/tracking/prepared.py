@@ -128,6 +128,7 @@ class Prepared:
             torque_limit=torque_limits(model),
             complete=path.failure is None,
             notes=model.assumptions,
+            without_dry_friction=model.dry,
             breach=broken(self.controlled, model.torque_limit, self.promise, motion, V, dV, bound),
         )
 

@@ -99,6 +99,8 @@ class TrackingRun:
     complete: bool = True
     notes: tuple[str, ...] = ()
     breach: Breach | None = None
+    without_dry_friction: bool = False
+    """Whether the arm file gives dry friction that the run leaves out."""
 
     @property
     def name(self) -> str:

@@ -1,1 +1,1 @@
-"""The certified map over m and k_v for the paper's arm, which the report shows beside its sliders."""
+"""The certified map over m and k_v for the paper's arm, which the report shows."""

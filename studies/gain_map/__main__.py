@@ -7,8 +7,8 @@ from pathlib import Path
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.output.json import laid_out
-from lyapcheck.report.bench import BOXES, gain_map
 from lyapcheck.report.experiment import arm_digest
+from lyapcheck.report.gain_map import BOXES, gain_map
 from lyapcheck.report.plain import plain
 from lyapcheck.robots import load
 from lyapcheck.simulate.printed import PAPER_ARM

@@ -177,3 +177,12 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     weak = lyapcheck(*asked, "--friction", "1,6")
     assert weak.returncode == 3
     assert "does not exceed its dry friction of 6 N·m: raise k_p" in " ".join(weak.stdout.split())
+
+
+def test_it_is_said_at_how_many_corners_runs_were_made(tmp_path: Path) -> None:
+    path = tmp_path / "gains.toml"
+    path.write_text('robot = "reyes-kelly2"\n[[gains]]\nname = "a"\nm = 1\nkp = [20, 5]\nkv = [0.1, 0.1]\n')
+    text = lyapcheck("bounds", path, "--target", "45,45", "--vary", "viscous=-10%..+10%").stdout
+    assert "the worst of one run at all 4 corners of the ranges, for viscous=-10%..10%" in " ".join(
+        text.split()
+    )

@@ -239,6 +239,36 @@ def test_words_about_what_ranges_cost(
     assert f"the ranges {said}" in str(replace(result, unvaried=result.certified * share))
 
 
+@pytest.mark.parametrize(
+    ("vary", "outside"),
+    [
+        ("viscous=-30%..-10%", ["pivot_viscous"]),
+        ("pivot_viscous=1..2", ["pivot_viscous"]),
+        ("viscous=5%..5%", ["pivot_viscous"]),
+        ("viscous=-20%..+20%", []),
+    ],
+)
+def test_the_arm_of_the_file_is_spoken_of_only_where_it_is_in_the_ranges(
+    tmp_path: Path, vary: str, outside: list[str]
+) -> None:
+    path = tmp_path / "gains.toml"
+    path.write_text('robot = "pendulum1"\n[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [2]\n')
+    words = ("epsilon", str(path), "--starts", "2", "--max-boxes", "50", "--no-store", "--vary", vary)
+    text = invoke(*words).stdout
+    (data,) = json.loads(invoke(*words, "--format", "json").stdout)["results"]
+    assert data["outside"] == outside
+    assert (data["unvaried"] is None) == bool(outside)
+    assert ("nominal" in text) == (not outside)
+    assert ("own value lies outside the range of pivot_viscous" in text) == bool(outside)
+    assert "pendulum1, for all values in its ranges" in text.splitlines()[0]
+
+
+def test_the_first_line_says_whether_numbers_are_nominal() -> None:
+    arm = load("pendulum1", vary=(Vary.parsed("viscous=-20%..+20%"),))
+    result = epsilon(GainSet("a", 1, (F(5),), (F(2),)), arm, max_boxes=1, starts=1)
+    assert result.document().title.endswith("on pendulum1, at its nominal numbers")
+
+
 def test_the_published_number_over_ranges_is_about_all_arms_in_them() -> None:
     """It is above that of no corner; where (19) fails at the least friction, there is none."""
     varies = (Vary.parsed("viscous=-30%..30%"),)

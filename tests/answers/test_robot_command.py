@@ -34,6 +34,7 @@ from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import trig
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.vary import Vary
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 from tests.helpers.urdf_texts import ARMS, TWO, generic
@@ -362,6 +363,50 @@ def test_a_refuted_print_is_a_remark_and_no_failure() -> None:
     (remark,) = [case for case in report.annotations() if case.level is not Level.PASSED]
     assert (remark.level, remark.rule) == (Level.REMARK, "print-C-rates")
     assert remark.message.startswith("refuted: ")
+
+
+NOMINAL, RANGES = "nominal numbers", "all values of the ranges"
+
+
+@pytest.mark.parametrize(
+    ("name", "varies", "nominal", "title"),
+    [
+        (
+            "buap3",
+            (),
+            {"2.1", "2.2", "2.6", "2.7", "2.8"},
+            "! buap3: properties proved: 2.3–2.5 for all values of the ranges; "
+            "2.1, 2.2, 2.6–2.8 at nominal numbers only",
+        ),
+        (
+            "reyes-kelly2",
+            ("viscous=-10%..+10%",),
+            {"2.7"},
+            "! reyes-kelly2: properties proved: 2.1–2.6, 2.8 for all values of the ranges; "
+            "2.7 at nominal numbers only",
+        ),
+        ("reyes-kelly2", (), None, "✓ reyes-kelly2: properties 2.1–2.8 proved"),
+    ],
+)
+def test_each_row_says_for_which_arms_it_is_proved(
+    name: str, varies: tuple[str, ...], nominal: set[str] | None, title: str
+) -> None:
+    """Half of the rows of an arm with ranges are about its nominal numbers; the title claims no more."""
+    report = build(robots.load(name, vary=tuple(map(Vary.parsed, varies))), 20)
+    told = {row["id"]: row["for"] for row in report.data()["properties"]}
+    assert report.document().title == title
+    ids = {f"2.{k}" for k in range(1, 9)}
+    if nominal is None:
+        assert set(told.values()) == {None}
+        return
+    assert told == {key: NOMINAL if key in nominal else RANGES for key in ids}
+    bounds = tuple(number.bounds for number in report.model.parameters.values())
+    for key in ids - nominal - {"2.7", "2.8"}:
+        statement = report.certificates[f"{key}.json"].statement
+        parts = [part for _, part in getattr(statement, "parts", [("", statement)])]
+        assert all(part.parameters == bounds for part in parts)
+    shown = next(one for one in report.document().blocks if getattr(one, "title", "") == "Properties")
+    assert {row[0]: row[2] for row in shown.blocks[0].rows} == told
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,14 @@ import json
 import os
 import sys
 import xml.etree.ElementTree as ET
+from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
 from lyapcheck.cli.main import main
 from lyapcheck.control.paper import paper_gain_file
+from tests.helpers.command import invoke
 
 TABLE2 = str(paper_gain_file("table2"))
 PD = str(paper_gain_file("table2_pd"))
@@ -45,7 +47,9 @@ def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
     assert done.returncode == 0
     for name in ("tau_m1 (m = 1)", "tau_m2 (m = 2)", "tau_m3 (m = 3)"):
         assert name in done.stdout
-    assert done.stdout.startswith("✓ buap3: no promise broken by 3 gain sets\n")
+    assert done.stdout.startswith(
+        "! buap3: no promise broken by 3 gain sets, without the dry friction of the file\n"
+    )
     assert done.stdout.count("\nshoulder ") == 3
     assert "is assumed" in done.stdout
     assert "simulate:" not in done.stdout
@@ -179,3 +183,49 @@ def test_the_printed_numbers_stand_beside_the_same_experiment_only(lyapcheck):
     assert pd["printed"]["settling"] == [1.14, 0.959, 0.952]
     (other,) = json.loads(lyapcheck(PD, "--format", "json", "--target", "45,45,80").stdout)["results"]
     assert other["printed"] is None
+
+
+DRY = """
+title = "One joint"
+gravity = [0, 0, -9.81]
+[[links]]
+name = "joint"
+axis = [0, 1, 0]
+origin = [0, 0, 0]
+mass = 1
+com = [0, 0, -0.1]
+inertia = 0.02
+viscous = 0.5
+torque_limit = 20
+"""
+IDEAL = "without the dry friction of the file"
+
+
+@pytest.mark.parametrize(
+    "coulomb", ["", "coulomb = 0", "coulomb = 0.1", "coulomb = {value = 0, low = 0, high = 1}"]
+)
+@pytest.mark.parametrize("way", [(), ("--experiment",), ("--runs", "3")])
+def test_the_first_line_says_that_dry_friction_is_left_out(
+    tmp_path: Path, coulomb: str, way: tuple[str, ...]
+) -> None:
+    """Runs of (11) leave it out, the bench does not."""
+    (tmp_path / "arm.toml").write_text(DRY + coulomb)
+    gains = tmp_path / "gains.toml"
+    gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')
+    first = " ".join(
+        invoke("simulate", str(gains), "--target", "30", "--time", "1", *way).stdout.split("═")[0].split()
+    )
+    told = "1" in coulomb and way != ("--experiment",)
+    assert (IDEAL in first) == told
+    assert not told or first.startswith("! ")
+
+
+def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path: Path) -> None:
+    (tmp_path / "arm.toml").write_text(DRY)
+    gains = tmp_path / "gains.toml"
+    gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')
+    words = ("simulate", str(gains), "--target", "30", "--time", "1", "--vary")
+    within = " ".join(invoke(*words, "viscous=-10%..+10%").stdout.split())
+    assert "Simulated on the arm of the file and all 2 corners of the ranges." in within
+    beyond = " ".join(invoke(*words, "viscous=5%..+10%").stdout.split())
+    assert "the arm of the file, which lies outside the ranges, and all 2 corners" in beyond

@@ -10,6 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import mpmath
+import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -29,7 +30,8 @@ from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import Vary
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.vary import Vary, at_values
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 from tests.helpers.urdf_texts import TWO
@@ -139,7 +141,7 @@ def exhaustive(model, m, tuning, targets):
         top = mp(limits.viscous_min) / (root * gamma)
         first = max(1, int(mpmath.floor((mp(targets.kv_share[0]) * top - tiny) * 100)))
         best = []
-        for index, damping in enumerate(damping_of(model, m, targets.damping * model.n)):
+        for index, damping in enumerate(damping_of(model, m, targets.damping * model.n, limits.viscous_min)):
             friction, inertia, ratio = map(mp, (damping.friction, damping.inertia, damping.ratio))
             whole = mp(limits.torque[index] - limits.gravity[index]) / (root * gamma)
             result = []
@@ -150,6 +152,41 @@ def exhaustive(model, m, tuning, targets):
                 result.append((Fraction(int(kp), 100), Fraction(k, 100)))
             best.append(max(result))
     return best
+
+
+@pytest.mark.parametrize(
+    ("robot", "varies", "bounds"),
+    [
+        ("reyes-kelly2", ("viscous=-80%..+0%",), {}),
+        ("reyes-kelly2", ("viscous=-10%..+10%", "shoulder_viscous=0.05..3"), {}),
+        ("reyes-kelly2", (), {"viscous_min": Fraction(1, 100)}),
+        ("buap3", ("base_inertia=0.1..3",), {}),
+        ("buap3", (), {}),
+    ],
+)
+def test_the_damping_ratio_is_the_least_over_the_ranges(robot, varies, bounds):
+    """ζ of a joint alone at drawn arms in the ranges and postures is not below what is said."""
+    ranges = tuple(map(Vary.parsed, varies))
+    tuning = tune(robot, [1], Targets.of(damping="0.7"), Bounds(**bounds), varies=ranges)
+    model, draw = load(robot, vary=ranges), np.random.default_rng(4)
+    q = draw.uniform(-np.pi, np.pi, (200, model.n))
+    for _ in range(20):
+        values = {
+            name: number.bounds[draw.integers(2)] for name, number in model.numbers.items() if number.ranged
+        }
+        arm = at_values(model, values)
+        inertia = np.einsum("kii->ki", NumericModel(arm).mass(q)).max(axis=0)
+        for i, joint in enumerate(tuning.sets[0].joints):
+            friction = float(bounds.get("viscous_min", arm.viscous[i].value))
+            ratio = (friction + float(joint.kv)) / (2 * np.sqrt(inertia[i] * float(joint.kp)))
+            assert ratio >= float(joint.damping) >= 0.7
+
+
+def test_what_is_tuned_names_the_conditions_that_decide(tmp_path):
+    out = tmp_path / "gains.toml"
+    assert invoke("tune", "reyes-kelly2", "--m", "1,2", "--out", str(out)).exit_code == 0
+    assert [one.condition for one in read_gain_file(out).gains] == [("10p", "19")] * 2
+    assert invoke("gate", str(out)).exit_code == 0
 
 
 def mp(value):

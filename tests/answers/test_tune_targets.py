@@ -10,25 +10,29 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.response.answer import BenchTuning
+from lyapcheck.answers.tune.response.answer import BenchTuning, Candidate
+from lyapcheck.answers.tune.response.gain_file import bench_file_text
 from lyapcheck.answers.tune.response.one_joint import Joint, proposal
-from lyapcheck.answers.tune.response.trial import tried
-from lyapcheck.answers.tune.response.tuning import stable_by, tune_for
-from lyapcheck.answers.tune.response.wishes import BY_PROOF, Trials, Wishes
+from lyapcheck.answers.tune.response.trial import Trial, tried
+from lyapcheck.answers.tune.response.tuning import accepted, tune_for
+from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, Trials, Wishes
 from lyapcheck.cli import main as cli
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
+from lyapcheck.output.formats import Format
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.task import PAPER_TASK, task_for
 from lyapcheck.verdicts import Exit
+from tests.helpers.command import invoke
 
 WISHES = Wishes(overshoot=5, settle=1.5, rest_error=20)
 
@@ -44,13 +48,18 @@ def tuned() -> BenchTuning:
 def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     theirs, by_19, by_proof = tuned.sets
     assert (theirs.source, by_19.stable, by_proof.stable) == ("Table 2", "(19)", "proof")
+    assert (by_19.gains.condition, by_proof.gains.condition) == (("10p", "19"), ("10p", "scalar"))
     assert tuned.met(by_proof)
     assert not tuned.met(by_19)
     assert theirs.trial.worst(WISHES) > 10
     assert tuned.exit == Exit.PROVED
-    assert tuned.document().title == "✓ buap3: tau_m1_proof meets what was asked"
+    assert tuned.document().title == (
+        "! simulated: tau_m1_proof meets the targets on buap3 in 1 motion of (11) at an infinite rate, "
+        "without the dry friction of the file"
+    )
     assert "(19) keeps k_v of base, shoulder, elbow from being larger" in str(tuned)
-    assert "m = 1: (19) costs a factor of" in str(tuned)
+    assert "m = 1: worst ratio" in str(tuned)
+    assert "The viscous friction of base, shoulder, elbow is assumed." in " ".join(str(tuned).split())
 
 
 @pytest.mark.slow
@@ -71,8 +80,9 @@ def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
     ranges = {arm: varied_limits(arm, varies)}
-    assert stable_by(gains, BY_PROOF, arm_limits(arm, 2), arm, None) == "proof"
-    assert stable_by(gains, BY_PROOF, arm_limits(arm, 2, None, varies), arm, ranges) == "LaSalle"
+    assert accepted(gains, BY_PROOF, arm, None, None).condition == ("10p", "scalar")
+    assert accepted(gains, BY_PROOF, arm, None, ranges).condition == ("10p", "lasalle")
+    assert accepted(gains, BY_19, arm, None, ranges).condition == ()
 
 
 @pytest.mark.slow
@@ -91,12 +101,12 @@ def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> No
 
 @pytest.mark.slow
 def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
-    from lyapcheck.answers.tune.response.gain_file import bench_file_text
-
     (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
-    by_19, by_proof = gate(read_gain_file(tmp_path / "g.toml"))
-    assert (by_19.standing, by_proof.standing) == ("accepted", "breaks (19), stability proved otherwise")
-    assert gate(read_gain_file(tmp_path / "g.toml"), None, ("10p", "scalar"))[1].verdict == "accepted"
+    (by_proof,) = gate(read_gain_file(tmp_path / "g.toml"))
+    assert (by_proof.name, by_proof.verdict) == ("tau_m1_proof", "accepted")
+    assert by_proof.deciding == ("10p", "scalar")
+    (again,) = gate(read_gain_file(tmp_path / "g.toml"), deciding=("10p", "19"))
+    assert again.standing == "breaks (19), stability proved otherwise"
 
 
 @pytest.mark.slow
@@ -104,8 +114,9 @@ def test_targets_that_nothing_reaches_are_said_to_be_not_reached() -> None:
     bench = Trials(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
     tuning = tune_for("buap3", bench, [2])
     assert tuning.exit == Exit.UNDECIDED
-    assert "is not reached" in tuning.document().title
-    assert "settling time beyond what was asked" in str(tuning)
+    title = tuning.document().title
+    assert title.startswith("? simulated: no set meets the targets on buap3; the best, tau_m2_proof: ")
+    assert "misses settling time, simulated / target: base " in title
 
 
 def test_the_worst_of_all_arms_and_motions_counts() -> None:
@@ -155,8 +166,11 @@ def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option:
     [
         (["--overshoot", "5", "--damping", "1"], "--damping = 1: cannot go with targets"),
         (["--goal", "1,2,3"], "--goal = 1,2,3: has a meaning with targets only"),
-        (["--settle", "-1"], "--settle = -1: must be positive"),
+        (["--settle", "-1"], "--settle = -1: must be above 0 and at most 1e+06"),
         (["--settle", "1", "--goal", "1,2"], "write --goal 45,45,45"),
+        (["--best"], "--best = True: has a meaning with targets only"),
+        (["--settle", "1", "--goal", "0,0,0"], "--goal = 0,0,0: is where the motion starts"),
+        (["--settle", "1", "--start", "45,45,90"], "is where the motion starts"),
     ],
 )
 def test_options_that_do_not_fit_are_refused(
@@ -175,3 +189,90 @@ def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
         assert isinstance(one.gains, GainSet)
         assert all((k * 1000).denominator == 1 and k > 0 for k in (*one.gains.kp, *one.gains.kv))
         assert Fraction(1, 1000) <= min(one.gains.kp)
+
+
+def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None:
+    """1000 is met by every set, 10⁻⁹ by none; then ``--best`` writes one, marked."""
+    arm, out = tmp_path / "arm.toml", tmp_path / "gains.toml"
+    arm.write_text(ONE_JOINT)
+    words = ("tune", str(arm), "--m", "1", "--settle")
+    easy = invoke(*words, "1000", "--out", str(out))
+    assert easy.exit_code == 0
+    assert easy.stdout.startswith("! simulated: tau_m1")
+    assert {one.condition[0] for one in read_gain_file(out).gains} == {"10p"}
+    assert invoke("gate", str(out)).exit_code == 0
+    out.unlink()
+    hard = invoke(*words, "1e-9", "--stability", "proof", "--out", str(out))
+    assert (hard.exit_code, out.exists()) == (3, False)
+    assert hard.stdout.startswith("? simulated: no set meets the targets")
+    assert "so none is written; --best writes the best one" in hard.stderr
+    assert invoke(*words, "1e-9", "--stability", "proof", "--format", "toml").stdout == ""
+    best = invoke(*words, "1e-9", "--stability", "proof", "--out", str(out), "--best")
+    assert best.exit_code == 3
+    assert "# BEST FOUND, MISSES THE TARGETS: misses" in out.read_text()
+    assert invoke("gate", str(out)).exit_code == 0
+
+
+ONE_JOINT = """
+title = "One joint"
+gravity = [0, 0, -9.81]
+[[links]]
+name = "joint"
+axis = [0, 1, 0]
+origin = [0, 0, 0]
+mass = 1
+com = [0, 0, -0.1]
+inertia = 0.02
+viscous = 0.1
+coulomb = {coulomb}
+torque_limit = 10
+""".format(coulomb="0.1")
+
+
+def test_a_target_that_is_met_to_the_last_digit_is_told() -> None:
+    """Without overshoot the worst ratio is 0, and nothing is divided by it."""
+    task = task_for(1, [0.8], None, None, 5.0)
+    tuning = tune_for("pendulum1", Trials(Wishes(overshoot=1000), (task,)), [1])
+    zero = replace(
+        tuning.sets[-1], trial=replace(tuning.sets[-1].trial, overshoot=0 * tuning.sets[-1].trial.overshoot)
+    )
+    worse = replace(
+        tuning.sets[0], trial=replace(tuning.sets[0].trial, overshoot=0 * zero.trial.overshoot + 9)
+    )
+    for sets in ((worse, zero), (zero, worse), (zero, zero)):
+        text = str(replace(tuning, sets=sets))
+        assert "meets the targets" in text.splitlines()[0]
+    assert "worst ratio 0.009 with (19), 0 by proof" in str(replace(tuning, sets=(worse, zero)))
+
+
+KNOWN = st.one_of(st.just(0.0), st.just(math.inf), st.floats(0, 1e9))
+NUMBERS = st.one_of(st.just(math.nan), KNOWN)
+
+
+@given(
+    rows=st.lists(st.tuples(*[st.tuples(NUMBERS, NUMBERS, NUMBERS, KNOWN)] * 2), min_size=0, max_size=3),
+    asked=st.sampled_from(
+        [Wishes(overshoot=5), Wishes(settle=1e-9), Wishes(rest_error=1e9), Wishes(5, 1.5, 0.8, 20)]
+    ),
+    kept=st.booleans(),
+)
+def test_every_number_of_a_trial_has_words(
+    rows: list[tuple[tuple[float, ...], ...]], asked: Wishes, kept: bool
+) -> None:
+    model, bench = robots.load("reyes-kelly2"), Trials(asked, (task_for(2, [0.8, 0.8], None, None, 5.0),))
+    sets = []
+    for k, row in enumerate(rows):
+        columns = [np.array(column) for column in zip(*row, strict=True)]
+        trial = Trial(*columns, late=np.zeros(2), T=3.0, kept=kept)
+        way = ("19", "proof", "")[k]
+        gains = GainSet(
+            f"s{k}", k + 1, (Fraction(1),) * 2, (Fraction(1),) * 2, condition=("10p", "19")[: 2 * k]
+        )
+        sets.append(Candidate(gains, trial, way, ("(10p)", ""), "elsewhere" if not way else ""))
+    tuning = BenchTuning("arm", model, bench, tuple(sets))
+    for form in Format:
+        assert tuning.written(form)
+    assert (tuning.exit == Exit.PROVED) == tuning.document().title.startswith(("!", "✓"))
+    assert "nan" not in str(tuning)
+    assert bench_file_text(tuning) == "" or tuning.good
+    assert bool(bench_file_text(tuning, best=True)) == bool(tuning.own)

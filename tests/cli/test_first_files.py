@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 
 from lyapcheck import gate, robots
+from lyapcheck.answers.tune.response.trial import tried
+from lyapcheck.answers.tune.response.wishes import Wishes
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots.export import arm_text
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.simulate.task import task_for
 
 ROOT = Path(__file__).parents[2]
 
@@ -35,6 +38,21 @@ def test_init_starts_files_that_the_gate_takes_and_keeps_what_is_there(
     assert leaves(monkeypatch, "init", str(folder)) == 2
     assert (folder / "gains.toml").read_text() == "mine"
     assert "is there already" in capsys.readouterr().err
+
+
+def test_the_gains_of_init_are_gains_that_tune_would_recommend(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """The gate accepts them by their conditions, and they meet the targets that the file names."""
+    assert leaves(monkeypatch, "init", str(tmp_path)) == 0
+    (result,) = gate(tmp_path / "gains.toml")
+    assert (result.verdict, result.deciding) == ("accepted", ("10p", "scalar"))
+    assert "--overshoot 5 --settle 2.5 --rest-error 3" in (tmp_path / "gains.toml").read_text()
+    arm, asked = robots.load(tmp_path / "arm.toml"), Wishes(overshoot=5, settle=2.5, rest_error=3)
+    motions = [task_for(2, np.radians(goal), None, None, 5.0) for goal in ((45, 45), (-30, 90), (90, 0))]
+    trial = tried(result.gains, [arm], motions, asked, exact=True)
+    assert trial.kept
+    assert trial.worst(asked) <= 1
 
 
 @pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5", "UR5", str(ROOT / "examples" / "panda.toml")])

@@ -237,7 +237,7 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
         8,
         "limits",
         "not a known key",
-        "use one of: bounds, gains, robot",
+        "use one of: bounds, condition, gains, robot",
     ),
     "key of another room": (
         BOUNDS + "friction = 1\n",
@@ -349,6 +349,42 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
         "1 joints where the first set has 3",
         "one arm to a file",
     ),
+    "condition a text": (
+        'condition = "19"\n' + GOOD,
+        1,
+        "condition",
+        "list of conditions",
+        'condition = ["10p", "19"]',
+    ),
+    "condition a number": (
+        "condition = [19]\n" + GOOD,
+        1,
+        "condition",
+        "must be of 10, 10p",
+        '["10p", "19"]',
+    ),
+    "no conditions": (
+        GOOD + "condition = []\n",
+        8,
+        "gains[1].condition",
+        "list of conditions",
+        "condition =",
+    ),
+    "unknown condition": (
+        GOOD + 'condition = ["10p", "stable"]\n',
+        8,
+        "gains[1].condition",
+        "must be of 10, 10p, 10i, 19, scalar, global, lasalle",
+        "condition =",
+    ),
+    "condition a list": (
+        GOOD + 'condition = [["19"]]\n',
+        8,
+        "gains[1].condition",
+        "must be of 10",
+        "condition =",
+    ),
+    "a condition twice": (GOOD + 'condition = ["19", "19"]\n', 8, "gains[1].condition", "twice", "once"),
     "too deep": (changed("1.5", "[" * 5000 + "]" * 5000), None, "file", "nested too deeply", "plain tables"),
 }
 

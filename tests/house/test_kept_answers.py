@@ -1,12 +1,11 @@
-"""ε₀ and constants of an arm from the store: the same answer, judged again, and never believed."""
+"""ε₀ from the store: the same answer, judged again, and never believed."""
 
 from __future__ import annotations
 
-import copy
 import gzip
 import json
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -19,20 +18,10 @@ from lyapcheck.answers.epsilon import EpsilonResult, epsilon, kept
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.epsilon.options import Options
-from lyapcheck.answers.robot import kept as kept_arm
-from lyapcheck.answers.robot.kept import kept_constants
-from lyapcheck.check.judging import certificate_of
-from lyapcheck.control.gains import GainFile, GainSet
-from lyapcheck.kernel.record import GRADE, accepted_before
-from lyapcheck.report import kept as kept_report
-from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.gain_rows import EpsilonRow
-from lyapcheck.report.jobs import rounded
-from lyapcheck.report.subject import Subject
+from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
 from tests.arena.attacks import encoded, sealed
-from tests.arena.run import ARENA
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
@@ -89,92 +78,58 @@ def test_epsilon_is_found_again(monkeypatch: pytest.MonkeyPatch, asked: Any) -> 
         kept_epsilon(GAINS, load("pendulum1"), Options(ranges=not ranges, **BUDGET))
 
 
+def resealed(kind: str, change: Callable[[Any], None]) -> Callable[[Any], None]:
+    """A change of one certificate, with the digest that it then has."""
+
+    def changed(answer: Any) -> None:
+        one = json.loads(answer["certificates"][kind])
+        change(one)
+        answer["certificates"][kind] = encoded(sealed(one)).decode()
+
+    return changed
+
+
 @pytest.mark.parametrize(
     "change",
     [
-        lambda answer: answer["proof"].update(eps0="1000"),
-        lambda answer: answer["proof"]["proof"]["rate"].update(tree="0."),
-        lambda answer: answer["witness"].update(eps0="1/1000"),
-        lambda answer: answer["witness"]["state"].update(w=["0"]),
-        lambda answer: answer["witness"]["arm"].update(viscous=["1000"]),
-        lambda answer: answer.update(scalar="1000", published="1000"),
-        lambda answer: answer["reasons"].update(scalar="there is none", published="(19) fails"),
-        lambda answer: answer.pop("reasons"),
+        resealed("certified", lambda one: one["statement"].update(eps0="1000")),
+        resealed("certified", lambda one: one["proof"]["rate"].update(tree="0.")),
+        resealed("certified", lambda one: one["statement"].update(kp=["1"])),
+        resealed("falsified", lambda one: one["statement"].update(eps0="1/1000")),
+        resealed("falsified", lambda one: one["proof"].update(w=["0"])),
+        resealed("falsified", lambda one: one["proof"].update(viscous=["1000"])),
+        lambda answer: answer["certificates"].update(certified=answer["certificates"]["falsified"]),
+        lambda answer: answer["beside"]["reasons"].update(scalar="there is none", published="(19) fails"),
+        lambda answer: answer["beside"].pop("reasons"),
+        lambda answer: answer.pop("beside"),
     ],
 )
 def test_an_epsilon_that_was_exchanged_is_asked_again(
     monkeypatch: pytest.MonkeyPatch, place: Path, asked: Any, change: Callable[[Any], None]
 ) -> None:
     model, ranges, first = asked
-    store.put(kept.question(GAINS, model, Options(ranges=ranges, **BUDGET)), kept.written(first))
     monkeypatch.setattr(kept, "four", lambda *asked: first)
-    assert kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET)) is not first
+    options = Options(ranges=ranges, **BUDGET)
+    assert kept_epsilon(GAINS, model, options) is first
+    assert kept_epsilon(GAINS, model, options) is not first
     rewritten(place, change)
-    result = kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET))
-    assert result.data() == first.data()
+    assert kept_epsilon(GAINS, model, options).data() == first.data()
 
 
-PATH = "certificates/published/one.json"
-
-
-@pytest.fixture(scope="module")
-def reported() -> tuple[Subject, dict[str, Any]]:
-    """A report of one claim and one ε₀ as it is kept; reports have no ranges."""
-    result = computed(ranges=False)[2]
-    paths = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
-    files = {path: text for path, text in paths.items() if ".scalar." not in path}
-    files[PATH] = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
-    with kept_report._judging({PATH: files[PATH]}) as judged:
-        answer = judged()[json.loads(files[PATH])["digest"]]
-    row: dict[str, Any] = {field.name: () for field in fields(ClaimRow)} | {"witness": None, "evidence": {}}
-    row |= {name: value for name, value in answer.items() if name in row}
-    shown, _ = certificate_of(files[PATH].encode())
-    if accepted_before(shown.statement, shown.proof, shown.verdict):
-        row["grade"] = GRADE
-    ends = {
-        kind: rounded(getattr(result, kind), up=kind == "falsified") for kind in ("certified", "falsified")
-    }
-    own = {path.split(".")[-2]: path for path in files if path != PATH}
-    shown_row = dict.fromkeys(field.name for field in fields(EpsilonRow)) | {"assumptions": (), "reasons": {}}
-    rest: dict[str, Any] = dict.fromkeys(("others", "runs", "cells"), ())
-    rest |= {"small": {}, "figures": {}, "sensitivity": None}
-    kept = {**rest, "claims": [row], "epsilon": [shown_row | {"name": "one", "certificates": own, **ends}]}
-    gains = GainFile("gains.toml", "pendulum1", (GAINS,))
-    return Subject("pendulum1", (1,), (gains,), own=True), {**kept, "certificates": files}
-
-
-def of_another_statement(kept: dict[str, Any]) -> None:
-    """Another true one, x·y = x·y, under the id and by the rule of the claim."""
-    other = json.loads(kept["certificates"][PATH])
-    product = ["dot", ["vec", "x"], ["vec", "y"]]
-    other["statement"] |= {"left": product, "right": product, "rates": [], "given": [], "symmetric": []}
-    kept["certificates"][PATH] = encoded(sealed(other)).decode()
-    kept["claims"][0]["digest"] = sealed(other)["digest"]
-
-
-def of_other_gains(kept: dict[str, Any]) -> None:
-    kept["epsilon"][0]["name"] = "two"
-
-
-def of_less_granted(kept: dict[str, Any]) -> None:
-    kept["claims"][0]["granted"] = ["nothing"]
-
-
-@pytest.mark.slow
-def test_a_report_is_found_again(reported: Any) -> None:
-    subject, kept = reported
-    assert kept_report.read(copy.deepcopy(kept), subject) is not None
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("change", [of_another_statement, of_other_gains, of_less_granted])
-def test_a_report_that_was_exchanged_is_made_anew(reported: Any, change: Callable[[Any], None]) -> None:
-    subject, kept = reported
-    change(changed := copy.deepcopy(kept))
-    assert kept_report.read(changed, subject) is None
-
-
-def test_constants_of_an_arm_are_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    first = kept_constants(load("reyes-kelly2"), 500, None)
-    monkeypatch.setattr(kept_arm, "arm_constants", never)
-    assert kept_constants(load("reyes-kelly2"), 500, None) == first
+def test_what_is_true_of_other_gains_is_asked_again(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
+    """The certificates of another gain set, accepted, under the question of this one."""
+    model, _, first = computed(ranges=False)
+    other = replace(GAINS, kp=(Fraction(2, 5),))
+    options = Options(**BUDGET)
+    monkeypatch.setattr(kept, "four", lambda *asked: first)
+    kept_epsilon(GAINS, model, options)
+    (path,) = place.iterdir()
+    content = path.read_bytes()
+    path.unlink()
+    monkeypatch.setattr(kept, "four", lambda *asked: replace(first, gains=other))
+    kept_epsilon(other, model, options)
+    (path,) = place.iterdir()
+    path.write_bytes(content)
+    monkeypatch.setattr(kept, "four", never)
+    with pytest.raises(AssertionError, match="computed again"):
+        kept_epsilon(other, model, options)

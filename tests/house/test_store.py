@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,10 @@ import pytest
 from lyapcheck import store
 from lyapcheck.answers.check import run as runs
 from lyapcheck.claims import run_proof
+from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
+from tests.arena.attacks import encoded, sealed
+from tests.arena.run import ARENA
 
 QUESTION = {"what": "<is it>"}
 
@@ -27,10 +31,8 @@ def place(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
 
 def test_an_answer_is_found_under_its_question_alone() -> None:
     assert store.take(QUESTION) is None
-    assert not store.has(QUESTION)
     store.put(QUESTION, {"answer": ["λ", 1]})
     assert store.take(QUESTION) == {"answer": ["λ", 1]}
-    assert store.has(QUESTION)
     assert store.take({"what": "another"}) is None
 
 
@@ -93,20 +95,45 @@ def test_a_proof_is_found_again_and_judged_again(monkeypatch: pytest.MonkeyPatch
     assert again.claims[0].verdict is Verdict.PROVED
 
 
-@pytest.mark.slow
+def of_another_statement(answer: dict[str, Any]) -> None:
+    """A true one, with its own digest."""
+    text = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
+    answer["certificates"]["search"] = text
+
+
+def of_another_proof(answer: dict[str, Any]) -> None:
+    other = json.loads(answer["certificates"]["search"])
+    other["proof"] = {"rule": "normal form"}
+    answer["certificates"]["search"] = encoded(sealed(other)).decode()
+
+
+def of_another_verdict(answer: dict[str, Any]) -> None:
+    other = json.loads(answer["certificates"]["search"])
+    answer["certificates"]["search"] = encoded(sealed(other | {"verdict": "refuted"})).decode()
+
+
+def no_text(answer: dict[str, Any]) -> None:
+    answer["beside"]["reason"] = {"no": "text"}
+
+
+def no_witness(answer: dict[str, Any]) -> None:
+    answer["beside"]["witness"] = [3]
+
+
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize(
-    "change",
-    [
-        {"verdict": "refuted"},
-        {"proof": {"rule": "normal form"}},
-        {"reason": {"no": "text"}},
-        {"witness": [3]},
-    ],
+    "change", [of_another_statement, of_another_proof, of_another_verdict, no_text, no_witness]
 )
-def test_a_proof_that_was_exchanged_is_searched_for_again(place: Path, change: dict[str, Any]) -> None:
+def test_a_proof_that_was_exchanged_is_searched_for_again(
+    monkeypatch: pytest.MonkeyPatch, place: Path, change: Callable[[dict[str, Any]], None]
+) -> None:
     """Even one whose own digest is right: the checker does not trust where it comes from."""
     first = run_proof("published.py", (1,), only=("7a",))
+    asked = []
     for path in place.iterdir():
         answer = json.loads(gzip.decompress(path.read_bytes()[:-32]))
-        store.keep(store.ANSWERS, path.name, gzip.compress(json.dumps(answer | change).encode()))
+        change(answer)
+        store.keep(store.ANSWERS, path.name, gzip.compress(json.dumps(answer).encode()))
+    monkeypatch.setattr(runs, "propose", lambda statement: asked.append(statement) or propose(statement))
     assert run_proof("published.py", (1,), only=("7a",)).data() == first.data()
+    assert asked

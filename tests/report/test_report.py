@@ -6,10 +6,12 @@ import csv
 import json
 import pickle
 import re
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import fields, replace
 from fractions import Fraction
 from html.parser import HTMLParser
 from io import BytesIO, StringIO
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -36,6 +38,7 @@ from lyapcheck.report.figures.motion import draw_errors, draw_torques
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.gain_rows import EpsilonRow
+from lyapcheck.report.jobs import done, map_job
 from lyapcheck.report.model import Report, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.graph import LETTERS, graph, layout, tied
@@ -271,8 +274,18 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path: Path) -> None
     assert not {row.id for row in own.claims} & {"16", "P", "T1.torque.m1.base"}
     assert {row.id for row in own.claims} >= {"2.1", "10p.gains", "19.gains"}
     assert [badge.subject for badge in badges(own)] == ["mine"]
+    assert own.versions.keys() >= {"lyapcheck", "casadi", "numpy", "python-flint"}
+    assert not own.versions.keys() & {"sympy", "cvxpy", "clarabel"}
     assert "printed proof" not in page.casefold()
     assert all(text not in page for text in ("Fig. 4", "Table 2 "))
+
+
+def test_a_report_names_the_packages_that_its_computations_loaded() -> None:
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        before = pool.submit(done, map_job, "reyes-kelly2", {}, False).result()
+        after = pool.submit(done, exec, "import sympy").result()
+    assert {"lyapcheck", "python-flint"} <= before.packages
+    assert after.packages - before.packages == {"sympy"}
 
 
 def gate_result(kp: int = 1, kv: Fraction = Fraction(1, 100)) -> GateResult:

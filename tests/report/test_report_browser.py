@@ -1,4 +1,4 @@
-"""The page in a real browser: no error, links, filters, sliders, keyboard, phone, dark, paper, no script."""
+"""The page in a real browser: no error, links, filters, runs, keyboard, phone, dark, paper, no script."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.control.gains import read_gain_file
 from lyapcheck.report.model import Report
 from tests.helpers.browser import CHROMIUM, Tab, browser
 
@@ -100,18 +99,10 @@ def test_the_graph_shows_what_a_claim_rests_on(page: Tab) -> None:
     assert "P" not in lit
 
 
-def test_sliders_move_curves_and_the_gain_file_can_be_read(page: Tab, tmp_path: Path) -> None:
-    curve = "document.querySelector('#plot-step polyline').getAttribute('points')"
-    before = page.run(curve)
-    page.enter("#sliders label:nth-of-type(3) input", 900)
-    assert page.run(curve) != before
-    page.run("document.getElementById('copy-gains').click()")
-    text = page.until("document.getElementById('gain-file').textContent")
-    path = tmp_path / "mine.toml"
-    path.write_text(text, encoding="utf-8")
-    (gains,) = read_gain_file(path).gains
-    assert gains.m == 1
-    assert len(gains.kp) == 2
+def test_each_gain_set_shows_its_run_without_anything_that_moves(page: Tab, report: Report) -> None:
+    drawn = "[...document.querySelectorAll('#gains .run')].map(one => one.querySelectorAll('svg').length)"
+    assert page.run(drawn) == [2] * len(report.runs)
+    assert page.run("document.getAnimations().length") == 0
 
 
 def test_the_keyboard_goes_down_the_page(page: Tab) -> None:

@@ -92,7 +92,7 @@ def test_words_and_page_are_those_of_today() -> None:
             if set(note.claims) & set(finding["claims"]):
                 said = [finding[key] for key in ("title", "argument", "fails", "consequence", "repair")]
                 assert said == [note.title, note.argument, note.fails, note.consequence, note.repair], REPAIR
-    for name in ("style.css", "page.js", "bench.js"):
+    for name in ("style.css", "page.js"):
         assert raw(name) in PAGE, REPAIR
 
 

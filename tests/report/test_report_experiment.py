@@ -15,7 +15,6 @@ from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.table import build_table
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.report.bench import bench
 from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import findings
@@ -54,7 +53,7 @@ def found() -> StudyRow:
 @pytest.fixture(scope="module")
 def files(found: StudyRow) -> dict[str, str | bytes]:
     model = load("buap3")
-    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs"), ())
+    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs", "map"), ())
     found_out = findings(NOTES, (), {}, (), found)
     report = Report(
         robot=model,
@@ -63,7 +62,6 @@ def files(found: StudyRow) -> dict[str, str | bytes]:
         own=False,
         table=build_table((1,)),
         gate=GateAnswer(()),
-        bench=bench(model, (), (0.5,) * model.n, ()),
         sensitivity=found,
         figures=draw_sensitivity(found),
         findings=found_out,

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
@@ -17,7 +19,7 @@ from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import Vary, corners
+from lyapcheck.robots.vary import Vary, corners, corners_text, outside
 from lyapcheck.simulate.task import PAPER_TASK
 
 UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
@@ -147,7 +149,8 @@ def test_the_corners_are_the_ends_of_all_that_varies() -> None:
     assert {float(arm.viscous[0].value) for arm in result.values()} == {0.2842, 0.406}
     assert not any(arm.parameters or arm.viscous[0].ranged for arm in result.values())
     many = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "mass=-10%..+10%")))
-    assert len(list(corners(robots.load(UR5, vary=many), many))) == 4
+    assert len(list(corners(robots.load("ur5", vary=many), many))) == 4
+    assert len(list(corners(robots.load(UR5, vary=many), many))) == 2  # friction that is 0 stays 0
 
 
 @pytest.mark.parametrize(
@@ -201,5 +204,51 @@ def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
 def test_tuning_counts_the_worst_arm() -> None:
     bench = Trials(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
     result = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
-    assert result.arms == 3
-    assert "each on 3 arms" in str(result).replace("\n", " ")
+    assert result.arms == "the nominal arm and all 2 corners of the ranges"
+    assert f"each on {result.arms}" in " ".join(str(result).split())
+
+
+@pytest.mark.parametrize(
+    ("name", "texts", "expected"),
+    [
+        ("buap3", ("viscous=-30%..+0%",), ()),
+        ("buap3", ("viscous=+100%..+200%",), ("base_viscous", "shoulder_viscous", "elbow_viscous")),
+        ("buap3", ("elbow_viscous=5..6", "coulomb=-10%..10%"), ("elbow_viscous",)),
+        ("buap3", ("shoulder_viscous=3..3",), ("shoulder_viscous",)),
+        (UR5, ("payload=0..3",), ()),
+        (UR5, ("payload=1..3",), ("wrist_3_joint_mass",)),
+        (UR5, ("payload=2..2",), ("wrist_3_joint_mass",)),
+        (UR5, ("mass=10%..20%", "payload=0..1"), tuple(f"{joint}_mass" for joint in robots.load(UR5).joints)),
+    ],
+)
+def test_values_of_the_file_outside_their_range_are_named(
+    name: str, texts: tuple[str, ...], expected: tuple[str, ...]
+) -> None:
+    assert outside(robots.load(name), varied(name, *texts)) == expected
+
+
+@given(low=st.integers(-99, 300), width=st.integers(0, 300))
+def test_the_arm_of_the_file_is_named_unless_it_is_in_the_ranges(low: int, width: int) -> None:
+    named = outside(robots.load("buap3"), varied("buap3", f"viscous={low}%..{low + width}%"))
+    assert bool(named) == (not low <= 0 <= low + width)
+
+
+@pytest.mark.parametrize(
+    ("name", "texts", "said"),
+    [
+        ("buap3", ("viscous=-30%..+0%",), "all 8 corners of the ranges"),
+        ("buap3", ("elbow_viscous=0.4..0.4",), "the corner of the ranges"),
+        ("ur5", ("viscous=-30%..+0%", "mass=-10%..+10%"), "4 of 4096 corners of the ranges (numbers of one"),
+        ("ur5", ("viscous=-30%..+0%", "elbow_joint_viscous=1..2"), "4 of 64 corners of the ranges (numbers"),
+        ("ur5", ("viscous=-30%..+0%",), "2 of 64 corners of the ranges (numbers of one name move together)"),
+    ],
+)
+def test_it_is_said_how_many_corners_of_how_many_are_tried(
+    name: str, texts: tuple[str, ...], said: str
+) -> None:
+    varies = tuple(map(Vary.parsed, texts))
+    model = robots.load(name, vary=varies)
+    text = corners_text(model, varies)
+    assert text.startswith(said)
+    count = len(list(corners(model, varies)))
+    assert count == next((int(word) for word in text.split() if word.isdigit()), 1)

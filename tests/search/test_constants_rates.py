@@ -14,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
-from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.inertia import Bisection, PostureWitness
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.motion import coriolis_power
 from lyapcheck.check.loop.storage import Shown, hinges
@@ -22,6 +23,7 @@ from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
+from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.moving_arm import coriolis_bounded
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
@@ -62,31 +64,55 @@ def test_the_power_along_the_links_is_that_of_coriolis_torques(name: str, tmp_pa
     assert power == pytest.approx(z @ NumericModel(arm).coriolis(q, x) @ x, rel=1e-10)
 
 
+def charge(Q: Any, s: Any, t: Any, x: Any, z: Any) -> Any:
+    """Σ_j (s_j zᵀQ_jz + x_j² xᵀQ_jx/s_j + ½ t_j z_j² + ½ (xᵀQ_jx)²/t_j) of the squares of x and z."""
+    total = 0
+    for j, (row, share, other) in enumerate(zip(Q, s, t, strict=True), 1):
+        along_x, along_z = (sum(q * v for q, v in zip(row, squares, strict=True)) for squares in (x, z))
+        total = total + share * along_z + x[j] * along_x / share + (other * z[j] + along_x**2 / other) / 2
+    return total
+
+
+@given(st.integers(1, 5), st.randoms(use_true_random=False))
+@settings(max_examples=40, deadline=None)
+def test_what_is_reached_is_twice_the_largest_coefficient(n: int, random: Any) -> None:
+    """The coefficients of z_i² and of x_i² x_k², read off values at units."""
+    rows = [[F(random.randint(1, 99), 7) for _ in range(n)] for _ in range(n - 1)]
+    s, t = ([F(random.randint(1, 99), 9) for _ in range(n - 1)] for _ in "st")
+    unit, none = [[F(int(i == k)) for k in range(n)] for i in range(n)], [F(0)] * n
+    of_x = {
+        (i, k): charge(rows, s, t, [a + b * (i != k) for a, b in zip(unit[i], unit[k], strict=True)], none)
+        for i in range(n)
+        for k in range(n)
+    }
+    mixed = [(of_x[i, k] - of_x[i, i] - of_x[k, k]) / 2 for i in range(n) for k in range(i)]
+    largest = max(*(charge(rows, s, t, none, e) for e in unit), *(of_x[i, i] for i in range(n)), *mixed, F(0))
+    rates = tuple(Shown(tuple(row), ()) for row in rows)
+    assert RateBounds(rates, tuple(s), tuple(t)).reached == 2 * largest
+
+
 @given(st.integers(2, 5), st.integers(0, 10**6))
 @settings(max_examples=60, deadline=None)
-def test_no_slopes_within_the_bounds_exceed_what_they_are_said_to_show(n: int, seed: int) -> None:
-    """zᵀC(q, x)x of random slopes ½ ∂M/∂q_j at the border of ± diag(Q_j), by its own definition."""
+def test_no_slopes_within_the_bounds_exceed_what_they_are_charged(n: int, seed: int) -> None:
+    """zᵀC(q, x)x for slopes ½ ∂M/∂q_j at the border of ± diag(Q_j) that add the most at some x and z."""
     random = np.random.default_rng(seed)
-    Q = 10.0 ** random.uniform(-1, 1, (n - 1, n))
-    rates = tuple(Shown(tuple(map(F, row)), ()) for row in Q.tolist())
-    crossed, squared = (tuple(map(F, (10.0 ** random.uniform(-1, 1, n - 1)).tolist())) for _ in range(2))
+    Q, (x, z) = 10.0 ** random.uniform(-1, 1, (n - 1, n)), random.normal(size=(2, n))
+    along_x, along_z = Q @ x**2, Q @ z**2
+    s, t = np.abs(x[1:]) * np.sqrt(along_x / along_z), along_x / np.abs(z[1:])
     slopes = [np.zeros((n, n))]
-    for row in Q:
-        turn = np.linalg.qr(random.normal(size=(n, n)))[0]
-        signs = turn @ np.diag(random.choice([-1.0, 1.0], n)) @ turn.T
-        slopes.append(np.sqrt(row)[:, None] * signs * np.sqrt(row))
+    for j, row in enumerate(Q):
+        root, mirror = np.sqrt(row), -np.sign(z[j + 1]) * np.eye(n)
+        if random.random() < 0.6:  # a reflection that takes x to z
+            away = root * x / np.sqrt(along_x[j]) - np.sign(x[j + 1]) * root * z / np.sqrt(along_z[j])
+            mirror = np.eye(n) - 2 * np.outer(away, away) / (away @ away)
+        slopes.append(root[:, None] * mirror * root)
     half = np.array(slopes)  # of M_ij along q_k: half[k, i, j]
     c = np.einsum("kij->ijk", half) + np.einsum("jik->ijk", half) - half
-    x = random.normal(size=(200, n))
-    x /= np.linalg.norm(x, axis=1, keepdims=True)
-    torque = np.einsum("ijk,sj,sk->si", c, x, x)
-    for _ in range(20):  # uphill, to where the sizes are largest
-        z = torque / np.maximum(np.linalg.norm(torque, axis=1, keepdims=True), 1e-300)
-        x = x + np.einsum("si,ijk,sk->sj", z, c + np.swapaxes(c, 1, 2), x) / np.abs(c).max()
-        x /= np.linalg.norm(x, axis=1, keepdims=True)
-        torque = np.einsum("ijk,sj,sk->si", c, x, x)
-    reached = float(RateBounds(rates, crossed, squared).reached)
-    assert np.linalg.norm(torque, axis=1).max() <= reached * (1 + 1e-9)
+    reached = np.einsum("ijk,i,j,k", c, z, x, x)
+    assert reached <= charge(Q, s, t, x**2, z**2) * (1 + 1e-9)
+    crossed = sum(2 * x[j] * (z @ slope @ x) for j, slope in enumerate(slopes))
+    squared = sum(z[j] * (x @ slope @ x) for j, slope in enumerate(slopes))
+    assert reached == pytest.approx(crossed - squared)
 
 
 def test_two_joints_lose_less_than_a_half_and_what_shows_less_is_refused(tmp_path: Path) -> None:
@@ -155,6 +181,14 @@ def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints: int, 
     shown = storage_proof(chain, "k_c")
     assert shown is not None
     assert shown.bound < F(1, 500)
+
+
+def test_a_last_body_without_mass_changes_little(tmp_path: Path) -> None:
+    links = arm_of("pelican2", tmp_path).chain.links
+    last = replace(links[1], mass=F(0), com=NOWHERE, inertia=(NOWHERE,) * 3)
+    bounds = [storage_proof(Chain(chain, NOWHERE), "k_c") for chain in (links, (*links, last))]
+    first, second = (shown.bound for shown in bounds if shown is not None)
+    assert first <= second <= first * F(1001, 1000)
 
 
 def test_one_joint_has_no_coriolis_torque(tmp_path: Path) -> None:
@@ -239,6 +273,13 @@ def test_between_what_is_reached_and_what_is_shown_a_bound_is_open(tmp_path: Pat
     result = propose(between)
     assert result.proof is None
     assert "take a larger one" in result.reason
+
+
+def test_boxes_show_norms_of_the_symbols_and_nothing_less() -> None:
+    """k_c is 0.1381 here, and what boxes can show a twelfth more."""
+    mass = ArmBounds(load("reyes-kelly2")).mass
+    assert verify(CoriolisBelow(mass, (), F(15, 100)), Bisection()).verdict == "proved"
+    assert not CoriolisBelow(mass, (), F(138, 1000)).shown_by_boxes(100)
 
 
 @pytest.mark.slow

@@ -120,7 +120,7 @@ def test_every_real_number_and_undefined_ends(family: Family, form: str) -> None
 def test_ranges_are_monotone_and_symmetric(family: Family, form: str, ends: list[float]) -> None:
     outer = over(family, form, Interval(np.asarray(ends[0]), np.asarray(ends[3])))
     inner = over(family, form, Interval(np.asarray(ends[1]), np.asarray(ends[2])))
-    rounding = 1e-14 * max(abs(float(outer.lo)), abs(float(outer.hi)))
+    rounding = 2e-14 * (family.m or 1) ** 2 * max(abs(float(outer.lo)), abs(float(outer.hi)), form == "dh")
     assert outer.lo <= inner.lo + rounding
     assert inner.hi <= outer.hi + rounding
     mirrored = over(family, form, Interval(np.asarray(-ends[3]), np.asarray(-ends[0])))

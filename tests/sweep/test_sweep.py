@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ from lyapcheck.answers.sweep import read_plan
 from lyapcheck.answers.sweep.question import COLUMNS
 from lyapcheck.answers.sweep.result import SweepAnswer
 from lyapcheck.answers.sweep.tally import Tally
+from lyapcheck.control.arm_limits import varied_limits
+from lyapcheck.control.gains import GainFile, GainSet
+from lyapcheck.robots.vary import Vary
 from tests.helpers.command import lyapcheck as command
 
 PLAN = """
@@ -296,3 +300,43 @@ def program(*words: object) -> list[str]:
 def rows_after(words: list[object], out: Path, **variables: str) -> list[dict[str, Any]]:
     subprocess.run(program(*words), env={**os.environ, **variables}, capture_output=True, check=False)
     return rows_of(out)
+
+
+def test_over_a_variation_the_gate_answers_as_with_vary(plan: Path, tmp_path: Path) -> None:
+    command("sweep", plan, "--out", tmp_path / "out")
+    rows = rows_of(tmp_path / "out")
+    ranges = (Vary.parsed("viscous=-30%..+0%"),)
+    limits = {"reyes-kelly2": varied_limits("reyes-kelly2", ranges)}
+    for row in rows:
+        gains = GainSet("one", row["m"], *(tuple(map(Fraction, row[key])) for key in ("kp", "kv")))
+        arms = limits if row["variation"] else {}
+        (result,) = gate(GainFile("plan", "reyes-kelly2", (gains,)), arms=dict(arms)).data()["results"]
+        assert row["verdict"] == result["verdict"]
+        keys = ("id", "joint", "verdict", "value", "limit", "margin")
+        seen, expected = (
+            [[check[key] for key in keys] for check in answer["checks"]] for answer in (row["answer"], result)
+        )
+        assert seen == expected
+        if row["margin"] is not None:
+            deciding = [check for check in result["checks"] if check["id"] in result["deciding"]]
+            least = min(Fraction(one["margin"]) / Fraction(one["limit"]["upper"]) for one in deciding)
+            assert Fraction(str(row["margin"])) <= least + Fraction(1, 10**9)
+
+
+def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path: Path) -> None:
+    path = tmp_path / "plan.toml"
+    path.write_text(
+        'robots = ["reyes-kelly2"]\nvariations = [[], ["viscous=-5%..+5%"], ["viscous=+5%..+5%"]]\n'
+        'questions = ["robot", "simulate"]\n[[gains]]\nname = "one"\nm = 1\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
+        "[robot]\nmax_boxes = 20\n[simulate]\ntime = 1\ntarget = [45, 45]\n"
+    )
+    command("sweep", path, "--out", tmp_path / "out")
+    rows = rows_of(tmp_path / "out")
+    told = [(row["verdict"], row["reason"]) for row in rows if row["ask"] == "robot"]
+    assert told == [("proved", ""), ("undecided", "proved at nominal numbers only: 2.7"), ("proved", "")]
+    arms = [row["answer"]["arms"] for row in rows if row["ask"] == "simulate"]
+    assert arms == [
+        None,
+        "one arm in the ranges and all 4 corners of the ranges",
+        "one arm in the ranges and the corner of the ranges",
+    ]

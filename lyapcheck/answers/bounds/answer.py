@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.bounds.compare import BoundsComparison
 from lyapcheck.answers.bounds.data import comparison_data
 from lyapcheck.answers.gain_place import gain_place
-from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.control.resting import degrees_above
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
@@ -24,15 +25,14 @@ REST = (
     "|e_i| at every state of rest; simulated at rest: the larger of this motion's and of one let go at "
     "95 % of the bound; simulated on the way: the largest of this motion:"
 )
-NONE, DEGREES = "—", Fraction(5729577951309, 10**11)
-"""Degrees of a radian, from above."""
+NONE = "—"
 WITHOUT = "without --vary, proved"
 LEGEND = (
     "proved: accepted by the checker, for dry friction up to what is stated, at every state of rest.",
     "simulated: {}, in floating point, with that dry friction.",
 )
 ONE_RUN = "one run at nominal numbers"
-CORNERS = "the worst of one run at each corner of {}, which proves nothing of what lies between"
+CORNERS = "the worst of one run at {}, for {}, which proves nothing of what lies between"
 NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
 
 
@@ -55,7 +55,8 @@ class Comparisons(Answer):
         behind = (Section(result.gains.name, tuple(_behind(result))) for result in self.results)
         assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
         varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
-        runs = CORNERS.format(varies) if varies else ONE_RUN
+        tried = ", ".join(dict.fromkeys(result.corners for result in self.results if result.corners))
+        runs = CORNERS.format(tried, varies) if varies else ONE_RUN
         notes = (LEGEND[0], LEGEND[1].format(runs), *(f"{text}." for text in assumed))
         return Document(title(self.results), (*behind, _times(self.results)), notes)
 
@@ -146,6 +147,4 @@ def _angle(value: float) -> str:
 
 def angle_up(value: Fraction | None) -> str:
     """A proved angle in degrees, in four digits and never rounded down; ``None`` is without a bound."""
-    if value is None:
-        return "∞"
-    return f"{decimal_text(significant_up(value * DEGREES, 4))}°" if value else "0°"
+    return "∞" if value is None else degrees_above(value)

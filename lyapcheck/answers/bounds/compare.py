@@ -13,7 +13,7 @@ from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.robots.vary import corners
+from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.search.rest import resting
 from lyapcheck.simulate.disturbed import disturbed
 
@@ -49,8 +49,8 @@ class BoundsComparison:
         simulated_rest: rad, the largest |e_i| at the end of two runs: of the task, and of one let go just
             inside the bound of rest.
         assumptions: what is taken for granted about the arm.
-        varies: the ranges over which the bounds hold, as typed; of runs at all their corners the worst
-            counts.
+        varies: the ranges over which the bounds hold, as typed.
+        corners: at which of their corners runs were made; the worst of them counts.
         unvaried: the same without these ranges, where something varies.
     """
 
@@ -67,6 +67,7 @@ class BoundsComparison:
     simulated_rest: tuple[float, ...]
     assumptions: tuple[str, ...]
     varies: tuple[str, ...] = ()
+    corners: str = ""
     unvaried: BoundsComparison | None = None
 
     @property
@@ -135,6 +136,7 @@ def compare(
         simulated_rest=tuple(np.max([run.rest for run in runs], axis=0).tolist()),
         assumptions=model.assumptions,
         varies=() if varied is None else tuple(one.text for one in varied[1]),
+        corners="" if varied is None else corners_text(*varied),
         unvaried=unvaried,
     )
 

@@ -8,17 +8,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from lyapcheck import store
 from lyapcheck._types import Progress, silent
 from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.answers.check.gains import gain_sets
 from lyapcheck.certificate import Certificate, to_json
-from lyapcheck.check.certificate import digest_of
-from lyapcheck.check.codec import from_json
-from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.check.verify import verify
+from lyapcheck.check.certificate import About, digest_of
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.ask import ask
 from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
@@ -32,10 +27,13 @@ from lyapcheck.claims.proposal import Proposal, chained, rests_on
 from lyapcheck.claims.script import find_script
 from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.claims.statements import Missing
+from lyapcheck.kept import KeptCertificates, remembered
 from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_ROBOT = "buap3"
+BESIDE = {"method": str, "reason": str, "witness": dict | None, "evidence": dict}
+"""What a search says beside its proof."""
 
 
 def run_proof(
@@ -99,8 +97,7 @@ class ProposedProof:
     certificates: Mapping[Key, Certificate]
 
     def result(self, judged: Mapping[Key, Judged]) -> ProofResult:
-        """What a fresh process of the checker makes of it, see `judge_afresh`; that is kept."""
-        _keep(self.proposals, judged)
+        """What a fresh process of the checker makes of it, see `judge_afresh`."""
         results, claims = _results(self.proposals, judged), self.handover.claims
         about_arm = any("robot" in answer.read for claim in claims for answer in claim.answers)
         places = {claim.id: k for k, claim in enumerate(claims)}
@@ -116,6 +113,9 @@ class ProposedProof:
             self.model.assumptions if self.model is not None and about_arm else (),
             {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
             self.path,
+            frozenset(
+                claim.id for claim in claims if any("gains" in answer.read for answer in claim.answers)
+            ),
         )
 
 
@@ -208,38 +208,34 @@ def _search(statement: Statement | Missing) -> SearchResult:
     try:
         if isinstance(statement, Missing):
             return propose(statement)
-        return _read(store.take(_question(statement)), statement) or propose(statement)
+        asked = {"search": digest_of(to_json(statement))}
+        return remembered(
+            asked,
+            lambda kept: _rebuilt(kept, asked),
+            lambda: propose(statement),
+            lambda result: _written(statement, result),
+        )
     except Exception as error:
         return SearchResult(Verdict.ERROR, "", reason=f"{type(error).__name__}: {error}")
 
 
-def _keep(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) -> None:
-    """Put what the checker has accepted into the store."""
-    for key, row in proposals.items():
-        if not isinstance(row.stated, Missing) and row.finding.proof is not None and judged[key].accepted:
-            _put(row.stated, row.finding)
-
-
-def _put(statement: Statement, result: SearchResult) -> None:
-    if result.proof is not None and not store.has(question := _question(statement)):
-        written = {**vars(result), "grade": result.grade.label, "proof": to_json(result.proof)}
-        store.put(question, written)
-
-
-def _question(statement: Statement) -> dict[str, str]:
-    return {"search": digest_of(to_json(statement))}
-
-
-def _read(kept: Any, statement: Statement) -> SearchResult | None:
-    """A finding as it was written; none if it is of another form, or its proof shows another thing."""
-    try:
-        proof, grade = from_json(Proof, kept["proof"], "proof"), Grade[kept["grade"].upper()]
-        result = SearchResult(**{**kept, "verdict": Verdict(kept["verdict"]), "proof": proof, "grade": grade})
-        plain = isinstance(result.method, str) and isinstance(result.reason, str)
-        plain = plain and isinstance(result.evidence, dict) and isinstance(result.witness, dict | None)
-        return result if plain and verify(statement, proof).verdict == result.verdict.value else None
-    except (Refused, AttributeError, KeyError, TypeError, ValueError):
+def _written(statement: Statement, result: SearchResult) -> KeptCertificates | None:
+    if result.proof is None:
         return None
+    about, grade = About("search", "", None, None, ""), result.grade.label
+    made = Certificate(about, statement, result.verdict.value, grade, result.proof)
+    return KeptCertificates({"search": made}, {name: getattr(result, name) for name in BESIDE})
+
+
+def _rebuilt(kept: KeptCertificates, asked: Mapping[str, str]) -> SearchResult | None:
+    """What was proposed, if it shows what is asked now."""
+    one, beside = kept.certificates["search"], kept.beside
+    if {"search": digest_of(to_json(one.statement))} != asked:
+        return None
+    if not all(isinstance(beside[name], form) for name, form in BESIDE.items()):
+        return None
+    grade = Grade[one.grade.upper()]
+    return SearchResult(Verdict(one.verdict), proof=one.proof, grade=grade, **{k: beside[k] for k in BESIDE})
 
 
 def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) -> dict[Key, ClaimResult]:
@@ -251,7 +247,7 @@ def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) ->
         if decision.verdict is Verdict.PROVED and broken:
             decision = undecided(rests_on(broken), decision.method, **decision.evidence)
         elif decision.verdict in (Verdict.PROVED, Verdict.UNDECIDED) and not isinstance(row.stated, Missing):
-            said = (decision.reason, *remarks(row.stated, _judged))
+            said = (decision.reason, *remarks(row.stated, _search))
             decision = replace(decision, reason="; ".join(filter(None, said)))
         result[key] = ClaimResult(
             id=claim.id,
@@ -267,13 +263,6 @@ def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) ->
             stated=row.stated,
             seconds=row.seconds,
         )
-    return result
-
-
-def _judged(statement: Implies) -> SearchResult:
-    """What the checker accepts, in this process: enough for a remark."""
-    result = _search(statement)
-    _put(statement, result)
     return result
 
 

@@ -48,6 +48,7 @@ def put_together(
         proof=proof,
         against=_refutation(controlled, at, witness),
         ranges=controlled.ranges,
+        uncertain=any(x.ranged for x in (*controlled.model.parameters.values(), *controlled.model.viscous)),
         corner=_corner(at) if controlled.ranges else {},
         findings=tuple(findings(published, certified, witness)),
         **more,

@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.loop.states import confirms_positive
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
@@ -41,7 +42,7 @@ def require_consistent(
             continue
         if confirms_positive(controlled.arm, controlled.controller, eps0, witness.state):
             raise Contradiction(
-                f"{controlled.gains.name}: the {name} ε₀ = {float(eps0):.9g} is refuted by a proved state"
+                f"{controlled.gains.name}: the {name} ε₀ = {decimal_text(eps0)} is refuted by a proved state"
             )
         if name == "scalar" and eps0 >= witness.eps0:
             raise Contradiction(f"{controlled.gains.name}: the scalar ε₀ is not below a falsified one")

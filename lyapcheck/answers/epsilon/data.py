@@ -30,6 +30,7 @@ def result_data(result: FourEpsilons) -> dict[str, Any]:
         "weighted": None if result.weighted is None else _weighted(result.weighted),
         "ranges": result.ranges,
         "unvaried": exact(result.unvaried),
+        "outside": list(result.outside),
         "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,
         "findings": list(result.findings),

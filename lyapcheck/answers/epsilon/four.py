@@ -48,7 +48,9 @@ class FourEpsilons:
         findings: what the numbers say about each other, one sentence each.
         assumptions: what is taken for granted about the arm.
         seed: of the sampled states.
-        unvaried: what is certified at nominal numbers, where that was asked for beside ranges.
+        unvaried: what is certified at the numbers of the file, where these lie within the ranges.
+        outside: the numbers whose value in the file lies outside the ranges.
+        uncertain: whether the arm has ranges of M, potential or friction, asked for or not.
     """
 
     gains: GainSet
@@ -71,6 +73,8 @@ class FourEpsilons:
     assumptions: tuple[str, ...] = ()
     seed: int = 0
     unvaried: Fraction | None = None
+    outside: tuple[str, ...] = ()
+    uncertain: bool = False
 
     @property
     def name(self) -> str:
@@ -88,6 +92,13 @@ class FourEpsilons:
         if self.scalar is None:
             return None
         return "no certificate" if self.scalar_proof is None else "enclosure"
+
+    @property
+    def extent(self) -> str:
+        """For which arms the numbers are; empty where the arm has no ranges."""
+        if self.ranges:
+            return "for all values in its ranges"
+        return "at its nominal numbers" if self.uncertain else ""
 
     @property
     def ratio(self) -> Fraction | None:

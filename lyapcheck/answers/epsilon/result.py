@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lyapcheck.output.annotations import Annotation
 
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
-NOT_IN_RECORDS = ("corner", "findings", "assumptions")
+NOT_IN_RECORDS = ("corner", "outside", "findings", "assumptions")
 PARTS = ("witness", "weighted")
 """What takes several columns where there is any."""
 

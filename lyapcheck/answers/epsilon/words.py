@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.digits import decimals
+from lyapcheck.output.digits import at_most, decimals
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.four import FourEpsilons
@@ -55,13 +55,18 @@ def number_cell(result: FourEpsilons, kind: str) -> str:
 
 def title(results: Sequence[FourEpsilons]) -> str:
     """Whether every gain set has a certified ε₀."""
-    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    robots = ", ".join(dict.fromkeys(filter(None, map(_arm, results))))
     outcome = sum(result.certified is not None for result in results)
     if len(results) == 1:
         return f"{_one(results[0])} on {robots}"
     if outcome == len(results) > 0:
         return f"✓ all {outcome} gain sets have a certified ε₀ on {robots}"
     return f"? {outcome} of {len(results)} gain sets have a certified ε₀ on {robots or 'no arm'}"
+
+
+def _arm(result: FourEpsilons) -> str:
+    """The arm with the extent of what is said of it."""
+    return f"{result.robot}, {result.extent}" if result.extent else result.robot
 
 
 def _one(result: FourEpsilons) -> str:
@@ -83,6 +88,11 @@ def remarks(result: FourEpsilons) -> list[str]:
     said = [_way(result)] if result.certified is not None or result.boxes else []
     if result.certified is not None and result.unvaried is not None:
         said.append(_cost_text(result.certified, result.unvaried))
+    if result.outside:
+        said.append(
+            f"the file's own value lies outside the range of {', '.join(result.outside)}: nothing here is "
+            "about the arm as its file describes it."
+        )
     said += [f"{finding}." for finding in result.findings]
     said += reasons(result)
     if result.weighted is not None:
@@ -115,8 +125,8 @@ def _cost_text(certified: Fraction, nominal: Fraction) -> str:
     """What the ranges cost."""
     if certified >= nominal:
         return f"the ranges cost nothing: at nominal numbers ε₀ = {exact(nominal)} is certified."
-    share = 100 * float(1 - certified / nominal)
-    return f"the ranges cost {share:.2g} %: at nominal numbers ε₀ = {exact(nominal)} is certified."
+    share = at_most(100 * (1 - certified / nominal), 2)
+    return f"the ranges cost {share} %: at nominal numbers ε₀ = {exact(nominal)} is certified."
 
 
 def reasons(result: FourEpsilons) -> list[str]:
@@ -149,7 +159,7 @@ def witness_text(witness: RisingState) -> str:
 
 def notes(results: Sequence[FourEpsilons]) -> list[str]:
     """What holds for all results: what the columns say, the arm, the seed, assumptions."""
-    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    robots = ", ".join(dict.fromkeys(map(_arm, results)))
     seeds = ", ".join(dict.fromkeys(str(result.seed) for result in results))
     assumed = dict.fromkeys(text for result in results for text in result.assumptions)
     return [
@@ -157,12 +167,6 @@ def notes(results: Sequence[FourEpsilons]) -> list[str]:
         *([RANGED] if any(result.ranges for result in results) else []),
         BUYS,
         *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),
-        *([f"Arm: {robots}, {_extent(results)}. Seed: {seeds}."] if results else []),
+        *([f"Arm: {robots}. Seed: {seeds}."] if results else []),
         *(f"{text}." for text in assumed),
     ]
-
-
-def _extent(results: Sequence[FourEpsilons]) -> str:
-    if all(result.ranges for result in results):
-        return "certified for all values in its ranges"
-    return "at its nominal parameters"

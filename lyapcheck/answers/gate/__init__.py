@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.answer import GateAnswer
-from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
+from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.control.arm_limits import ArmLimits
+from lyapcheck.control.deciding import DECIDING
 from lyapcheck.control.gains import GainFile, gain_file_of
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ __all__ = ["DECIDING", "GateAnswer", "GateResult", "gate"]
 def gate(
     gain_file: GainFile | str | Path,
     robot: str | None = None,
-    deciding: Sequence[str] = DECIDING,
+    deciding: Sequence[str] | None = None,
     gamma: str = "true",
     strict: bool = False,
     arms: dict[str, ArmLimits] | None = None,
@@ -31,7 +32,7 @@ def gate(
     Args:
         gain_file: what ``read_gain_file`` returned, or the path of a gain file.
         robot: an arm that replaces the one the file names.
-        deciding: which of ``10``, ``10p``, ``19``, ``scalar`` and ``global`` must hold.
+        deciding: the conditions that must hold; if missing those of each set, else (10p) and (19).
         gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
         strict: whether what is undecided counts as a failure.
         arms: arms that need not be read again, by name, for many files on one arm; those read now are added.

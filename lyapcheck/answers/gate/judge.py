@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
     ACCEPTED,
-    CONDITIONS,
     REJECTED,
     UNDECIDED,
     Check,
     Conditions,
     gamma_of,
 )
+from lyapcheck.control.deciding import CERTIFICATES, DECIDING, KNOWN, deciding_for
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.errors import argument_error
@@ -25,12 +25,10 @@ from lyapcheck.errors import argument_error
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
 
-DECIDING = ("10p", "19")
-"""What the paper's tuning rules ask for; (10) is shown beside them and decides only when asked to."""
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
-CERTIFICATES = ("scalar", "global", "lasalle")
-"""Proofs of stability for the arm; they are looked for when asked to decide, or where (19) alone fails."""
+GRAVITY = "gravity"
+"""A stated bound that the arm itself breaks: it is rejected, whatever else decides."""
 MOST_EXPLAINED = 300
 """Gain sets of a file of which more is found out than whether they pass."""
 
@@ -43,11 +41,13 @@ class GateResult:
         file: that the set is from.
         gains: the set.
         limits: of the arm.
-        checks: of (10), (10p) and (19), and of the certificates that decide.
+        checks: of (10), (10p) and (19), of the certificates that decide, and of stated bounds of gravity
+            that the arm breaks.
         deciding: the conditions that must hold.
         strict: whether what is undecided counts as a failure.
         otherwise: a proof of stability for gains that break (19), where one was looked for and found.
         explained: whether more is to be said of the set than its checks.
+        gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
     """
 
     file: GainFile
@@ -58,6 +58,7 @@ class GateResult:
     strict: bool = False
     otherwise: Check | None = None
     explained: bool = False
+    gamma: str = "true"
 
     @property
     def name(self) -> str:
@@ -72,13 +73,23 @@ class GateResult:
     @cached_property
     def verdict(self) -> str:
         """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
-        return self.verdict_of(self.deciding)
+        return self.verdict_of((*self.deciding, GRAVITY))
+
+    @property
+    def saturates(self) -> bool:
+        """Whether (10i) fails, so that nothing keeps a motor within its limit."""
+        return self.verdict_of(("10i",)) == REJECTED
 
     @property
     def standing(self) -> str:
         """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
-        if self.verdict != REJECTED or self.stable is None:
+        if (
+            self.verdict != REJECTED
+            or self.stable is None
+            or self.saturates
+            or self.verdict_of((GRAVITY,)) == REJECTED
+        ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
@@ -106,15 +117,17 @@ class GateResult:
     @property
     def failures(self) -> tuple[Check, ...]:
         """The deciding checks that were not accepted."""
-        return tuple(
-            [check for check in self.checks if check.verdict != ACCEPTED and check.id in self.deciding]
-        )
+        return tuple([check for check in self.checks if check.verdict != ACCEPTED and self.decides(check)])
+
+    def decides(self, check: Check) -> bool:
+        """Whether the verdict follows from a check."""
+        return check.id in self.deciding or check.id == GRAVITY
 
 
 def judged_sets(
     gain_file: GainFile,
     robot: str | None = None,
-    deciding: Sequence[str] = DECIDING,
+    asked: Sequence[str] | None = None,
     gamma: str = "true",
     strict: bool = False,
     arms: dict[str, ArmLimits] | None = None,
@@ -123,22 +136,26 @@ def judged_sets(
 ) -> list[GateResult]:
     """The results of a file, in its order; more than whether they pass of the first so many.
 
+    ``asked`` are conditions that go before those of the sets; see ``lyapcheck.control.deciding``.
+
     See :func:`lyapcheck.gate` for the rest.
     """
-    _require_known(deciding)
+    _require_known(asked or ())
     limits = limits_for(gain_file, robot, arms)
     conditions: dict[tuple[str, int | None], Conditions] = {}
+    deciding = [deciding_for(gains, asked) for gains in gain_file.gains]
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
     if rests_on:
-        limits = limits.resting_on(rests_on)
+        limits = limits.resting_on((*limits.gravity_notes, *rests_on))
+    broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
-    for gains, certificates in zip(gain_file.gains, proved, strict=True):
+    for gains, names, certificates in zip(gain_file.gains, deciding, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        checks = (*conditions[key].all(gains, deciding), *certificates)
+        checks = (*broken, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
-        result = GateResult(gain_file, gains, limits, checks, tuple(deciding), strict, explained=more)
+        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 
@@ -154,33 +171,33 @@ def _looked_into(result: GateResult, viscous_min: Fraction | None) -> GateResult
 
 
 def _require_known(deciding: Sequence[str]) -> None:
-    known = (*CONDITIONS, *CERTIFICATES)
-    unknown = [name for name in deciding if name not in known]
+    unknown = [name for name in deciding if name not in KNOWN]
     if unknown:
         raise argument_error(
-            "conditions", ", ".join(unknown), "names no condition", f"use some of: {', '.join(known)}"
+            "conditions", ", ".join(unknown), "names no condition", f"use some of: {', '.join(KNOWN)}"
         )
 
 
 def _certificates(
-    gain_file: GainFile, limits: Limits, deciding: Sequence[str], on_progress: Progress | None
+    gain_file: GainFile, limits: Limits, deciding: Sequence[Sequence[str]], on_progress: Progress | None
 ) -> tuple[list[tuple[Check, ...]], tuple[str, ...]]:
     """The checks of the certificates that decide, for each gain set, and what they take for granted."""
-    wanted = [name for name in CERTIFICATES if name in deciding]
-    if not wanted:
+    wanted = [[name for name in CERTIFICATES if name in names] for names in deciding]
+    if not any(wanted):
         return [()] * len(gain_file.gains), ()
     from lyapcheck._types import part, silent
     from lyapcheck.answers.gate.prover import Prover
 
     prover = Prover(limits.model, gain_file.bounds.viscous_min, limits.varied)
     checks: list[tuple[Check, ...]] = []
-    step = 1 / (len(wanted) * len(gain_file.gains))
-    for done, gains in enumerate(gain_file.gains):
+    step, number = 1 / sum(map(len, wanted)), 0
+    for gains, own in zip(gain_file.gains, wanted, strict=True):
         found = []
-        for number, name in enumerate(wanted, start=done * len(wanted)):
+        for name in own:
             advance = part(
                 on_progress or silent, number * step, (number + 1) * step, f"{gains.name}: {name} certificate"
             )
             found.append(prover.check(name, gains, advance))
+            number += 1
         checks.append(tuple(found))
     return checks, prover.assumptions

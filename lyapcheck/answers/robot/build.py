@@ -6,12 +6,12 @@ from lyapcheck._types import Progress
 from lyapcheck.answers.robot import certified as ends
 from lyapcheck.answers.robot import print_claims
 from lyapcheck.answers.robot.judged import answered, certificates
-from lyapcheck.answers.robot.kept import kept_constants
 from lyapcheck.answers.robot.properties import properties, proposed_properties
 from lyapcheck.answers.robot.report import RobotReport
 from lyapcheck.check.verify import each_once
 from lyapcheck.claims.certificates import file_name
 from lyapcheck.claims.fresh_check import judge_afresh
+from lyapcheck.constants import arm_constants
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
@@ -34,7 +34,7 @@ def build(
     budget = MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
     # searches ask the rules about what they find, property 2.6 about the bound of k_c; no verdict comes of it
     with each_once():
-        constants = kept_constants(model, budget, on_progress)
+        constants = arm_constants(model, budget, on_progress=on_progress)
         if on_progress is not None:
             on_progress(1.0, "properties 2.1–2.8")
         proposed = proposed_properties(model)

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.robot.certified import CertifiedBounds
+from lyapcheck.answers.robot.extent import extent
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
@@ -27,8 +28,8 @@ def report_data(report: ArmFacts) -> dict[str, Any]:
         "title": model.title,
         "n": model.n,
         "seed": SEED,
-        "properties": [property_data(row) for row in report.properties],
-        "prints": [property_data(row) for row in report.prints],
+        "properties": [property_data(row, extent(report, row.id)) for row in report.properties],
+        "prints": [property_data(row, extent(report, f"printed {row.id}")) for row in report.prints],
         "constants": [constant_data(report, constant) for constant in report.constants],
         "joints": [
             {
@@ -47,13 +48,14 @@ def report_data(report: ArmFacts) -> dict[str, Any]:
     }
 
 
-def property_data(row: PropertyResult) -> dict[str, Any]:
-    """One property, or a claim about the print."""
+def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
+    """One property, or a claim about the print, and for which arms it holds where the arm has ranges."""
     finding = row.finding
     return {
         "id": row.id,
         "statement": row.statement,
         "verdict": row.verdict.value,
+        "for": about or None,
         "grade": finding.grade.label,
         "method": finding.method,
         "reason": finding.reason,

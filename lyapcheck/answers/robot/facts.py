@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ArmFacts:
-    """An arm with what was decided and certified about it, at its nominal parameters.
+    """An arm with what was decided and certified about it; ``extent`` says for which of its values.
 
     Args:
         model: the arm.

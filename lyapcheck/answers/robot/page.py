@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.entries import inertia_sections
+from lyapcheck.answers.robot.extent import NOMINAL, RANGES, extent, together, uncertain
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.digits import decimals
+from lyapcheck.output.digits import at_most, decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.number import with_unit
@@ -35,7 +37,7 @@ CONSTANT_HEADS = (
     "gap",
 )
 JOINT_HEADS = ("joint", "viscous [N·m·s/rad]", "Coulomb [N·m]", "torque limit [N·m]", "encoder [counts/turn]")
-NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
+AT_NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
 GAPS = "The gap is that of the certified ends, relative to the larger one."
 NUMERIC = "Marked *: that of the numeric ends, as one of the certified ones is missing."
 WIDE = 0.25
@@ -76,25 +78,47 @@ def _title(report: ArmFacts) -> str:
         if result:
             ending = "y" if len(result) == 1 else "ies"
             return f"{mark} {name}: propert{ending} {', '.join(result)} {verdict.value}"
-    first, last = report.properties[0].id, report.properties[-1].id
-    return f"✓ {name}: properties {first}–{last} proved"
+    every = [row.id for row in report.properties]
+    if not uncertain(report.model):
+        return f"✓ {name}: properties {together(every, every)} proved"
+    extents = {row.id: extent(report, row.id) for row in report.properties}
+    ranged, nominal = ([key for key in every if extents[key] == kind] for kind in (RANGES, NOMINAL))
+    parts = [
+        f"{together(ids, every)} for {kind}" if kind == RANGES else f"{together(ids, every)} at {kind} only"
+        for kind, ids in ((RANGES, ranged), (NOMINAL, nominal))
+        if ids
+    ]
+    return f"{'!' if nominal else '✓'} {name}: properties proved: {'; '.join(parts)}"
 
 
 def _sections(report: ArmFacts) -> list[Section]:
     model = report.model
-    prints = [_judged(PRINT, "claim", report.prints)] if report.prints else []
+    prints = [_judged(PRINT, "claim", report.prints, report, "printed ")] if report.prints else []
     joints = [Section("Joints", (Table(JOINT_HEADS, tuple(_joint_rows(model))),))]
     assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
     numbers = [Section("Numbers", (_numbers(model),))] if model.numbers else []
-    properties = _judged("Properties", "property", report.properties)
+    properties = _judged("Properties", "property", report.properties, report)
     return [properties, *prints, _constants(report), *joints, *numbers, *assumed, *inertia_sections(model)]
 
 
-def _judged(title: str, head: str, rows: Sequence[PropertyResult]) -> Section:
-    """Verdicts, then what supports them."""
-    cells = tuple((row.id, row.verdict.value, row.finding.grade.label, row.statement) for row in rows)
+def _judged(
+    title: str, head: str, rows: Sequence[PropertyResult], report: ArmFacts, prefix: str = ""
+) -> Section:
+    """Verdicts with the arms that they are about, then what supports them."""
+    ranged = uncertain(report.model)
+    cells = tuple(
+        (
+            row.id,
+            row.verdict.value,
+            *([extent(report, prefix + row.id) or NONE] if ranged else []),
+            row.finding.grade.label,
+            row.statement,
+        )
+        for row in rows
+    )
     shown = tuple(f"{row.id}: {evidence(row)}" for row in rows)
-    table = Table((head, "verdict", "grade", "statement"), cells, align="llll")
+    heads = (head, "verdict", *(["for"] if ranged else []), "grade", "statement")
+    table = Table(heads, cells, align="l" * len(heads))
     return Section(title, (table, Paragraph("Shown by:"), Bullets(shown)))
 
 
@@ -106,7 +130,7 @@ def _constants(report: ArmFacts) -> Section:
     said = [_wide(report, constant) for constant in report.constants if _gap(report, constant) > WIDE]
     wide = [Bullets(tuple(said))] if said else []
     starred = any(not _by_certificates(report, constant) for constant in report.constants)
-    notes = [Paragraph(NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if starred else GAPS)]
+    notes = [Paragraph(AT_NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if starred else GAPS)]
     return Section("Constants", (*notes, table, *wide, shown))
 
 
@@ -120,18 +144,20 @@ def _wide(report: ArmFacts, constant: ConstantResult) -> str:
     return f"{_symbol(constant)} is wide, {_percent(_gap(report, constant))} %: {advice}"
 
 
-def _percent(share: float) -> str:
-    """Two significant digits, or whole percents: a hundred is 100 and not 1e+02."""
-    return f"{100 * share:.0f}" if share >= 0.1 else f"{100 * share:.2g}"
+def _percent(share: Fraction) -> str:
+    """Two significant digits, rounded up."""
+    return at_most(100 * share, 2)
 
 
-def _gap(report: ArmFacts, constant: ConstantResult) -> float:
+def _gap(report: ArmFacts, constant: ConstantResult) -> Fraction:
     """Of the certified ends, which users rely on; where one is missing, of the numeric ones."""
     shown = report.certified.get(constant.name)
     if shown is None or shown.lower is None or shown.upper is None:
-        return constant.gap
-    size = max(abs(shown.lower), abs(shown.upper))
-    return float((shown.upper - shown.lower) / size) if size else 0.0
+        low, high = constant.enclosure.lower, constant.enclosure.upper
+    else:
+        low, high = shown.lower, shown.upper
+    size = max(abs(low), abs(high))
+    return (high - low) / size if size else Fraction(0)
 
 
 def _by_certificates(report: ArmFacts, constant: ConstantResult) -> bool:

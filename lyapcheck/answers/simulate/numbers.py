@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from fractions import Fraction
+
+from lyapcheck.output.digits import at_least, at_most
 
 NONE = "—"
 
@@ -11,6 +14,21 @@ NONE = "—"
 def cell(value: float | None, form: str) -> str:
     """A number in a form, a dash where there is none."""
     return NONE if value is None or math.isnan(value) else format(value, form)
+
+
+def lower(value: float | Fraction | None) -> str:
+    """A limit or an ε₀, rounded down; a dash where there is none."""
+    return NONE if value is None else at_least(value)
+
+
+def upper(value: float | None) -> str:
+    """A bound from above, rounded up; a dash where there is none."""
+    return NONE if value is None or math.isnan(value) else at_most(value)
+
+
+def sized(value: float) -> str:
+    """The size of an error in one digit, rounded up."""
+    return "unknown" if math.isnan(value) else at_most(value, 1)
 
 
 def plain(value: float | None) -> float | None:

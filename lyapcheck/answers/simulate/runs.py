@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import NONE, cell, plain, plains, row
+from lyapcheck.answers.simulate.numbers import NONE, cell, lower, plain, plains, row, sized, upper
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
 from lyapcheck.output.document import Block, Bullets, Section, Table
 from lyapcheck.simulate.indices import SETTLING_BAND
@@ -71,9 +71,9 @@ class SetPointRuns(Simulation[Run]):
         for one in self.results:
             seen = one.promises
             fall = "never rose" if seen.V_rises_at is None else f"ROSE at {seen.V_rises_at:.4g} s"
-            norms = cell(seen.torque_norm, ".4g"), cell(seen.torque_bound, ".4g")
+            norms = upper(seen.torque_norm), upper(seen.torque_bound)
             mark = self.mark(one.name) or NONE
-            rows.append((one.name, f"{one.L2:.4f}", f"{one.eps0:.4g}", f"{one.V[0]:.5g}", fall, *norms, mark))
+            rows.append((one.name, f"{one.L2:.4f}", lower(one.eps0), f"{one.V[0]:.5g}", fall, *norms, mark))
         return Table(OVERVIEW, tuple(rows), align="lrrrlrrl")
 
     def section(self, one: Run) -> Section:
@@ -159,8 +159,8 @@ def _facts(one: Run) -> tuple[str, ...]:
 def _checks(one: Run) -> str:
     if math.isnan(one.accuracy):
         return "accuracy unknown: the run was cut short"
-    balance = "" if math.isnan(one.energy_balance) else f"; energy balance {one.energy_balance:.0e}"
-    return f"accuracy {one.accuracy:.0e} (rad, rad/s) by a second, tighter run{balance}"
+    balance = "" if math.isnan(one.energy_balance) else f"; energy balance {sized(one.energy_balance)}"
+    return f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run{balance}"
 
 
 def _beside(one: Run) -> str:
@@ -183,8 +183,8 @@ def _rows(one: Run) -> list[tuple[str, ...]]:
             cell(result.overshoot[i], "z.2f"),
             cell(result.final_error[i], "z.4f"),
             cell(result.peak_torque[i], "z.2f"),
-            cell(None if bounds is None else bounds[i], "z.2f"),
-            cell(one.torque_limit[i], "g"),
+            upper(None if bounds is None else bounds[i]),
+            lower(one.torque_limit[i]),
             INSIDE[one.promises.inside_limits[i]],
         )
         for i, joint in enumerate(one.joints)

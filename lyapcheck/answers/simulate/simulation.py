@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
 from lyapcheck.answers.gain_place import GainPlace, gain_place
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Document, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -47,6 +47,10 @@ class Simulated(Protocol):
     def breach(self) -> Breach | None:
         """The first promise that it broke."""
 
+    @property
+    def without_dry_friction(self) -> bool:
+        """Whether the arm file gives dry friction that the run leaves out."""
+
 
 Result = TypeVar("Result", bound=Simulated)
 
@@ -67,6 +71,7 @@ class Simulation(Answer, Generic[Result]):
         results: one a gain set; a run that was cut short is one as well.
         unfinished: what could not be found out.
         file: where the gain sets stand.
+        arms: on which arms each gain set was run, where some numbers vary.
     """
 
     schema = "lyapcheck/simulate/1"
@@ -74,6 +79,7 @@ class Simulation(Answer, Generic[Result]):
     results: tuple[Result, ...]
     unfinished: tuple[Unfinished, ...] = ()
     file: GainFile | None = None
+    arms: str = ""
 
     promised: ClassVar[str]
     """What theory promises, in words."""
@@ -112,12 +118,20 @@ class Simulation(Answer, Generic[Result]):
         wrong = self.complaints()
         warnings = [Bullets(tuple(wrong))] if wrong else []
         overview = [self.overview()] if self.results else []
-        blocks: tuple[Block, ...] = (*warnings, *self.opening(), *overview, *map(self.section, self.results))
+        arms = [Paragraph(f"Simulated on {self.arms}.")] if self.arms else []
+        blocks: tuple[Block, ...] = (
+            *warnings,
+            *arms,
+            *self.opening(),
+            *overview,
+            *map(self.section, self.results),
+        )
         return Document(self._title(), blocks, (*self.legend(), NUMERIC, *self._notes()))
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, robot, kind, …}], notes``: degrees, N·m, s, J; ``None`` without a number."""
-        return {"results": [self.plain_data(one) for one in self.results], "notes": self._notes()}
+        results = [self.plain_data(one) for one in self.results]
+        return {"results": results, "arms": self.arms or None, "notes": self._notes()}
 
     def records(self) -> list[dict[str, Any]]:
         """The rows of every gain set."""
@@ -169,14 +183,16 @@ class Simulation(Answer, Generic[Result]):
         names = self._names()
         levels = [self.level(name) for name in names]
         robots = ", ".join(_unique(one.robot for one in self.results)) or "simulation"
-        count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{self.about()}"
+        left_out = any(one.without_dry_friction for one in self.results)
+        ideal = ", without the dry friction of the file" if left_out else ""
+        count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{self.about()}{ideal}"
         failed, open_ = levels.count(Level.FAILED), levels.count(Level.UNDECIDED)
         if failed:
             return f"✗ {robots}: promises broken by {failed} of {count}"
         if open_:
             return f"? {robots}: undecided for {open_} of {count}"
         if any(map(self.watches, names)):
-            return f"✓ {robots}: no promise broken by {count}"
+            return f"{'!' if left_out else '✓'} {robots}: no promise broken by {count}"
         return f"{robots}: {count}"
 
     def _notes(self) -> list[str]:

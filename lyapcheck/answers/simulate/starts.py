@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import cell, plain, plains, row
+from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row
 from lyapcheck.answers.simulate.quantities import quantities
 from lyapcheck.answers.simulate.runs import SETTLED
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
@@ -58,7 +58,7 @@ class RandomStarts(Simulation[Sweep]):
                 f"{one.finished} of {one.starts.count}",
                 str(_count(one.risen)),
                 str(_count(one.beyond)),
-                f"{one.eps0:.4g}",
+                lower(one.eps0),
                 self.mark(one.name),
             )
             for one in self.results

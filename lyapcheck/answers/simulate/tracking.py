@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import NONE, cell, plain, plains, row
+from lyapcheck.answers.simulate.numbers import NONE, cell, lower, plain, plains, row, sized
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.tracking.run import TrackingRun
 
@@ -49,8 +50,7 @@ class TrackingRuns(Simulation[TrackingRun]):
         """L2, ε₀ and V of each run."""
         rows = []
         for one in self.results:
-            largest = None if one.promise.largest is None else float(one.promise.largest)
-            eps0 = f"{one.promise.eps0:.4g}", cell(largest, ".4g"), "yes" if one.promise.falls else "no"
+            eps0 = lower(one.promise.eps0), lower(one.promise.largest), "yes" if one.promise.falls else "no"
             ends = f"{one.V[0]:.5g}", f"{one.V[-1]:.3g}"
             rows.append((one.name, cell(one.indices.L2, ".4f"), *eps0, *ends, self.mark(one.name)))
         return Table(OVERVIEW, tuple(rows), align="lrrrlrrl")
@@ -124,13 +124,13 @@ def _headline(one: TrackingRun) -> str:
 
 def _facts(one: TrackingRun) -> tuple[str, ...]:
     speed = up(one.promise.suprema.speed)
-    checks = f"accuracy {one.accuracy:.0e} (rad, rad/s) by a second, tighter run"
+    checks = f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run"
     if math.isnan(one.accuracy):
         checks = "accuracy unknown: the run was cut short"
     return (
-        f"‖q̇_d‖ promised at most v_d = {speed} rad/s, seen {one.seen_speed:.4g}",
+        f"‖q̇_d‖ promised at most v_d = {speed} rad/s, seen {at_most(one.seen_speed)}",
         *_promised(one),
-        f"{checks}; work balance {one.work_balance:.0e}",
+        f"{checks}; work balance {sized(one.work_balance)}",
     )
 
 
@@ -139,12 +139,16 @@ def _promised(one: TrackingRun) -> list[str]:
     if one.bound is None:
         return [f"no bound of dV/dt or of the torque: {promise.reason}"]
     kept = one.breach is None or not one.breach.promise.startswith("dV/dt")
-    share = "" if math.isnan(one.tightness) else f"; at most {one.tightness:.1%} of the fall was promised"
+    share = (
+        ""
+        if math.isnan(one.tightness)
+        else f"; at most {at_most(100 * one.tightness, 3)} % of the fall was promised"
+    )
     lines = [f"V need not fall: {promise.reason}"] if promise.reason else []
     lines.append(f"dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.motion.t.size} samples{share}")
     if promise.torque is not None:
         most, seen = up(promise.torque.error_rate), _error_rate(one)
-        lines.append(f"‖q̇ − q̇_d‖ promised at most {most} rad/s, seen {seen:.4g}")
+        lines.append(f"‖q̇ − q̇_d‖ promised at most {most} rad/s, seen {at_most(seen)}")
     return lines
 
 
@@ -169,7 +173,7 @@ def _rows(one: TrackingRun) -> list[tuple[str, ...]]:
             cell(result.final_error[i], "z.4f"),
             cell(result.peak_torque[i], "z.2f"),
             NONE if torque is None else up(torque.total[i]),
-            cell(one.torque_limit[i], "g"),
+            lower(one.torque_limit[i]),
             _inside(one, i),
         )
         for i, joint in enumerate(one.joints)
@@ -207,4 +211,4 @@ def _double_above(value: Fraction) -> float:
 
 def up(value: Fraction) -> str:
     """A bound in four digits, never rounded down."""
-    return "0" if value <= 0 else f"{float(significant_up(value, 4)):.4g}"
+    return at_most(max(value, Fraction(0)))

@@ -14,7 +14,7 @@ def files(answer: SweepAnswer) -> dict[str, str | bytes]:
 
     drawings: dict[str, str | bytes] = {}
     for number, one in enumerate(answer.maps, start=1):
-        plot = heat_plot(one.rows, one.columns, one.cells, one.measure.title)
+        plot = heat_plot(one.rows, one.columns, one.cells, one.measure.title, one.measure.text)
         drawings |= {f"figures/{name}": drawing for name, drawing in plot.files(stem(number, one)).items()}
     return {**drawings, "index.html": _page(answer, drawings), "sweep.json": answer.written("json")}
 

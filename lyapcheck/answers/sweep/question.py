@@ -90,6 +90,7 @@ class Question:
             "m": None if gains is None else gains.m,
             "kp": None if gains is None else [decimal_text(k) for k in gains.kp],
             "kv": None if gains is None else [decimal_text(k) for k in gains.kv],
+            "condition": None if gains is None else list(gains.condition),
             "options": {
                 key: list(value) if isinstance(value, tuple) else value for key, value in self.options
             },

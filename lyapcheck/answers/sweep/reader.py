@@ -20,6 +20,8 @@ from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.kinds import PLAN, require_kind
 from lyapcheck.files.toml import open_document
 
+TEXTS = ("condition", "only")
+"""Options that are lists of texts; the others are lists of angles."""
 MOST = 100_000
 """Values of one row of a grid."""
 
@@ -115,7 +117,7 @@ def _option(table: Fields, key: str, default: Any) -> Any:
     if value is None:
         return None
     if isinstance(default, tuple):
-        return _list(table, key, value, text=bool(default) or key == "only")
+        return _list(table, key, value, text=key in TEXTS)
     if isinstance(default, bool):
         good, words = isinstance(value, bool), "must be true or false"
     elif isinstance(default, int):

@@ -105,14 +105,10 @@ class SweepAnswer(Answer):
         if self.figures:
             return Section(title, (Figure(f"figures/{stem(number, one)}.svg", f"{title}, over m and k_v"),))
         heads = ("m", *one.columns)
-        rows = tuple((m, *(_cell(one.cells.get((m, kv))) for kv in one.columns)) for m in one.rows)
+        rows = tuple((m, *(one.measure.text(one.cells.get((m, kv))) for kv in one.columns)) for m in one.rows)
         return Section(title, (Table(heads, rows, caption="m down, k_v in N·m across"),))
 
 
 def stem(number: int, one: Map) -> str:
     """The name of a map's files."""
     return f"map{number}_{one.measure.column}"
-
-
-def _cell(value: float | None) -> str:
-    return "" if value is None else f"{value:.3g}"

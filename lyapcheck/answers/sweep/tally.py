@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from lyapcheck.answers.sweep.question import Row
+from lyapcheck.files.decimals import at_least, at_most
 
 MOST_CELLS = 3_000
 """Of one map; a larger one could not be read."""
 MOST_MAPS = 40
+DIGITS = 3
+"""Significant digits of a cell."""
 Arm = tuple[str, tuple[str, ...]]
 """A robot, and what varies."""
 
@@ -29,6 +33,12 @@ class Measure:
     title: str
     column: str
     worst: Callable[[float, float], float]
+
+    def text(self, value: float | None) -> str:
+        """A value of a cell, rounded to the worse side."""
+        if value is None:
+            return ""
+        return (at_least if self.worst is min else at_most)(Fraction(repr(value)), DIGITS)
 
 
 MEASURES = (

@@ -14,7 +14,7 @@ from lyapcheck.control.gains import Bounds
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import correct_digits
+from lyapcheck.output.digits import at_least
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 
@@ -33,6 +33,12 @@ NONE_FOUND = {
 }
 LIMITS = ("(10p): k_p + k_v < (τmax − k_g)/(√n γ), N·m.", "(19): k_v < λmin(B)/(√n γ), N·m.")
 ENDS = "One unit more in the last place of a gain breaks what it ends at."
+DAMPED = (
+    "ζ: the least damping ratio of the joint alone over all ranges of the arm, with the steepest secant of h "
+    "in its place."
+)
+LIMIT_DIGITS = 6
+"""Significant digits of limits, as the gate shows them."""
 LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
 
 
@@ -107,6 +113,7 @@ class Tuning(Answer):
         return (
             *LIMITS,
             *([ENDS] if tuned else []),
+            *([DAMPED] if tuned and self.targets.damping else []),
             *([LEFT] if any(item.comparison is not None for item in tuned) else []),
             *(f"{text}." for text in self.limits.assumptions),
         )
@@ -128,11 +135,11 @@ def _tuned(item: TunedSet, digits: int) -> Table:
             joint.name,
             decimal_text(joint.kp, digits),
             decimal_text(joint.kv, digits),
-            correct_digits(joint.sum_limit, 8),
-            correct_digits(joint.kv_limit, 8),
+            at_least(joint.sum_limit, LIMIT_DIGITS),
+            at_least(joint.kv_limit, LIMIT_DIGITS),
             BOUNDS[joint.kp_bound],
             BOUNDS[joint.kv_bound],
-            *([] if joint.damping is None else [f"{float(joint.damping):.4g}"]),
+            *([] if joint.damping is None else [at_least(joint.damping)]),
         )
         for joint in item.joints
     ]
@@ -147,8 +154,8 @@ def _compared(comparison: GainComparison) -> Table:
             decimal_text(joint.kp),
             decimal_text(joint.kv),
             decimal_text(joint.kp_left),
-            f"{float(joint.kp_left_share):.1%}",
-            f"{float(joint.used):.1%}",
+            f"{at_least(100 * joint.kp_left_share)} %",
+            f"{at_least(100 * joint.used)} %",
             ", ".join(BOUNDS[name] for name in joint.broken) or "nothing",
         )
         for joint in comparison.joints

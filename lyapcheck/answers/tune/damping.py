@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isqrt
+from math import isqrt, prod
 
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.harmonics import harmonics, largest
-from lyapcheck.robots import RobotModel, trig
+from lyapcheck.check.numbers.harmonics import by_parameters, largest
+from lyapcheck.robots import RobotModel
+from lyapcheck.robots.trig import to_terms
 
 DIGITS = 30
 
@@ -28,8 +29,8 @@ class Damping:
 
     Args:
         ratio: the ζ that is asked for.
-        friction: b, N·m·s/rad.
-        inertia: J, an upper bound of M_ii over all angles, kg·m².
+        friction: b, the least of the ranges, N·m·s/rad.
+        inertia: J, an upper bound of M_ii over all angles and ranges, kg·m².
         slope: L_m from below and from above.
     """
 
@@ -53,13 +54,33 @@ class Damping:
         return Fraction(isqrt(int(square * 10**18)), 10**9)
 
 
-def damping_of(model: RobotModel, m: int, ratios: tuple[Fraction, ...]) -> tuple[Damping, ...]:
-    """The damping of every joint of an arm at its nominal inertia and its least friction."""
+def damping_of(
+    model: RobotModel, m: int, ratios: tuple[Fraction, ...], viscous_min: Fraction | None = None
+) -> tuple[Damping, ...]:
+    """The least damping of every joint over the ranges of an arm.
+
+    Args:
+        model: the arm with its ranges.
+        m: the member of the family.
+        ratios: one ζ a joint.
+        viscous_min: λmin(B) to judge by; it is the friction of each joint, unless it is the arm's own.
+
+    Soundness: ζ falls with the inertia and grows with the friction, so that the ends of both give the least.
+    """
     L = hyperbolic_constants(m, DIGITS).L
-    nominal = model.fixed()
-    inertias = [largest(harmonics(trig.to_terms(nominal.mass[i][i]), model.n)) for i in range(model.n)]
+    inertias = [_largest_inertia(model, i) for i in range(model.n)]
     frictions = [number.bounds[0] for number in model.viscous]
+    if viscous_min not in (None, min(frictions)):
+        frictions = [viscous_min or Fraction(0)] * model.n
     return tuple(
         Damping(ratio, friction, inertia, (L.lower, L.upper))
         for ratio, friction, inertia in zip(ratios, frictions, inertias, strict=True)
     )
+
+
+def _largest_inertia(model: RobotModel, i: int) -> Fraction:
+    """An upper bound of M_ii over all angles and all values of the parameters, kg·m²."""
+    sizes = [max(map(abs, number.bounds)) for number in model.parameters.values()]
+    parts = by_parameters(to_terms(model.mass[i][i]), model.n).items()
+    rows = (largest(part) * prod(map(pow, sizes, powers), start=Fraction(1)) for powers, part in parts)
+    return sum(rows, Fraction(0))

@@ -81,7 +81,8 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
     goal = ", ".join(f"{x:g}" for x in target)
     first, last = result[0], result[-1]
     says = (
-        f"In {time:g} s from rest to ({goal})°, without dry friction, from m = {first.m} to m = {last.m}: "
+        f"Simulated by (11), without dry friction: in {time:g} s from rest to ({goal})°, from "
+        f"m = {first.m} to m = {last.m}: "
         f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°, the error at the end from {first.final:.1f}° to "
         f"{last.final:.1f}°, the top speed from {first.speed:.1f} to {last.speed:.1f} rad/s. For m ≥ 2 h is "
         "flat at the goal."

@@ -13,6 +13,7 @@ from lyapcheck.answers.tune.results import TUNED, TunedSet
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
+from lyapcheck.control.deciding import DECIDING
 from lyapcheck.control.gains import Bounds
 from lyapcheck.files.decimals import decimal_text
 
@@ -32,7 +33,7 @@ def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
     blocks = [HEAD.format(targets=tuning.targets.text()) + f"robot = {quoted(beside(tuning.robot, folder))}"]
     blocks += [_set(item, tuning.targets.digits) for item in tuning.sets if item.status == TUNED]
     if tuning.bounds != Bounds():
-        blocks.append(_bounds(tuning.bounds))
+        blocks.append(bounds_text(tuning.bounds))
     return "\n\n".join(blocks) + "\n"
 
 
@@ -48,11 +49,18 @@ def _set(item: TunedSet, digits: int) -> str:
             f"m = {item.m}",
             f"kp = {kp}".ljust(width) + f"# N·m; {_bound_words(kp_bounds)}",
             f"kv = {kv}".ljust(width) + f"# N·m; {_bound_words(kv_bounds)}",
+            condition_text(DECIDING),
         ]
     )
 
 
-def _bounds(bounds: Bounds) -> str:
+def condition_text(condition: Sequence[str]) -> str:
+    """The line that names the conditions of a gain set."""
+    return f"condition = [{', '.join(map(quoted, condition))}]"
+
+
+def bounds_text(bounds: Bounds) -> str:
+    """The table of limits that the arm alone does not have."""
     lines = ["[bounds]"]
     if bounds.viscous_min is not None:
         lines.append(f"viscous_min = {decimal_text(bounds.viscous_min)}  # N·m·s/rad")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.deciding import DECIDING
 from lyapcheck.control.gains import GainSet
 
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
@@ -86,4 +87,4 @@ class TunedSet:
         if self.status != TUNED:
             return None
         kp, kv = tuple(j.kp for j in self.joints), tuple(j.kv for j in self.joints)
-        return GainSet(self.name, self.m, kp, kv)
+        return GainSet(self.name, self.m, kp, kv, condition=DECIDING)

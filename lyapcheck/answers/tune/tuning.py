@@ -7,18 +7,19 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate import gate
+from lyapcheck.answers.gate import GateResult, gate
+from lyapcheck.answers.gate.words import advice
 from lyapcheck.answers.tune.answer import Tuning
 from lyapcheck.answers.tune.arm import arm_limits
 from lyapcheck.answers.tune.compare import compare
-from lyapcheck.answers.tune.damping import damping_of
+from lyapcheck.answers.tune.damping import Damping, damping_of
 from lyapcheck.answers.tune.gain_range import GainRange, gain_range_of
 from lyapcheck.answers.tune.obstacles import impossible, obstacle, unknown
 from lyapcheck.answers.tune.program import propose
 from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet
 from lyapcheck.answers.tune.rounding import best_units, binding
 from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
-from lyapcheck.control.conditions import gamma_of
+from lyapcheck.control.conditions import ACCEPTED, gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import round_down
@@ -76,8 +77,8 @@ def tune(
     require_usable(wanted, model.n)
     wanted = _for_each_joint(wanted, model.n)
     limits, repeated = _limits(robot, model, wanted, bounds or Bounds(), varies)
-    sets = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
-    _confirm(sets, limits)
+    found = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
+    sets = _confirmed(found, robot, repeated)
     compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
     tuned = [item.gains for item in sets if item.gains is not None]
     seen: tuple[Effect, ...] = ()
@@ -99,10 +100,13 @@ def _for_each_joint(targets: Targets, n: int) -> Targets:
 
 
 def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:
-    """The bounds that the gain file must repeat: all of them, where they are those of ranges."""
+    """The bounds that the gain file must repeat: all of them, where they are those of ranges.
+
+    Of gravity those that the arm keeps, whatever was given.
+    """
     known = tuple(limit for limit in limits.torque if limit is not None)
     if not varies:
-        return bounds
+        return replace(bounds, gravity=None if bounds.gravity is None else limits.gravity)
     return Bounds(limits.viscous_min or None, known if len(known) == limits.n else None, limits.gravity)
 
 
@@ -144,7 +148,9 @@ def _tuned(m: int, model: RobotModel, limits: Limits, targets: Targets) -> Tuned
 def _rooms(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[GainRange]:
     ones = (Fraction(1),) * model.n
     gamma = gamma_of(GainSet("gamma", m, ones, ones))
-    dampings = damping_of(model, m, targets.damping) if targets.damping else (None,) * model.n
+    dampings: Sequence[Damping | None] = (None,) * model.n
+    if targets.damping:
+        dampings = damping_of(limits.model or model, m, targets.damping, limits.viscous_min)
     return [gain_range_of(i, limits, gamma, targets, damping) for i, damping in enumerate(dampings)]
 
 
@@ -155,17 +161,27 @@ def _joint(name: str, gain_range: GainRange, units: tuple[int, int]) -> TunedJoi
     return TunedJoint(name, kp, kv, gain_range.sum_limit, gain_range.kv_limit, kp_bound, kv_bound, damping)
 
 
-def _confirm(sets: Sequence[TunedSet], limits: Limits) -> None:
-    """Let the gate judge every tuned set by the limits it was tuned to.
+def _confirmed(sets: Sequence[TunedSet], robot: str, repeated: Bounds) -> tuple[TunedSet, ...]:
+    """Let the gate judge the gain file that will be written.
+
+    A set that the gate rejects for another reason than its gains, such as an arm file that contradicts
+    itself, is none; the reason is the gate's.
 
     Raises:
-        ArithmeticError: the gate rejects one, which would be a fault of tuning.
+        ArithmeticError: the gate rejects the gains of one, which would be a fault of tuning.
     """
     gains = tuple(item.gains for item in sets if item.gains is not None)
     if not gains:
-        return
-    torque = tuple(limit for limit in limits.torque if limit is not None)
-    bounds = Bounds(limits.viscous_min, torque, limits.gravity)
-    for result in gate(GainFile("tuned gains", None, gains, bounds)):
-        if result.verdict != "accepted":
-            raise ArithmeticError(f"the gate says {result.verdict} to the tuned gains {result.name}")
+        return tuple(sets)
+    answers = {result.name: result for result in gate(GainFile("tuned gains", robot, gains, repeated))}
+    return tuple(item if item.gains is None else _as_judged(item, answers[item.name]) for item in sets)
+
+
+def _as_judged(item: TunedSet, result: GateResult) -> TunedSet:
+    """A set that was accepted as it is; else the reasons that are not its gains."""
+    if result.verdict == ACCEPTED:
+        return item
+    reasons = tuple(advice(result, check) for check in result.failures if check.id not in result.deciding)
+    if not reasons:
+        raise ArithmeticError(f"the gate says {result.verdict} to the tuned gains {result.name}")
+    return TunedSet(item.name, item.m, INFEASIBLE, reasons=reasons)

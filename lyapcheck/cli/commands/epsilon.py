@@ -56,7 +56,7 @@ def arguments(parser: Parser) -> None:
     about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
     parser.add_number("--spread", float, about)
     add_vary(parser)
-    about = "Time for branch and bound; the answer then depends on the machine."
+    about = "Computing time for branch and bound, s; the answer then depends on the machine."
     parser.add_number("--seconds", float, about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
     parser.add_argument("--weights", action="store_true", help=about)
@@ -103,7 +103,8 @@ def run(
     ranged = varies(vary)
     name, share = robot_name(robot, [gain_file]), _share(spread)
     with arm_named_in(gain_file, robot):
-        model = load(name, spread=share, vary=ranged)
+        own = load(name, spread=share)
+        model = load(name, spread=share, vary=ranged) if ranged else own
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
@@ -113,7 +114,7 @@ def run(
         max_boxes, jobs, ranges or spread is not None or bool(ranged), weights, seconds, starts, seed
     )
     with progress("epsilon") as advance:
-        results, times = _each(chosen, model, options, advance)
+        results, times = _each(chosen, own, model, options, advance)
     if folder is not None:
         from lyapcheck.answers.epsilon.certificates import certificates as certificates_of
 
@@ -151,28 +152,38 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
 
 
 def _each(
-    gains: list[GainSet], model: RobotModel, options: Options, advance: Progress
+    gains: list[GainSet], own: RobotModel, model: RobotModel, options: Options, advance: Progress
 ) -> tuple[list[EpsilonResult], list[float]]:
-    """The result of every gain set and the seconds it took."""
+    """The result of every gain set and the seconds it took.
+
+    Args:
+        gains: the sets.
+        own: the arm as its file describes it.
+        model: the arm with the ranges that are asked for.
+        options: what is asked.
+        advance: receives the fraction done.
+    """
     from lyapcheck.answers.epsilon.kept import kept_epsilon
+    from lyapcheck.robots.vary import outside
 
     results: list[EpsilonResult] = []
     seconds: list[float] = []
     nominal = replace(options, ranges=False, weights=False)
+    left_out = outside(own, model)
     for done, gain_set in enumerate(gains):
 
         def ask(
-            asked: Options, low: float, high: float, done: int = done, own: GainSet = gain_set
+            arm: RobotModel, asked: Options, low: float, high: float, done: int = done, of: GainSet = gain_set
         ) -> EpsilonResult:
             def report(fraction: float, note: str) -> None:
-                advance((done + low + (high - low) * fraction) / len(gains), f"{own.name}: {note}")
+                advance((done + low + (high - low) * fraction) / len(gains), f"{of.name}: {note}")
 
-            return kept_epsilon(own, model, asked, report)
+            return kept_epsilon(of, arm, asked, report)
 
         began = perf_counter()
-        result = ask(options, 0.0, WITH_RANGES if options.ranges else 1.0)
-        if result.corner:  # something ranges: what that costs is asked too
-            result = replace(result, unvaried=ask(nominal, WITH_RANGES, 1.0).certified)
+        result = replace(ask(model, options, 0.0, WITH_RANGES if options.ranges else 1.0), outside=left_out)
+        if result.corner and not left_out:  # something ranges: what that costs is asked too
+            result = replace(result, unvaried=ask(own, nominal, WITH_RANGES, 1.0).certified)
         results.append(result)
         seconds.append(perf_counter() - began)
     return results, seconds

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +10,6 @@ from lyapcheck.cli.options import add_certificates, add_format, add_vary, varies
 from lyapcheck.cli.show import show
 
 if TYPE_CHECKING:
-    from lyapcheck._types import Progress
     from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.cli.parser import Parser
     from lyapcheck.verdicts import Exit
@@ -31,7 +27,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--robot", metavar="ROBOT", help="An arm that replaces the one the files name.")
     about = (
         "A condition that must hold; may be repeated. 10i: 10p without its √n. scalar and global: dV/dt < 0 "
-        "proved for the arm; lasalle: stability without friction. 10p and 19 if missing."
+        "proved for the arm; lasalle: stability without friction. "
+        "If missing, those of the gain file, else 10p and 19."
     )
     parser.add_choice("--condition", CONDITIONS, about, repeated=True)
     parser.add_choice("--gamma", GAMMAS, "The certified γ, or the one the paper prints.", default="true")
@@ -67,7 +64,9 @@ def run(
 
     gc.set_threshold(3_000_000)  # modules and ten thousand sets hold no garbage, and would be looked through
 
-    from lyapcheck.answers.gate import DECIDING, GateAnswer, gate
+    from lyapcheck._types import part
+    from lyapcheck.answers.gate import GateAnswer, gate
+    from lyapcheck.cli.progress import patient
     from lyapcheck.control.arm_limits import ArmLimits, varied_limits
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.errors import InputError, Problem
@@ -81,8 +80,7 @@ def run(
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
     ranges = varies(vary)
-    deciding = tuple(condition or DECIDING)
-    with _patient(deciding) as advance:
+    with patient("gate") as advance:
         for done, file in enumerate(files):
             try:
                 gain_file = read_gain_file(file)
@@ -90,8 +88,8 @@ def run(
                 if ranges and name is not None and name not in arms:
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)
-                progress = advance(done / len(files), (done + 1) / len(files))
-                results.append(gate(gain_file, robot, deciding, gamma, strict, arms, progress))
+                advanced = part(advance, done / len(files), (done + 1) / len(files))
+                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced))
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)
@@ -102,21 +100,6 @@ def run(
     if problems:
         raise InputError(problems)
     return answer.exit_code
-
-
-@contextmanager
-def _patient(deciding: tuple[str, ...]) -> Iterator[Callable[[float, float], Progress | None]]:
-    """Yields the progress of work between two shares; none where no certificate is asked for."""
-    from lyapcheck.answers.gate.judge import CERTIFICATES
-
-    if not set(CERTIFICATES) & set(deciding):
-        yield lambda low, high: None
-        return
-    from lyapcheck._types import part
-    from lyapcheck.cli.progress import patient
-
-    with patient("gate") as advance:
-        yield partial(part, advance)
 
 
 def _write_certificates(folder: Path, answer: GateAnswer) -> None:

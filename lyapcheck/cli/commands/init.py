@@ -19,8 +19,10 @@ robot = "arm.toml"              # an arm or URDF file beside this one, or a buil
 [[gains]]
 name = "first"
 m = 1                           # the member of the family: h = tanh for m = 1
-kp = [20, 5]                    # N·m, one a joint
-kv = [0.1, 0.1]                 # N·m
+kp = [22, 10]                   # N·m, one per joint
+kv = [12, 3]                    # N·m
+condition = ["10p", "scalar"]   # what decides: torque limits, and a proof of stability for this arm
+# For another arm: lyapcheck tune arm.toml --m 1 --overshoot 5 --settle 2.5 --rest-error 3 --out tuned.toml
 """
 ARM_TEXT = """\
 # An arm of two joints in a vertical plane, to be edited. A number that no data sheet prints says so:

@@ -95,7 +95,7 @@ def run(
     """
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
-    from lyapcheck.robots.vary import corners
+    from lyapcheck.robots.vary import corners, corners_text, outside
     from lyapcheck.tracking.reference import read_reference
 
     gain_file = read_gain_file(file)
@@ -129,10 +129,13 @@ def run(
         path = wrong.reading(read_reference, reference, model.n)
         request = wrong.reading(request_of, model, path, start, velocity, time, watched, band)
     wrong.raise_all()
-    arms = tuple(corners(load(name, vary=ranges), ranges)) if ranges else ()
+    ranged = load(name, vary=ranges) if ranges else model
+    arms = tuple(corners(ranged, ranges)) if ranges else ()
+    where = ", which lies outside the ranges," if outside(model, ranged) else ""
+    text = f"the arm of the file{where} and {corners_text(ranged, ranges)}" if ranges else ""
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("simulate") as advance:
-        job = Job(gain_file, model, Output(csv, plot, format, folder), advance, varied=arms)
+        job = Job(gain_file, model, Output(csv, plot, format, folder), advance, varied=arms, arms=text)
         stop = not keep_going
         if path is not None and request is not None:
             code = follow(job, path, request, stop=stop)

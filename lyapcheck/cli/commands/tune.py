@@ -63,6 +63,8 @@ def arguments(parser: Parser) -> None:
     about = "A gain file to compare with. For buap3: the paper's Table 2."
     parser.add_argument("--compare", metavar="FILE", type=Path, help=about)
     parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gain file there.")
+    about = "With targets: write the best set, marked, if no set meets the targets."
+    parser.add_argument("--best", action="store_true", help=about)
     add_format(parser, FORMATS)
 
 
@@ -86,6 +88,7 @@ def run(
     viscous_min: str | None,
     compare: Path | None,
     out: Path | None,
+    best: bool,
     format: str,  # noqa: A002
 ) -> Exit:
     """Gains for an arm, as a gain file that the gate accepts: the largest, or those that meet targets best.
@@ -94,7 +97,8 @@ def run(
     digit: no gain can be one unit larger.
 
     With --overshoot, --settle or --rest-error: gains that meet these best in motions from rest to rest, tried
-    on the whole arm, once with (19) and once with stability by a proof that does without it.
+    on the whole arm, once with (19) and once with stability by a proof that does without it. Only sets that
+    meet the targets are written; --best writes the best one if there is none.
 
     Exit code 0: every m has gains, or the targets are met, 2: unusable input or no gains exist, 3: the arm's
     limits are not known, or the targets were not reached.
@@ -125,14 +129,14 @@ def run(
         ways = WAYS if stability == "both" else (stability,)
         bench = wrong.reading(trials_of, robot, wishes, peak_share, (start, goal), ways, digits)
     else:
-        motion = {"--start": start, "--goal": goal and goal[0]}
+        motion = {"--start": start, "--goal": goal and goal[0], "--best": best or None}
         repair = "add --overshoot, --settle or --rest-error"
         wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
     wrong.raise_all()
     if compare is not None and against is not None:
         require_joints((against,), load(robot))
     if wishes and bench is not None:
-        return _tune_for(robot, bench, members or (), bounds, against, ranges, out, format)
+        return _tune_for(robot, bench, members or (), bounds, against, ranges, (out, best), format)
     task = tasks_of(robot, None, None)[0] if len(members or ()) in COMPARED else None
     tuning = tune(robot, members or (), targets, bounds, against, ranges, task)
     if out is not None and tuning.exit == Exit.PROVED:
@@ -165,20 +169,25 @@ def _tune_for(
     bounds: Bounds,
     against: GainFile | None,
     ranges: tuple[Vary, ...],
-    out: Path | None,
+    file: tuple[Path | None, bool],
     format: str,  # noqa: A002
 ) -> Exit:
-    """Gains for targets."""
+    """Gains for targets; ``file`` says where to write them, and whether the best are written in any case."""
     from lyapcheck.answers.tune.response.gain_file import bench_file_text
     from lyapcheck.answers.tune.response.tuning import tune_for
     from lyapcheck.cli.progress import progress
 
     with progress("tune") as advance:
         tuning = tune_for(robot, bench, members, bounds, against, ranges, on_progress=advance)
-    if out is not None and tuning.own:
-        write_whole(out, bench_file_text(tuning, out.parent))
+    out, best = file
+    if text := bench_file_text(tuning, None if out is None else out.parent, best=best):
+        if out is not None:
+            write_whole(out, text)
+    elif out is not None or format == "toml":
+        hint = "; --best writes the best one" if tuning.best is not None else ""
+        print(f"note: no set meets the targets, so none is written{hint}", file=sys.stderr)
     if format == "toml":
-        sys.stdout.write(document_text(bench_file_text(tuning)))
+        sys.stdout.write(document_text(bench_file_text(tuning, best=best)))
     else:
         show(tuning, format)
     return tuning.exit

@@ -62,7 +62,7 @@ def prices_shown(
         if result is None:
             continue
         least = _SPARE * np.max(np.abs(result.prices / weight)) * weight
-        prices = result.prices * (1 + _SPARE) + least
+        prices = np.maximum(result.prices * (1 + _SPARE) + least, 0.0)
         forms = tuple(
             tuple(tuple(Fraction(float(x)) for x in row) for row in rows) for rows in result.coefficients
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from lyapcheck.report.figures.plot import Plot
 from lyapcheck.report.figures.style import panels, styled
@@ -19,6 +19,7 @@ def heat_plot(
     columns: Sequence[str],
     cells: Mapping[tuple[str, str], float | None],
     title: str,
+    text: Callable[[float | None], str],
 ) -> Plot:
     """A value for each m (rows) and k_v (columns, N·m), by colour; a cell without one stays empty.
 
@@ -27,6 +28,7 @@ def heat_plot(
         columns: the k_v.
         cells: the values.
         title: what they are, with their unit.
+        text: of a value, as it is to be read.
     """
     import numpy as np
 
@@ -52,7 +54,13 @@ def heat_plot(
                 if not np.isnan(value):
                     colour = "white" if value < dark else "black"
                     axis.text(
-                        j + 0.5, i + 0.5, f"{value:.3g}", ha="center", va="center", color=colour, fontsize=7
+                        j + 0.5,
+                        i + 0.5,
+                        text(float(value)),
+                        ha="center",
+                        va="center",
+                        color=colour,
+                        fontsize=7,
                     )
         figure.colorbar(image, ax=axis)
     data = [[m, kv, cells.get((m, kv))] for m in rows for kv in columns]

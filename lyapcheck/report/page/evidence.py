@@ -39,9 +39,10 @@ def _certificates(report: Report) -> Markup | None:
 
 
 def shown(report: Report, result: Iterable[Block]) -> Markup:
-    """Blocks of the document with their figures inside the page."""
+    """Blocks of the document with their figures inside the page; errors stand beside the torques already."""
 
     def drawn(block: Figure) -> Markup | None:
-        return figure(report, PurePosixPath(block.path).stem, f"{block.caption}.")
+        name = PurePosixPath(block.path).stem
+        return None if name.endswith("_errors") else figure(report, name, f"{block.caption}.")
 
     return element("div", list(blocks(result, 4, drawn)), class_="blocks scroll")

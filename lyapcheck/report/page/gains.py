@@ -1,67 +1,44 @@
-"""Gains to try in the page, in floating point that decides nothing, beside the certified map."""
+"""The simulated run of each gain set, and the certified map over m and k_v."""
 
 from __future__ import annotations
 
-import json
-
 from lyapcheck.output.elements import Markup, element
-from lyapcheck.report.bench import BOXES
+from lyapcheck.report.drawings import file_stem
+from lyapcheck.report.gain_map import BOXES
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.model import Report
-from lyapcheck.report.plain import plain
+from lyapcheck.report.page.drawing import figure
 
-DRAWN = {
-    "h": "The function h_m and its bound γ_m.",
-    "tau": "(10p): k_p + k_v of each joint against its largest admissible value.",
-    "damping": "(19): k_v of each joint against λmin(B)/(√n γ).",
-    "step": "Step response of each joint by itself, in shares of the step.",
-    "share": "Torque of each joint with its gravity bound, in shares of the motor's limit.",
-}
+DRAWN = {"errors": "position errors", "torques": "torques"}
+"""The figures of a run."""
 
 
 def gains_section(report: Report) -> Markup:
-    """Sliders with live curves, and the map; without a script the map alone."""
-    data = json.dumps(plain(report.bench), ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")
-    plots = [
+    """What ``simulate`` did with each gain set, as it is drawn; no script, nothing that moves."""
+    words = (
+        "Reference simulation of (11), in floating point: good for a look, decides nothing. Other gains: ",
+        element("code", "lyapcheck simulate gains.toml"),
+        " shows their run, ",
+        element("code", "lyapcheck gate gains.toml"),
+        " decides.",
+    )
+    runs = [
         element(
-            "figure",
-            element("svg", id=f"plot-{name}", viewBox="0 0 320 190", role="img", aria_label=words),
-            element("figcaption", words),
+            "div",
+            [
+                figure(report, f"{file_stem(row.name)}_{name}", f"{row.name}: {caption}.")
+                for name, caption in DRAWN.items()
+            ],
+            class_="run",
         )
-        for name, words in DRAWN.items()
+        for row in report.runs
     ]
-    damped = element(
-        "figure", element("div", id="plot-words"), element("figcaption", "Near the goal, joint by joint.")
-    )
-    tries = element(
-        "div",
-        element("form", id="sliders", onsubmit="return false"),
-        element("div", plots, damped, class_="plots"),
-        class_="bench script-only",
-    )
-    warning = (
-        "Floating point, one joint at a time: good for a first look, decides nothing. The gate decides: "
-    )
-    return element(
-        "section",
-        element("h2", "Your gains"),
-        element(
-            "p", warning, element("code", "lyapcheck gate gains.toml"), ".", class_="floating script-only"
-        ),
-        tries,
-        element(
-            "p",
-            "With a script, sliders for m, gains, friction and posture stand here.",
-            class_="without-script",
-        ),
-        _map(report),
-        element("script", Markup(data), type="application/json", id="bench"),
-        id="gains",
-    )
+    heading = element("h2", "Gains in motion")
+    return element("section", heading, element("p", *words, class_="quiet"), runs, _map(report), id="gains")
 
 
 def _map(report: Report) -> Markup | None:
-    cells = report.bench.map
+    cells = report.map
     if not cells:
         return None
     scales = list(dict.fromkeys(cell.kv for cell in cells))
@@ -92,7 +69,7 @@ def _map(report: Report) -> Markup | None:
 
 
 def _cell(report: Report, cell: MapCell, largest: float) -> Markup:
-    eps0 = element("b", f"{float(cell.eps0):.3g}") if cell.eps0 else element("b", "none proved")
+    eps0 = element("b", cell.eps0 or "none proved")
     if cell.path in report.certificates:
         eps0 = element("a", eps0, href=cell.path)
     settling = "not settled" if cell.settling is None else f"{cell.settling:.2f} s"

@@ -37,7 +37,7 @@ def render(report: Report) -> str:
         element("a", "Skip to the findings", href="#findings", class_="skip"),
         element("header", _navigation(), class_="bar"),
         element("main", sections),
-        element("script", raw("page.js"), raw("bench.js")),
+        element("script", raw("page.js")),
     )
     return page(f"Proof check: {title}", body, (raw("style.css"), _members(report)))
 

@@ -7,15 +7,16 @@ from dataclasses import replace
 from typing import Any
 
 from lyapcheck.answers.gate.answer import GateAnswer
-from lyapcheck.answers.gate.judge import DECIDING, GateResult, judged_sets
+from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.answers.gate.whole import whole
 from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.control.arm_limits import arm_limits, varied_limits
 from lyapcheck.control.conditions import UNDECIDED
 from lyapcheck.control.gains import GainFile
+from lyapcheck.output.digits import at_least
 
-OPTIONS = {"condition": DECIDING, "gamma": "true"}
+OPTIONS: dict[str, Any] = {"condition": (), "gamma": "true"}
 DIGITS = 6
 
 
@@ -26,7 +27,8 @@ def ask(questions: Sequence[Question], known: UncertainArm, options: Mapping[str
         known.limits[robot] = varied_limits(robot, ranges) if ranges else arm_limits(robot)
     sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
     file = GainFile("plan", robot, sets)
-    results = judged_sets(file, None, options["condition"], options["gamma"], arms=known.limits, explained=0)
+    asked = options["condition"] or None
+    results = judged_sets(file, None, asked, options["gamma"], arms=known.limits, explained=0)
     return [
         _answered(question, result, data)
         for question, result, data in zip(
@@ -38,11 +40,13 @@ def ask(questions: Sequence[Question], known: UncertainArm, options: Mapping[str
 def _answered(question: Question, result: GateResult, data: dict[str, object]) -> Answered:
     undecided = [check.reason for check in result.failures if check.verdict == UNDECIDED]
     reason = undecided[0] if result.verdict == UNDECIDED and undecided else ""
-    return answered(question, result.verdict, data, whole(result), reason, margin=_margin(result))
+    certificate = whole(result)
+    made = () if certificate is None else (certificate,)
+    return answered(question, result.verdict, data, made, reason, margin=_margin(result))
 
 
 def _margin(result: GateResult) -> float | None:
-    """The least (limit − value)/limit of what decides; below 0 where a condition is broken."""
+    """The least (limit − value)/limit of what decides, rounded down; below 0 where a condition is broken."""
     shares = [
         check.margin / abs(check.limit.lower)
         for check in result.checks
@@ -51,4 +55,4 @@ def _margin(result: GateResult) -> float | None:
         and check.limit is not None
         and check.limit.lower != 0
     ]
-    return round(float(min(shares)), DIGITS) if shares else None
+    return float(at_least(min(shares), DIGITS)) if shares else None

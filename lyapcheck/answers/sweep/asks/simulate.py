@@ -13,7 +13,7 @@ from lyapcheck.answers.simulate.simulation import Unfinished
 from lyapcheck.answers.sweep.arms import UncertainArm
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
 from lyapcheck.answers.sweep.tasks import task_of
-from lyapcheck.robots.vary import corners
+from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
 from lyapcheck.simulate.trial import experiment
@@ -25,16 +25,17 @@ OBSERVED = "observed"
 
 
 def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
-    """One run of each gain set, and one at every corner of what varies; the slowest of them counts."""
+    """One run of each gain set, and one at each corner that is tried; the slowest of them counts."""
     gains, task = question.gains, task_of(known.model, options)
     assert gains is not None
     way = (task.q_d, task.q0, task.w0, task.T)
     mover = experiment if options["experiment"] else partial(simulate, stop=True)
     runs: list[Run] = []
     unfinished: list[Unfinished] = []
-    cases = [(gains, known.model)]
+    cases, arms = [(gains, known.model)], ""
     if known.ranges:
         ends = corners(known.model, known.ranges)
+        arms = f"one arm in the ranges and {corners_text(known.model, known.ranges)}"
         cases += [(replace(gains, name=f"{gains.name}: {what}"), model) for what, model in ends]
     for one, model in cases:
         try:
@@ -43,7 +44,7 @@ def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> 
             if not isinstance(failure, PromiseBroken):
                 unfinished.append(Unfinished(one.name, failure.reason))
             runs += [] if failure.partial is None else [failure.partial]
-    result = SetPointRuns(tuple(runs), tuple(unfinished))
+    result = SetPointRuns(tuple(runs), tuple(unfinished), arms=arms)
     verdict = OBSERVED if result.exit_code is Exit.PROVED else VERDICTS[result.exit_code]
     return answered(
         question, verdict, result.data(), reason="; ".join(result.complaints()), settling=_slowest(runs)

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.simulate.numbers import cell
+from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
 from lyapcheck.answers.tune.response.trial import Trial
 from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, NAMES, Trials
-from lyapcheck.control.gains import GainSet
+from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 
+if TYPE_CHECKING:
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.vary import Vary
+
 IN_WORDS = {BY_19: "(19)", BY_PROOF: "proof"}
+STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
+"""The condition of a set that shows stability, in words."""
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
 HEADS = (
     "joint",
@@ -29,13 +36,15 @@ HEADS = (
     "held by",
 )
 NONE = "—"
+FAR = 100
+"""Ratios from here on are not told apart."""
 NOTES = (
-    "worst: the largest of what was seen over what was asked; at most 1 where all is met.",
-    "Motions are those of the closed loop (11) in floating point, without dry friction, watched until the "
-    "energy that is left keeps every joint within its band; what dry friction leaves is k_p |h(e)| = f. That "
-    "no gains do better is not proved: a search ended.",
-    "(10p) holds for every set that was found: no motor saturates at any state.",
+    "worst: the largest simulated value over its target. A ratio of 1 or less meets all targets.",
+    "Simulated motions run until the energy that is left keeps each joint within its band. Dry friction "
+    "leaves the error e with k_p |h(e)| = f.",
+    "The search is not exhaustive; better gains may exist.",
 )
+INSIDE = "The gate proves (10p) for the sets that were found: no motor saturates at any state of (11)."
 RULES = ("(10p)", "(19)")
 FLAT = (
     "For m ≥ 2 h is flat at the goal: less torque near it, a slower end, and dry friction holds the joint "
@@ -48,10 +57,9 @@ class Candidate:
     """A gain set with what it does.
 
     Args:
-        gains: the set.
+        gains: the set, with the conditions by which the gate accepts it; without any where it does not.
         trial: its motions on the whole arm.
         way: how it was asked to be stable; empty for a set from elsewhere.
-        stable: by which condition the gate accepts it; empty where it does not.
         held: per joint the conditions that keep its gains from being larger.
         source: where a set from elsewhere is from.
     """
@@ -59,9 +67,13 @@ class Candidate:
     gains: GainSet
     trial: Trial
     way: str = ""
-    stable: str = ""
     held: tuple[str, ...] = ()
     source: str = ""
+
+    @property
+    def stable(self) -> str:
+        """What shows stability; empty where the gate does not accept the set."""
+        return STABLE_BY[self.gains.condition[-1]] if self.gains.condition else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,14 +83,50 @@ class BenchTuning(Answer):
     schema = "lyapcheck/tune/1"
 
     robot: str
-    joints: tuple[str, ...]
+    model: RobotModel
     bench: Trials
     sets: tuple[Candidate, ...]
     missing: tuple[str, ...] = ()
     """Why there is no set for a member or way."""
     assumptions: tuple[str, ...] = ()
-    arms: int = 1
-    """How many values of what is uncertain were tried."""
+    arms: str = ""
+    """On which arms each motion was tried, where anything varies."""
+    bounds: Bounds = field(default_factory=Bounds)
+    """Limits that the user gave in place of the arm's."""
+    varies: tuple[Vary, ...] = ()
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints."""
+        return self.model.joints
+
+    @property
+    def dry(self) -> bool:
+        """Whether the arm file gives dry friction, which the simulated motions ignore."""
+        return self.model.dry
+
+    @property
+    def scope(self) -> str:
+        """What was simulated, in one line."""
+        count = len(self.bench.tasks)
+        motions = "1 motion" if count == 1 else f"{count} motions"
+        without = (
+            "without the dry friction of the file" if self.dry else "of an arm file without dry friction"
+        )
+        return f"{motions} of (11) at an infinite rate, {without}"
+
+    @property
+    def good(self) -> list[Candidate]:
+        """The sets that meet the targets, best first."""
+        return sorted(filter(self.met, self.own), key=self._rank)
+
+    @property
+    def best(self) -> Candidate | None:
+        """The best set that was found, one that the gate accepts if there is any."""
+        return min(self.own, key=self._rank, default=None)
+
+    def _rank(self, one: Candidate) -> tuple[bool, float]:
+        return not one.stable, one.trial.worst(self.bench.wishes)
 
     @property
     def own(self) -> list[Candidate]:
@@ -91,19 +139,21 @@ class BenchTuning(Answer):
 
     @property
     def exit(self) -> Exit:
-        """0 if some set meets what was asked, else 3: the search found none, and proves nothing."""
-        return Exit.PROVED if any(map(self.met, self.own)) else Exit.UNDECIDED
+        """0 if some set meets the targets, else 3: the search found none, and proves nothing."""
+        return Exit.PROVED if self.good else Exit.UNDECIDED
 
     def document(self) -> Document:
         """What was asked, all sets beside each other, then each by itself."""
         tasks = "; ".join(f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks)
-        arms = f", each on {self.arms} arms" if self.arms > 1 else ""
-        asked = Paragraph(f"Asked: {self.bench.wishes.text()}. From rest, {tasks}{arms}.")
+        arms = f", each on {self.arms}" if self.arms else ""
+        asked = Paragraph(f"Asked: {self.bench.wishes.text()}. Simulated from rest, {tasks}{arms}.")
+        warning = Paragraph(f"Other motions and lower rates may miss the targets.{self._assumed()}")
         lines = [*self._given_up(), *self.missing]
         said = (Bullets(tuple(lines)),) if lines else ()
-        blocks = (asked, self._overview(), *said, *(self._section(one) for one in self.own))
+        blocks = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
-        return Document(self._title(), blocks, (*NOTES, *flat, *self.assumptions))
+        inside = [INSIDE] if self.own and all(one.stable for one in self.own) else []
+        return Document(self._title(), blocks, (*NOTES, *inside, *flat, *self.assumptions))
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, way, stable_by, met, worst, joints: [...]}]``, runs to six digits."""
@@ -113,7 +163,8 @@ class BenchTuning(Answer):
             "tasks": [
                 {"start": _degrees_of(task.q0), "goal": _degrees_of(task.q_d)} for task in self.bench.tasks
             ],
-            "arms": self.arms,
+            "simulated": self.scope,
+            "arms": self.arms or None,
             "results": [self._data(one) for one in self.sets],
             "missing": list(self.missing),
             "assumptions": list(self.assumptions),
@@ -128,17 +179,41 @@ class BenchTuning(Answer):
         return rows
 
     def _title(self) -> str:
-        good = [one for one in self.own if self.met(one)]
-        if good:
-            best = min(good, key=lambda one: one.trial.worst(self.bench.wishes))
-            return f"✓ {self.robot}: {best.gains.name} meets what was asked"
-        if not self.own:
+        best = self.best
+        if best is None:
             return f"? {self.robot}: no gains"
-        best = min(self.own, key=lambda one: one.trial.worst(self.bench.wishes))
-        worst = best.trial.worst(self.bench.wishes)
-        return (
-            f"? {self.robot}: what was asked is not reached; {best.gains.name} comes within {worst:.2f} times"
-        )
+        if self.good:
+            return (
+                f"{self._mark} simulated: {best.gains.name} meets the targets on {self.robot} in {self.scope}"
+            )
+        missed = "; ".join(self.missed(best)) or "has no proof of stability"
+        return f"? simulated: no set meets the targets on {self.robot}; the best, {best.gains.name}: {missed}"
+
+    @property
+    def _mark(self) -> str:
+        """Of a set that meets the targets, perhaps only without the dry friction of the file."""
+        return "!" if self.dry else "✓"
+
+    def _assumed(self) -> str:
+        """Which friction of the arm is only assumed, as a sentence."""
+        joints = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
+        return f" The viscous friction of {', '.join(joints)} is assumed." if joints else ""
+
+    def missed(self, one: Candidate) -> list[str]:
+        """The targets that a set misses, with the joints and by which factor; or what else it lacks."""
+        result = []
+        for name, ratios in one.trial.ratios(self.bench.wishes).items():
+            rows = zip(self.joints, ratios, strict=True)
+            joints = [f"{joint} {_times(ratio)}" for joint, ratio in rows if ratio > 1]
+            if joints:
+                result.append(f"misses {NAMES[name]}, simulated / target: {', '.join(joints)}")
+        if not one.trial.kept:
+            result.append(
+                f"after {one.trial.T:g} s the energy left does not exclude that a joint leaves its band"
+            )
+        if not one.stable:
+            result.append("no proof of stability was found")
+        return result
 
     def _overview(self) -> Table:
         rows = []
@@ -146,14 +221,14 @@ class BenchTuning(Answer):
             trial, worst = one.trial, one.trial.worst(self.bench.wishes)
             rows.append(
                 (
-                    ("✓" if self.met(one) else "✗" if one.stable else "?") if one.way else "",
+                    (self._mark if self.met(one) else "✗" if one.stable else "?") if one.way else "",
                     one.gains.name + (f", {one.source}" if one.source else ""),
                     NONE if one.gains.m is None else str(one.gains.m),
                     one.stable or NONE,
-                    f"{worst:.2f}" if worst < 100 else "> 100",
-                    f"{_most(trial.overshoot):.0f} %",
+                    _times(worst),
+                    _share(_most(trial.overshoot)),
                     _seconds(_most(trial.settled, none_is_worst=True)),
-                    f"{100 * _most(trial.share):.0f} %",
+                    _share(100 * _most(trial.share)),
                     _degrees(float(max(trial.rest))),
                 )
             )
@@ -166,31 +241,23 @@ class BenchTuning(Answer):
                 joint,
                 decimal_text(one.gains.kp[i], digits),
                 decimal_text(one.gains.kv[i], digits),
-                cell(float(one.trial.overshoot[i]), ".1f"),
+                _up(float(one.trial.overshoot[i])),
                 _seconds(float(one.trial.settled[i])),
-                cell(float(one.trial.share[i]), ".2f"),
+                _up(float(one.trial.share[i])),
                 _degrees(float(one.trial.rest[i])),
                 one.held[i],
             )
             for i, joint in enumerate(self.joints)
         ]
         title = f"{one.gains.name} (m = {one.gains.m}, stable by {one.stable or 'nothing that was found'})"
-        lines = tuple(self._missed(one)) or ("all that was asked is met",)
+        lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
         return Section(title, (Table(HEADS, tuple(rows), align="lrrrrrrl"), Bullets(lines)))
 
-    def _missed(self, one: Candidate) -> Iterator[str]:
-        """What a set does not meet, and what stands in the way."""
-        wishes = self.bench.wishes
-        for name, ratios in one.trial.ratios(wishes).items():
-            joints = [
-                f"{joint} {ratio:.2f}" for joint, ratio in zip(self.joints, ratios, strict=True) if ratio > 1
-            ]
-            if joints:
-                yield f"{NAMES[name]} beyond what was asked, times: {', '.join(joints)}"
+    def _behind(self, one: Candidate) -> Iterator[str]:
+        """What a set misses, and what stands in the way."""
+        yield from self.missed(one)
         held = {rule: [j for j, h in zip(self.joints, one.held, strict=True) if rule in h] for rule in RULES}
-        if not one.trial.kept:
-            yield f"after {one.trial.T:g} s the energy left does not exclude that a joint leaves its band"
-        if one.trial.worst(wishes) > 1:
+        if one.trial.worst(self.bench.wishes) > 1:
             for rule, joints in held.items():
                 if joints:
                     gain = "k_p + k_v" if rule == "(10p)" else "k_v"
@@ -204,7 +271,9 @@ class BenchTuning(Answer):
             if len(by) == 2:
                 a, b = (by[way].trial.worst(wishes) for way in (BY_19, BY_PROOF))
                 if b < 0.95 * a:
-                    yield f"m = {m}: (19) costs a factor of {a / b:.1f} ({a:.2f} to {b:.2f} by proof)"
+                    ratios = f"worst ratio {_times(a)} with (19), {_times(b)} by proof"
+                    factor = f" ({_times(a / b)} times as much)" if b else ""
+                    yield f"m = {m}: {ratios}{factor}"
 
     def _data(self, one: Candidate) -> dict[str, Any]:
         trial = one.trial
@@ -215,6 +284,7 @@ class BenchTuning(Answer):
             "way": one.way or None,
             "stable_by": one.stable or None,
             "met": self.met(one),
+            "condition": list(one.gains.condition),
             "worst": _six(trial.worst(self.bench.wishes)),
             "joints": [
                 {
@@ -249,9 +319,22 @@ def _most(values: Any, none_is_worst: bool = False) -> float:
     return math.nan if not known or (none_is_worst and len(known) < len(values)) else max(known)
 
 
+def _up(value: float) -> str:
+    """A simulated number, rounded up; a dash where there is none."""
+    return NONE if math.isnan(value) else at_most(value, 3)
+
+
+def _times(ratio: float) -> str:
+    return at_most(float(ratio), 3) if ratio < FAR else f"> {FAR}"
+
+
+def _share(value: float) -> str:
+    return NONE if math.isnan(value) else f"{at_most(value, 2)} %"
+
+
 def _seconds(value: float) -> str:
-    return "no" if math.isnan(value) else f"{value:.2f} s"
+    return "no" if math.isnan(value) else f"{at_most(value, 3)} s"
 
 
 def _degrees(value: float) -> str:
-    return "anywhere" if math.isinf(value) else f"{value:.1f}°" if value else NONE
+    return "anywhere" if math.isinf(value) else f"{at_most(value)}°" if value else NONE

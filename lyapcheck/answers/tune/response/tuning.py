@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate import gate
@@ -12,12 +13,12 @@ from lyapcheck.answers.tune.obstacles import impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
 from lyapcheck.answers.tune.response.trial import tried
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, Trials
+from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, WAYS, Trials
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import corners
+from lyapcheck.robots.vary import corners, corners_text, outside
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
@@ -26,6 +27,10 @@ if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
+
+
+CONDITIONS = {BY_19: ("19",), BY_PROOF: (SCALAR, LASALLE)}
+"""What shows stability beside (10p), by the way that is asked for; the first that the gate accepts counts."""
 
 
 def tune_for(
@@ -59,7 +64,7 @@ def tune_for(
     model = load(robot)
     limits = arm_limits(robot, model.n, bounds, varies)
     ranges = {robot: varied_limits(robot, varies)} if varies else None
-    arms = (model, *(arm for _, arm in corners(load(robot, vary=varies), varies))) if varies else (model,)
+    arms, tried_on = _arms(robot, model, varies)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
     reasons = [*unknown(limits), *_overloaded(limits)]
@@ -70,13 +75,33 @@ def tune_for(
             reasons.append(_none(m, way, limits))
             continue
         result = search.run(share)
-        stable = stable_by(result.gains, way, limits, robot, ranges)
-        sets.append(Candidate(result.gains, result.trial, way, stable, tuple(_held(result.gains, search))))
+        gains = accepted(result.gains, way, robot, bounds, ranges)
+        sets.append(Candidate(gains, result.trial, way, held=tuple(_held(gains, search))))
     beside = [one for one in ([] if against is None else against.gains) if one.m in members]
-    sets = [*(_other(one, arms, bench, against, ranges) for one in beside), *sets]
+    sets = [*(_other(one, arms, bench, against, robot, ranges) for one in beside), *sets]
     return BenchTuning(
-        robot, model.joints, bench, tuple(sets), tuple(dict.fromkeys(reasons)), limits.assumptions, len(arms)
+        robot,
+        model,
+        bench,
+        tuple(sets),
+        tuple(dict.fromkeys(reasons)),
+        limits.assumptions,
+        tried_on,
+        bounds or Bounds(),
+        varies,
     )
+
+
+def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tuple[RobotModel, ...], str]:
+    """The arms that gains are tried on, and what these are; empty for the arm of the file alone."""
+    if not varies:
+        return (model,), ""
+    ranged = load(robot, vary=varies)
+    ends = tuple(arm for _, arm in corners(ranged, varies))
+    text = corners_text(ranged, varies)
+    if outside(model, ranged):
+        return ends, f"{text}; the values of the file lie outside"
+    return (model, *ends), f"the nominal arm and {text}"
 
 
 def _share(progress: Progress | None, done: int, jobs: int, note: str) -> Callable[[float], None]:
@@ -94,22 +119,16 @@ def _none(m: int, way: str, limits: Limits) -> str:
     return f"m = {m}: {rule} with so few decimal places; raise --digits"
 
 
-def stable_by(
-    gains: GainSet, way: str, limits: Limits, robot: str, ranges: dict[str, ArmLimits] | None
-) -> str:
-    """The condition beside (10p) by which the gate accepts a set, over ranges; empty where it does not."""
-    torque = tuple(limit for limit in limits.torque if limit is not None)
-    other = limits.viscous_min if way == BY_19 or limits.viscous_min != _own_friction(limits) else None
-    file = GainFile("tuned gains", robot, (gains,), Bounds(other, torque, limits.gravity))
-    for condition in ("19",) if way == BY_19 else (SCALAR, LASALLE):
-        (result,) = gate(file, robot, ("10p", condition), arms=ranges)
+def accepted(
+    gains: GainSet, way: str, robot: str, bounds: Bounds | None, ranges: dict[str, ArmLimits] | None
+) -> GainSet:
+    """The set with the conditions by which the gate accepts it; without any where it does not."""
+    for condition in CONDITIONS[way]:
+        named = replace(gains, condition=("10p", condition))
+        (result,) = gate(GainFile("tuned gains", robot, (named,), bounds or Bounds()), robot, arms=ranges)
         if result.verdict == ACCEPTED:
-            return IN_WORDS[way] if condition in ("19", SCALAR) else "LaSalle"
-    return ""
-
-
-def _own_friction(limits: Limits) -> object:
-    return None if limits.model is None else min(number.bounds[0] for number in limits.model.viscous)
+            return named
+    return gains
 
 
 def _held(gains: GainSet, search: Search) -> Iterator[str]:
@@ -126,16 +145,14 @@ def _other(
     arms: Sequence[RobotModel],
     bench: Trials,
     file: GainFile | None,
+    robot: str,
     ranges: dict[str, ArmLimits] | None,
 ) -> Candidate:
-    """A set from elsewhere, tried as ours are."""
+    """A set from elsewhere, tried as ours are, with the conditions by which the gate accepts it."""
     trial = tried(gains, arms, bench.tasks, bench.wishes, exact=True)
     assert file is not None
-    file_of = GainFile(file.path, file.robot, (gains,), file.bounds)
-    stable = ""
-    for condition, way in (("19", BY_19), (SCALAR, BY_PROOF)):
-        (result,) = gate(file_of, None, ("10p", condition), arms=ranges)
-        if result.verdict == ACCEPTED:
-            stable = IN_WORDS[way]
+    for way in WAYS:
+        judged = accepted(replace(gains, condition=()), way, robot, file.bounds, ranges)
+        if judged.condition:
             break
-    return Candidate(gains, trial, "", stable, ("",) * len(gains.kp), file.path)
+    return Candidate(judged, trial, source=file.path)

@@ -1,16 +1,16 @@
-"""What the page needs to try gains: numbers of the arm in floating point, and the map over m and k_v."""
+"""The map over m and k_v: the ε₀ that is proved at each place, and what the reference simulation does."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.files.decimals import significant_down
+from lyapcheck.files.decimals import at_least
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.plain import read
 
@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.search.proof import DecreaseProof
 
-MOST = 8
-"""The largest m of the sliders."""
-POSTURES = 13
 SCALES = ("0.05", "0.1", "0.2", "0.5", "1", "2")
 """k_v of the map, N·m."""
 BOXES = 30_000
@@ -32,90 +29,8 @@ DIGITS = 3
 
 
 @dataclass(frozen=True)
-class StartGains:
-    """A gain set to start from, N·m."""
-
-    name: str
-    m: int | None
-    kp: tuple[float, ...]
-    kv: tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class Bench:
-    """Numbers in floating point for the script of the page.
-
-    Args:
-        viscous: of B, (n,), N·m·s/rad.
-        torque: limits, (n,), N·m; none without.
-        gravity: bounds of |g_i|, (n,), N·m.
-        posture: the same angle of all joints, rad.
-        mass: M_ii at each posture, kg·m².
-        gamma: γ_m for m = 1, 2, …
-        goal: the step of each joint, rad.
-        sets: to start from.
-        map: over m and k_v.
-    """
-
-    robot: str
-    joints: tuple[str, ...]
-    viscous: tuple[float, ...]
-    torque: tuple[float | None, ...]
-    gravity: tuple[float, ...]
-    posture: tuple[float, ...]
-    mass: tuple[tuple[float, ...], ...]
-    gamma: tuple[float, ...]
-    goal: tuple[float, ...]
-    sets: tuple[StartGains, ...]
-    map: tuple[MapCell, ...]
-
-
-def bench(
-    model: RobotModel, sets: Sequence[GainSet], goal: Sequence[float], cells: Sequence[MapCell]
-) -> Bench:
-    """What the page needs.
-
-    Args:
-        model: the arm.
-        sets: gain sets of the family, to start from.
-        goal: (n,) the step of each joint, rad.
-        cells: of the map; empty where there is none.
-    """
-    import numpy as np
-
-    from lyapcheck.control.arm_limits import model_limits
-    from lyapcheck.family import hyperbolic
-    from lyapcheck.robots.numeric import NumericModel
-
-    limits = model_limits(model)
-    posture = np.linspace(0.0, np.pi, POSTURES)
-    mass = NumericModel(model).mass(np.repeat(posture[:, None], model.n, axis=1))
-    gammas = [hyperbolic(m).constants().gamma for m in range(1, MOST + 1)]
-    starts = (
-        StartGains(one.name, one.m, tuple(map(float, one.kp)), tuple(map(float, one.kv))) for one in sets
-    )
-    return Bench(
-        robot=model.name,
-        joints=model.joints,
-        viscous=tuple(float(number.value) for number in model.viscous),
-        torque=tuple(None if one is None else float(one) for one in limits.torque),
-        gravity=_short(limits.gravity),
-        posture=_short(posture),
-        mass=tuple(_short(np.diag(one)) for one in mass),
-        gamma=tuple(float(f"{float(gamma.mid):.9g}") for gamma in gammas if gamma is not None),
-        goal=_short(goal),
-        sets=tuple(starts),
-        map=tuple(cells),
-    )
-
-
-def _short(values: Iterable[float | Fraction]) -> tuple[float, ...]:
-    return tuple(float(f"{float(x):.6g}") for x in values)
-
-
-@dataclass(frozen=True)
 class JudgedCell:
-    """A place of the map, and the text of the certificate of its ε₀ if one is proved."""
+    """A place, and the text of the certificate of its ε₀ if one is proved."""
 
     cell: MapCell
     certificate: str | None
@@ -143,13 +58,14 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
 
     So one tree of boxes is judged for many places.
     """
-    from lyapcheck.answers.epsilon import epsilon
+    from lyapcheck.answers.epsilon.kept import kept_epsilon
+    from lyapcheck.answers.epsilon.options import Options
 
     cells: list[JudgedCell] = []
     served: DecreaseProof | None = None
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
-        result = epsilon(gains, model, max_boxes=BOXES)
+        result = kept_epsilon(gains, model, Options(max_boxes=BOXES))
         known = None if served is None else served.for_smaller(gains.kv)
         if known is not None and known.accepted() and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
             result = replace(result, certified=known.loop.eps0, proof=known)
@@ -190,7 +106,7 @@ def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence
 
 def map_eps0(value: Fraction) -> str:
     """The largest decimal of three digits that is not above it."""
-    return f"{float(significant_down(value, DIGITS)):.{DIGITS}g}"
+    return at_least(value, DIGITS)
 
 
 def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[JudgedCell]:

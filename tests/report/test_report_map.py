@@ -1,9 +1,8 @@
-"""A report from the store and a map of one's own rest on certificates that are judged again."""
+"""The map over m and k_v rests on certificates that are judged."""
 
 from __future__ import annotations
 
 import json
-from contextlib import nullcontext
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -14,12 +13,9 @@ from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.report import experiment, kept
-from lyapcheck.report.bench import gain_map, kept_map, map_eps0
-from lyapcheck.report.computed import Computed
+from lyapcheck.report import experiment
 from lyapcheck.report.experiment import study_file
-from lyapcheck.report.model import Report
-from lyapcheck.report.subject import Subject
+from lyapcheck.report.gain_map import gain_map, kept_map, map_eps0
 from lyapcheck.robots import load
 
 
@@ -39,34 +35,6 @@ def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> No
         assert map_eps0(Fraction(statement["eps0"])) == one.cell.eps0
     outcome = recheck(gather([str(tmp_path)]))
     assert [one.verdict for one in outcome.checked] == ["proved", "proved"]
-
-
-@pytest.mark.slow
-def test_a_kept_report_is_taken_only_where_the_checker_says_the_same(
-    report: Report, subject: Subject, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    small = {one.claims[0]: one.witness for one in report.findings if one.witness and one.witness.small}
-    computed = Computed(
-        report.claims, report.others, small, report.epsilon, report.runs, report.sensitivity,
-        report.bench.map, report.figures, report.certificates,
-    )  # fmt: skip
-    text = json.dumps(kept.written(computed))
-    found = kept.read(json.loads(text), subject)
-    assert found is not None
-    assert found.figures == computed.figures
-    with kept._judging(report.certificates) as judged:
-        answers = judged()
-    monkeypatch.setattr(kept, "_judging", lambda certificates: nullcontext(lambda: answers))
-    for change in (
-        lambda data: data["claims"][0].update(verdict="refuted"),
-        lambda data: data["others"][-1].update(grade="none"),
-        lambda data: data["epsilon"][0].update(certified="0.5"),
-        lambda data: data["certificates"].popitem(),
-        lambda data: data.pop("runs"),
-    ):
-        data = json.loads(text)
-        change(data)
-        assert kept.read(data, subject) is None
 
 
 @pytest.mark.slow

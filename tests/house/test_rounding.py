@@ -1,0 +1,151 @@
+"""Numbers beside words of proof are rounded to the safe side: by ``at_most`` and ``at_least`` alone."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import lyapcheck
+from lyapcheck.promise import GUARDED
+
+PACKAGE = Path(lyapcheck.__file__).parent
+ROOMS = ("answers", "report")
+STRICT = (
+    "answers/epsilon",
+    "answers/robot",
+    "answers/simulate",
+    "answers/sweep",
+    "answers/tune",
+    "answers/table.py",
+)
+NEAREST = re.compile(r"z?[.\d]*[gfeGFE%]|.*[}][gfe]")
+"""Format specifications that round to nearest."""
+IN_TEXT = re.compile(r"\{\w*:z?[.\d]*[gfe%]\}")
+ROUNDING = ("round", "significant_text")
+"""Functions that do not say to which side they round."""
+TAKING = ("cell", "format")
+"""Functions that take such a specification."""
+BESIDE_PROOF = {
+    "answers/bounds/answer.py:_times": "degrees that the user gave, of simulated runs",
+    "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
+    "answers/robot/data.py:constant_data": "the gap of numeric ends, for programs",
+    "report/bench.py:_cell": "rounded down before",
+    "report/page/gains.py:_cell": "one simulated run",
+}
+"""Functions with a word of proof and a number that is not proved, or is on the safe side before."""
+SEEN = {
+    "answers/epsilon/result.py:data": "seconds of computing",
+    "answers/epsilon/result.py:_row": "seconds of computing",
+    "answers/epsilon/words.py:remarks": "the size of a speed where no arm comes",
+    "answers/robot/data.py:constant_data": "the gap of numeric ends",
+    "answers/robot/page.py:_state_rows": "the angles of a witness, whole in the data",
+    "answers/simulate/numbers.py:plain": "simulated",
+    "answers/simulate/numbers.py:row": "angles that the user gave",
+    "answers/simulate/quantities.py:quantities": "simulated",
+    "answers/simulate/runs.py:module": "the band of settling",
+    "answers/simulate/runs.py:overview": "simulated",
+    "answers/simulate/runs.py:_headline": "times that the user gave or that were reached",
+    "answers/simulate/runs.py:_beside": "as the paper prints it",
+    "answers/simulate/runs.py:_rows": "simulated",
+    "answers/simulate/starts.py:module": "quantiles",
+    "answers/simulate/starts.py:_task": "angles and times that the user gave",
+    "answers/simulate/tracking.py:overview": "simulated",
+    "answers/simulate/tracking.py:_headline": "times that the user gave or that were reached",
+    "answers/simulate/tracking.py:_heads": "the band that the user gave",
+    "answers/simulate/tracking.py:_rows": "simulated",
+    "answers/sweep/result.py:_cell": "a cell of a map",
+    "answers/tune/effect.py:effect_section": "simulated",
+    "answers/tune/effect.py:_six": "simulated",
+    "answers/tune/response/answer.py:missed": "the time of a simulated motion",
+    "answers/tune/response/answer.py:_angles": "angles that the user gave",
+    "answers/tune/response/answer.py:_six": "simulated",
+    "answers/tune/response/search.py:_score": "an order of candidates",
+    "answers/tune/response/search.py:set_of": "gains, which the gate judges as they are written",
+}
+"""The functions of the strict rooms that may round to nearest, each with what it prints."""
+
+
+def specifications(node: ast.AST) -> Iterator[str]:
+    """How a piece of code rounds to nearest."""
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.FormattedValue) and isinstance(inner.format_spec, ast.JoinedStr):
+            spec = ast.unparse(inner.format_spec)[2:-1]
+            yield from [f":{spec}"] if NEAREST.fullmatch(spec) else []
+        elif isinstance(inner, ast.Constant) and isinstance(inner.value, str):
+            yield from IN_TEXT.findall(inner.value)
+            yield from [inner.value] if re.fullmatch(r"z?\.\d+[gfe]", inner.value) else []
+        elif isinstance(inner, ast.Call) and isinstance(inner.func, ast.Name):
+            given = [one.value for one in inner.args if isinstance(one, ast.Constant)]
+            takes = inner.func.id in TAKING and any(
+                isinstance(x, str) and NEAREST.fullmatch(x) for x in given
+            )
+            yield from [inner.func.id] if takes or inner.func.id in ROUNDING else []
+
+
+def texts(node: ast.AST) -> Iterator[str]:
+    """The strings in a piece of code, docstrings left out."""
+    docs = set()
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.FunctionDef | ast.ClassDef) and isinstance(inner.body[0], ast.Expr):
+            docs.add(id(inner.body[0].value))
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Constant) and isinstance(inner.value, str) and id(inner) not in docs:
+            yield inner.value
+
+
+def pieces(tree: ast.Module) -> Iterator[tuple[str, ast.AST]]:
+    """Each function and method with its name, and the other statements of a module and of its classes."""
+    for node in tree.body:
+        for inner in node.body if isinstance(node, ast.ClassDef) else [node]:
+            yield getattr(inner, "name", "module"), inner
+
+
+def complaints(source: str, name: str, strict: bool) -> list[str]:
+    """What a file rounds to nearest beside a word of proof or, in a strict room, at all."""
+    found = []
+    for piece, node in pieces(ast.parse(source)):
+        specs, place = sorted(set(specifications(node))), f"{name}:{piece}"
+        words = sorted({word.group().lower() for text in texts(node) for word in GUARDED.finditer(text)})
+        if specs and words and place not in BESIDE_PROOF:
+            found.append(
+                f"{place} prints {', '.join(specs)} beside {', '.join(words)}; use at_most or at_least"
+            )
+        elif specs and strict and place not in {**SEEN, **BESIDE_PROOF}:
+            found.append(
+                f"{place} prints {', '.join(specs)}; use at_most or at_least, or say in SEEN what it is"
+            )
+    return found
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_numbers_beside_words_of_proof_are_rounded_to_the_safe_side(room: str) -> None:
+    found = []
+    for path in sorted((PACKAGE / room).rglob("*.py")):
+        name = path.relative_to(PACKAGE).as_posix()
+        found += complaints(path.read_text(encoding="utf-8"), name, name.startswith(STRICT))
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("source", "beside", "at_all"),
+    [
+        ('def f(x):\n    return f"at most {x:.3g} is proved"', True, True),
+        ('def f(x):\n    text = f"{x:.2f}"\n    return text + " is certified"', True, True),
+        ('def f(x):\n    return "stable up to {:g}".format(x)', True, True),
+        ('def f(x):\n    return cell(x, "g"), "at least"', True, True),
+        ('def f(x):\n    return f"{round(x)} of every"', True, True),
+        ('def f(x):\n    return f"{x:.{digits}g} is proved"', True, True),
+        ('class A:\n    def f(self, x):\n        return f"{x:.0%} accepted"', True, True),
+        ('TEXT = f"{SHARE:g} % at most"', True, True),
+        ('def f(x):\n    """Not at most."""\n    return f"{x:.2f} s"', False, True),
+        ('def f(x):\n    return f"at most {at_most(x)} is proved"', False, False),
+        ('def f(x):\n    return f"{x:>10} is proved, {x!r}"', False, False),
+    ],
+)
+def test_the_detector_finds_what_it_is_for(source: str, beside: bool, at_all: bool) -> None:
+    assert bool(complaints(source, "a.py", strict=False)) == beside
+    assert bool(complaints(source, "a.py", strict=True)) == at_all

@@ -1,0 +1,64 @@
+"""Numbers beside words of proof are rounded to the side on which they stay true."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lyapcheck.answers.gate import GateAnswer
+from lyapcheck.answers.sweep.page import files
+from lyapcheck.answers.sweep.result import SweepAnswer
+from lyapcheck.answers.sweep.tally import Tally
+from lyapcheck.answers.table import build_table
+from lyapcheck.files.decimals import at_least, at_most
+from lyapcheck.report.map_cell import MapCell
+from lyapcheck.report.model import Report
+from lyapcheck.report.notes import published_notes
+from lyapcheck.report.write import render
+from lyapcheck.robots import load
+
+PROVED = {"0.05": "0.10279", "0.1": "0.1025702", "0.2": "0.09999999"}
+"""ε₀ that are proved, by k_v: to the nearest each would be shown as more."""
+
+
+@pytest.fixture
+def maps() -> Tally:
+    result = Tally()
+    row = {"robot": "a", "variation": (), "ask": "epsilon", "verdict": "proved", "reason": "", "m": 1}
+    for kv, value in PROVED.items():
+        result.add({**row, "family": "hyperbolic", "kv": [kv], "eps0": value})
+    return result
+
+
+def test_a_map_shows_no_eps0_above_what_is_proved(maps: Tally) -> None:
+    text = SweepAnswer("plan.toml", maps).written("text")
+    shown = re.findall(r"^ *1 +(.*)$", text, re.MULTILINE)[0].split()
+    assert shown == ["0.102", "0.102", "0.0999"]
+
+
+def test_the_drawing_shows_none_either(maps: Tally) -> None:
+    drawing = str(files(SweepAnswer("plan.toml", maps, figures=True))["figures/map1_eps0.svg"])
+    assert {">0.102<", ">0.0999<"} <= set(re.findall(r">0\.\d+<", drawing))
+    assert ">0.103<" not in drawing
+
+
+def test_the_map_of_a_report_shows_an_eps0_as_it_is_proved() -> None:
+    cells = tuple(MapCell(1, kv, eps0, 1.0, 0.5, True) for kv, eps0 in PROVED.items())
+    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
+    empty |= {"sensitivity": None, "figures": {}}
+    about = {"robot": load("buap3"), "table": build_table((1,)), "gate": GateAnswer(()), "map": cells}
+    page = render(Report(notes=published_notes(), own=True, ms=(1,), **about, **empty), ("html",))  # type: ignore[arg-type]
+    shown = str(page["index.html"]).split('class="map"')[1]
+    assert re.findall(r"<b>(0\.\d+)</b>", shown) == list(PROVED.values())
+
+
+@given(st.fractions(-(10**6), 10**6, max_denominator=10**9), st.integers(1, 9))
+def test_what_is_printed_is_on_the_safe_side_and_near(value: Fraction, digits: int) -> None:
+    low, high = Fraction(at_least(value, digits)), Fraction(at_most(value, digits))
+    assert low <= value <= high
+    assert high - low <= abs(value) * Fraction(10) ** (1 - digits)
