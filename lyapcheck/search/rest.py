@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.resting import AtBounds, Resting, rests_within
 from lyapcheck.check.numbers.members import Member, member
-from lyapcheck.control.judgement import proves
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.files.decimals import significant_up
 
 if TYPE_CHECKING:
@@ -23,14 +23,15 @@ FARTHEST = 2**10
 DIGITS = 6
 
 
-def resting(gains: GainSet, dry: Sequence[Fraction]) -> Resting | None:
+def resting(gains: GainSet, dry: Sequence[Fraction]) -> JudgedStatement | None:
     """Bounds of |e_i| at every state of rest under dry friction, N·m; none where no joint has one."""
     h = member(gains.family, gains.m)
     errors = tuple(_error(h, f / k) for f, k in zip(dry, gains.kp, strict=True))
     if all(x is None for x in errors):
         return None
     statement = Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), errors)
-    return statement if proves(statement, AtBounds()) else None
+    judged = judged_statement(statement, [AtBounds()])
+    return judged if judged.shown == "proved" else None
 
 
 def _error(h: Member, ratio: Fraction) -> Fraction | None:
