@@ -100,7 +100,8 @@ def title(results: Sequence[BoundsComparison]) -> str:
     if whole == len(results) > 0:
         return all_say(promises, f"✓ the errors at rest under all {whole} gain sets are proved on {robots}")
     if not promises:
-        return f"? not all errors at rest are proved under any of {len(results)} gain sets on {robots or 'no arm'}"
+        count = len(results)
+        return f"? not all errors at rest are proved under any of {count} gain sets on {robots or 'no arm'}"
     some = f"? the errors at rest under {whole} of {len(results)} gain sets are proved on {robots}"
     return all_say(promises, some)
 

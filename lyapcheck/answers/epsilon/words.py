@@ -138,7 +138,7 @@ def _cost_text(whole: Promise, unvaried: Promise) -> str:
 def reasons(result: FourEpsilons) -> list[str]:
     """Why a number is missing, or not larger than it is; a sentence each."""
     return [
-        f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"{kind} ε₀: {reason}."
+        f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"no larger {kind} ε₀: {reason}."
         for kind, reason in result.reasons.items()
     ]
 
