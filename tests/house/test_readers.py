@@ -25,7 +25,7 @@ OURS = {
     ("kernel/record.py", "_record"): "a record of the package",
     ("kernel/record.py", "_definitions"): "the library of the package",
     ("rechecking/trusted.py", "_imported"): "source of the package",
-    ("report/bench.py", "kept_map"): "a study of the package",
+    ("report/gain_map.py", "kept_map"): "a study of the package",
     ("report/experiment.py", "printed_experiment"): "a study of the package",
     ("report/figures/style.py", "_with_palette"): "a picture in memory",
     ("report/notes.py", "published_notes"): "a proof of the package",
