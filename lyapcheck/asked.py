@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
     from lyapcheck.check.statement import Ends
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.plant import Plant
 
 
-def parameters_of(arm: RobotModel) -> tuple[Ends, ...]:
+def parameters_of(arm: Plant) -> tuple[Ends, ...]:
     """The range of each parameter of M; one that M does not depend on is held at its value."""
     first, rows = 2 * arm.n, mass_of(arm)
     terms = (powers for row in rows for entry in row for powers, _ in entry)
@@ -33,12 +33,26 @@ def parameters_of(arm: RobotModel) -> tuple[Ends, ...]:
 
 
 def decreasing(
-    gains: GainSet, arm: RobotModel, eps0: Fraction, coupling: tuple[Fraction, ...] = ()
+    gains: GainSet,
+    arm: Plant,
+    eps0: Fraction,
+    coupling: tuple[Fraction, ...] = (),
+    *,
+    nominal: bool = False,
 ) -> Decreasing:
-    """Does V fall at every state of every arm in the ranges, with this ε₀? See `Decreasing`."""
+    """Does V fall at every state of every arm in the ranges, with this ε₀? See `Decreasing`.
+
+    Args:
+        gains: the controller.
+        arm: as the user gave it.
+        eps0: that is printed.
+        coupling: the diagonal of Λ, where one is printed.
+        nominal: the question is about the nominal numbers of the arm alone.
+    """
+    arm = arm.fixed() if nominal else arm
     return Decreasing(
         mass=mass_of(arm),
-        viscous=tuple(number.bounds for number in arm.viscous),
+        viscous=tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous),
         parameters=parameters_of(arm),
         family=gains.family,
         m=gains.m,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -63,6 +63,13 @@ def promised(asked: Statement, shown: Judged) -> tuple[Promise | None, str]:
         return Promise(asked, shown), ""
     except Refused as refused:
         return None, f"what is proved does not answer the question ({refused})"
+
+
+def all_say(promises: Iterable[Promise], words: str) -> str:
+    """Words of proof about several questions at once; each of them must allow them."""
+    for promise in promises:
+        words = promise.says(words)
+    return words
 
 
 @contextmanager

@@ -94,8 +94,9 @@ def certified_epsilon(
     while result:
         proof = result.pop()
         progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
-        if proof.accepted(jobs):
-            return CertifiedEpsilon(proof, search.looked_at, search.reason)
+        accepted = proof.accepted(jobs)
+        if accepted is not None:
+            return CertifiedEpsilon(accepted, search.looked_at, search.reason)
         search.reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
     return CertifiedEpsilon(None, search.looked_at, search.reason)
 

@@ -82,9 +82,10 @@ def linked_epsilon(
         else:
             reason = _not_proved(loop.eps0, outcome.reason)
             top, shares = share, []
-    if result is not None and not result.accepted():
+    accepted = None if result is None else result.accepted()
+    if result is not None and accepted is None:
         return None, looked_at, "the checker refused the boxes"
-    return result, looked_at, reason
+    return accepted, looked_at, reason
 
 
 def linked_proof(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof | None:

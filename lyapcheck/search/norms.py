@@ -36,7 +36,10 @@ def norm_epsilon(
     if viscous is not None:
         loop = replace(loop, viscous=viscous)
     proof, reason = norm_proof(loop, controlled.inertia_proof)
-    return (None, REFUSED) if proof is not None and not proof.accepted() else (proof, reason)
+    if proof is None:
+        return None, reason
+    accepted = proof.accepted()
+    return accepted, REFUSED if accepted is None else reason
 
 
 def norm_proof(

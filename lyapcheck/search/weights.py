@@ -110,8 +110,9 @@ def weighted_epsilon(
         proof = (
             DecreaseProof(loop, BoxTree(outcome.tree), controlled.inertia_proof) if outcome.proved else None
         )
-        if proof is not None and proof.accepted(jobs):
-            return Weighted(proof, states, looked_at)
+        accepted = None if proof is None else proof.accepted(jobs)
+        if accepted is not None:
+            return Weighted(accepted, states, looked_at)
     return None
 
 

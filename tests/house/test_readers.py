@@ -17,7 +17,7 @@ READERS = {
 }
 OURS = {
     ("answers/explain.py", "_cited"): "the bibliography of the package",
-    ("compiled/library.py", "resource"): "source of the package",
+    ("compiled/loop.py", "source"): "source of the package",
     ("compiled/library.py", "_fetch"): "what the compiler has just written to a folder of ours",
     ("kernel/coq.py", "_compile_library"): "the library of the package",
     ("kernel/coq.py", "sources"): "the library of the package",
@@ -30,7 +30,7 @@ OURS = {
     ("report/figures/style.py", "_with_palette"): "a picture in memory",
     ("report/notes.py", "published_notes"): "a proof of the package",
     ("report/page/shell.py", "raw"): "style and script of the package",
-    ("simulate/batch/compiled_integrator.py", "_resource"): "source of the package",
+    ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",
     ("store.py", "source_digest"): "the source of the package",
     ("claims/ask.py", "_read"): "an answer in a folder of ours, whose size is looked at first",
     ("answers/sweep/folder.py", "_tabulate"): "rows that this run has just written",

@@ -48,7 +48,7 @@ def proof_of(controlled: ControlledArm, eps0: Fraction | None) -> DecreaseProof 
     loop = controlled.loop(eps0)
     by_norms = certifies(loop.tail, eps0)
     proof = controlled.proof(loop, BoxTree(".")) if by_norms else linked_proof(controlled, eps0)
-    return proof if proof is not None and proof.accepted() else None
+    return None if proof is None else proof.accepted()
 
 
 def _bounds(controlled: ControlledArm) -> RobotBounds:

@@ -183,7 +183,7 @@ def _each(
         began = perf_counter()
         result = replace(ask(model, options, 0.0, WITH_RANGES if options.ranges else 1.0), outside=left_out)
         if result.corner and not left_out:  # something ranges: what that costs is asked too
-            result = replace(result, unvaried=ask(own, nominal, WITH_RANGES, 1.0).certified)
+            result = replace(result, unvaried=ask(own, nominal, WITH_RANGES, 1.0).promise)
         results.append(result)
         seconds.append(perf_counter() - began)
     return results, seconds
