@@ -17,7 +17,6 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
@@ -26,6 +25,7 @@ from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.robots.numeric import NumericModel
     from lyapcheck.search.proof import RateData
 
@@ -88,6 +88,8 @@ class ControlledArm:
     @cached_property
     def lyapunov(self) -> LyapunovNumeric:
         """V and dV/dt in floating point, with ε₀ = 0."""
+        from lyapcheck.lyapunov.numeric import LyapunovNumeric
+
         return LyapunovNumeric(self.model, self.family, list(self.kp), list(self.kv))
 
     @cached_property

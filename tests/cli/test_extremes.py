@@ -54,6 +54,7 @@ def base_lines(folder: Path, arm: str, m: int = 1) -> dict[str, str]:
     return {
         "bounds": f"bounds {gains} --target={goal} --time 0.1",
         "check": f"check scalar.py --m {m} --only h.odd",
+        "derive": f"derive --m {m} --n 1",
         "epsilon": f"epsilon {gains} --max-boxes 20 --starts 1 --jobs 1",
         "gate": f"gate {gains}",
         "robot": f"robot {arm} --max-boxes 20",
