@@ -148,7 +148,7 @@ def test_what_the_checker_refuses_is_not_accepted(
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
     import lyapcheck.answers.gate.prover as gain_range
 
-    monkeypatch.setattr(DecreaseProof, "accepted", lambda *_: False)
+    monkeypatch.setattr(DecreaseProof, "accepted", lambda *_: None)
     monkeypatch.setattr(gain_range, "CEILINGS", (64, 4))
     (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), name).values()
     assert result.verdict == "undecided"
