@@ -46,7 +46,7 @@ class Wishes:
         for name, value in self.given.items():
             top = 1.0 if name == "peak_share" else MOST
             if not 0 < value <= top:
-                rule = f"must be above 0 and at most {top:g}"
+                rule = f"must be above 0, up to {top:g}"
                 option = "--" + name.replace("_", "-")
                 problems.append(
                     Problem("argument", None, option, at_most(value, 6), rule, "correct the value")
