@@ -275,7 +275,6 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path: Path) -> None
     assert {row.id for row in own.claims} >= {"2.1", "10p.gains", "19.gains"}
     assert [badge.subject for badge in badges(own)] == ["mine"]
     assert own.versions.keys() >= {"lyapcheck", "casadi", "numpy", "python-flint"}
-    assert not own.versions.keys() & {"sympy", "cvxpy", "clarabel"}
     assert "printed proof" not in page.casefold()
     assert all(text not in page for text in ("Fig. 4", "Table 2 "))
 
