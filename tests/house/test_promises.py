@@ -145,11 +145,12 @@ def words_of_proof(text: str) -> list[str]:
 def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
     answers: list[Answer] = []
     written = Answer.written
-    monkeypatch.setattr(
-        Answer,
-        "written",
-        lambda answer, *args, **kw: (answers.append(answer), written(answer, *args, **kw))[1],
-    )
+
+    def kept(answer: Answer, *rest: Any, **more: Any) -> str:
+        answers.append(answer)
+        return written(answer, *rest, **more)
+
+    monkeypatch.setattr(Answer, "written", kept)
     with promises_as_seen():
         done = invoke(*words)
         assert answers, done.stderr
