@@ -135,13 +135,21 @@ def _pairs(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> Iterator[tuple[Any
 
 
 def _verdicts(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
-    def rows(report: Mapping[str, Any]) -> dict[tuple[str, str, Any], str]:
-        every = (*report["claims"], *report["others"])
-        return {(row["proof"], row["id"], row["m"]): f"{row['verdict']} [{row['grade']}]" for row in every}
+    # a report of an older version has no gain sets in its rows
+    named = all("gains" in row for report in (old, new) for row in report["claims"])
 
-    for (proof, claim, m), was, now in _pairs(rows(old), rows(new)):
+    def rows(report: Mapping[str, Any]) -> dict[tuple[Any, ...], str]:
+        every = (*report["claims"], *report["others"])
+        return {
+            (row["proof"], row["id"], row["gains"] if named else None, row["m"]): (
+                f"{row['verdict']} [{row['grade']}]"
+            )
+            for row in every
+        }
+
+    for (proof, claim, gains, m), was, now in _pairs(rows(old), rows(new)):
         if was != now:
-            member = "" if m is None else f", m = {m}"
+            member = f", {gains}" if gains else "" if m is None else f", m = {m}"
             yield _change("claim", f"{proof}: {claim}{member}", was, now)
 
 
