@@ -28,8 +28,8 @@ def report_data(report: ArmFacts) -> dict[str, Any]:
         "title": model.title,
         "n": model.n,
         "seed": SEED,
-        "properties": [property_data(row, extent(report, row.id)) for row in report.properties],
-        "prints": [property_data(row, extent(report, f"printed {row.id}")) for row in report.prints],
+        "properties": [property_data(row, extent(row, model)) for row in report.properties],
+        "prints": [property_data(row, extent(row, model)) for row in report.prints],
         "constants": [constant_data(report, constant) for constant in report.constants],
         "joints": [
             {
@@ -54,7 +54,7 @@ def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
     return {
         "id": row.id,
         "statement": row.statement,
-        "verdict": row.verdict.value,
+        "verdict": row.word,
         "for": about or None,
         "grade": finding.grade.label,
         "method": finding.method,
