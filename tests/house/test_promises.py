@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from lyapcheck.answers.check import ProofResult
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.promise import GUARDED, promises_as_seen
@@ -17,8 +18,8 @@ from tests.helpers.command import invoke
 ROOT = Path(__file__).parents[2]
 NEGATED = re.compile(r"\b(no|not|nothing|neither|none|cannot|un)\b[^.;:]*")
 """A sentence that something is not proved promises nothing."""
-QUOTED = re.compile(r"`[^`]*`|--[\w-]+( [\w-]+)?")
-"""Commands and options, whose names may be words of proof."""
+QUOTED = re.compile(r"`[^`]*`|--[\w-]+( [\w-]+)?|“[^”]*”")
+"""Commands and options, whose names may be words of proof, and the words of an author."""
 ASKED = {
     "robot": ["robot", "pendulum1"],
     "robot with ranges": ["robot", "buap3"],
@@ -28,7 +29,18 @@ ASKED = {
 
 
 def said(answer: Answer) -> Iterator[str]:
-    """What an answer says in words: no heads of columns, no keys, no code."""
+    """What an answer says in words: no heads of columns, no keys, no code, no names that a script gives."""
+    names = named(answer)
+    yield from (text for text in _said(answer) if text not in names)
+
+
+def named(answer: Answer) -> set[str]:
+    """Names of claims and of parts of a proof, and words of its author."""
+    rows = answer.claims if isinstance(answer, ProofResult) else ()
+    return {name for row in rows for name in (row.id, row.section, row.comment, *row.uses)}
+
+
+def _said(answer: Answer) -> Iterator[str]:
     document = answer.document()
     yield document.title
     yield from texts(document.body)

@@ -58,7 +58,8 @@ class ClaimResult:
     @cached_property
     def statement(self) -> str:
         """What was decided, rendered by the checker from its data; cut where it is long, with a digest."""
-        return statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
+        text = statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
+        return self.decision.says(text)
 
     @property
     def verdict(self) -> Verdict:
@@ -73,6 +74,11 @@ class ClaimResult:
             known = accepted_before(stated, proof, decision.verdict.value)
             return GRADE if known else decision.grade.label
         return decision.grade.label
+
+    @property
+    def method(self) -> str:
+        """How it was decided."""
+        return self.decision.says(self.decision.method)
 
     @property
     def words(self) -> str:
@@ -95,14 +101,14 @@ class ClaimResult:
             "place": self.place,
             "section": self.section,
             "kind": self.kind,
-            "verdict": self.verdict.value,
+            "verdict": self.decision.word,
             "grade": self.grade,
             "uses": list(self.uses),
             "broken": list(self.broken),
             "witness": self.decision.witness,
             "reason": self.decision.reason,
-            "method": self.decision.method,
-            "evidence": self.decision.evidence,
+            "method": self.method,
+            "evidence": self.decision.told,
         }
         return {**row, "seconds": round(self.seconds, 3)} if timings else row
 

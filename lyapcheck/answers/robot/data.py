@@ -53,14 +53,14 @@ def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
     finding = row.finding
     return {
         "id": row.id,
-        "statement": row.statement,
+        "statement": finding.says(row.statement),
         "verdict": row.word,
         "for": about or None,
         "grade": finding.grade.label,
-        "method": finding.method,
+        "method": finding.says(finding.method),
         "reason": finding.reason,
         "witness": finding.witness,
-        "evidence": finding.evidence,
+        "evidence": finding.told,
     }
 
 

@@ -61,7 +61,7 @@ def page(report: ArmFacts) -> Document:
 def evidence(row: PropertyResult) -> str:
     """What supports the verdict."""
     finding = row.finding
-    parts = [finding.method, finding.reason]
+    parts = [finding.says(finding.method), finding.reason]
     if finding.witness is not None:
         point = ", ".join(f"{name} = {value}" for name, value in finding.witness["point"].items())
         left, right = (finding.witness[side][0] for side in ("left", "right"))
