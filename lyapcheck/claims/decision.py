@@ -53,18 +53,6 @@ class Decision:
         """The verdict as answers say it."""
         return self.says(self.verdict.value)
 
-    @property
-    def told(self) -> dict[str, Any]:
-        """The evidence as answers say it."""
-        return {name: self._told(value) for name, value in self.evidence.items()}
-
-    def _told(self, value: Any) -> Any:
-        if isinstance(value, str):
-            return self.says(value)
-        if isinstance(value, dict):
-            return {name: self._told(part) for name, part in value.items()}
-        return [self._told(part) for part in value] if isinstance(value, (list, tuple)) else value
-
     def says(self, words: str) -> str:
         """Words of proof, where something is proved."""
         return words if self.promise is None else self.promise.says(words)

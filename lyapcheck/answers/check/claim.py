@@ -12,6 +12,7 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.record import GRADE, accepted_before
+from lyapcheck.promise import told
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ class ClaimResult:
             "witness": self.decision.witness,
             "reason": self.decision.reason,
             "method": self.method,
-            "evidence": self.decision.told,
+            "evidence": told(self.decision.promise, self.decision.evidence),
         }
         return {**row, "seconds": round(self.seconds, 3)} if timings else row
 

@@ -10,6 +10,7 @@ from lyapcheck.answers.robot.extent import extent
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
+from lyapcheck.promise import told
 
 if TYPE_CHECKING:
     from lyapcheck.answers.robot.facts import ArmFacts
@@ -60,7 +61,7 @@ def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
         "method": finding.says(finding.method),
         "reason": finding.reason,
         "witness": finding.witness,
-        "evidence": finding.told,
+        "evidence": told(finding.promise, finding.evidence),
     }
 
 
