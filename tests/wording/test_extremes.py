@@ -1,0 +1,128 @@
+"""Words for extreme results: every answer in every format, with numbers and names that nobody expects."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.formats import JudgedFormat
+from tests.helpers.command import invoke
+from tests.helpers.extremes import redrawn
+
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
+GAINS = """robot = "pendulum1"
+[[gains]]
+name = "a"
+m = 1
+kp = [3]
+kv = [0.05]
+[[gains]]
+name = "b"
+m = 2
+kp = [3]
+kv = [2]
+"""
+PLAN = 'arms = ["pendulum1"]\nm = [1, 2]\nkp = ["3"]\nkv = ["0.05", "2"]\n[gate]\n'
+SINE = 'kind = "sine"\namplitude = [10]\nperiod = [2]\ntime = 0.2\n'
+SHORT = "--target 10 --time 0.1"
+QUICK = {
+    "gate": "gate g.toml",
+    "tune": "tune pendulum1 --m 1,2",
+    "simulate": f"simulate g.toml {SHORT}",
+    "starts": f"simulate g.toml {SHORT} --runs 2",
+    "table": "table --m 1,2 --robot pendulum1 --asymptotics --digits 6",
+    "check": "check scalar.py --m 1 --only h.odd",
+    "robot": "robot pendulum1 --max-boxes 20",
+}
+SLOW = {
+    "proof": "gate g.toml --condition 10i --condition scalar",
+    "bench": "tune pendulum1 --m 1 --overshoot 5 --settle 3 --seconds 20",
+    "bounds": f"bounds g.toml {SHORT}",
+    "epsilon": "epsilon g.toml --max-boxes 20 --starts 1",
+    "tracking": "simulate g.toml --reference sine.toml",
+    "derive": "derive --m 1 --n 1",
+    "explain": "explain 2.1",
+    "sweep": "sweep plan.toml --out swept",
+    "recheck": "recheck proofs",
+    "ranges": "robot buap3 --max-boxes 20",
+}
+NO_NUMBER = re.compile(r"(?<![\w/.])[+-]?(?:nan|inf|infinity)(?![\w(])|\bNone\b", re.IGNORECASE)
+
+
+def refuse(text: str) -> None:
+    raise ValueError(f"{text} is no JSON")
+
+
+def strict(text: str) -> None:
+    json.loads(text, parse_constant=refuse)
+
+
+CHECKS: dict[str, Callable[[str], object]] = {
+    "json": strict,
+    "sarif": strict,
+    "junit": ElementTree.fromstring,
+    "csv": lambda text: list(csv.reader(io.StringIO(text), strict=True)),
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("extremes")
+    for name, text in {"g.toml": GAINS, "plan.toml": PLAN, "sine.toml": SINE}.items():
+        (place / name).write_text(text)
+    return place
+
+
+def answer_of(words: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Answer:
+    """What a command finds."""
+    answers: list[Answer] = []
+    monkeypatch.chdir(folder)
+    written = Answer.written
+    if words == "recheck proofs":
+        invoke(*["gate", "g.toml", "--certificates", "proofs"])
+    with monkeypatch.context() as patch:
+        patch.setattr(Answer, "written", lambda one, *form: (answers.append(one), written(one, *form))[1])
+        done = invoke(*words.split())
+    assert answers, done.stderr or done.exception
+    return answers[-1]
+
+
+def hold(answer: Answer) -> None:
+    """Written in every format, without a word for what is no number."""
+    for form in JudgedFormat:
+        text = answer.written(form)
+        assert not NO_NUMBER.findall(text), (form, text[:2000])
+        CHECKS.get(form, str)(text)
+
+
+def drawn(answer: Answer, examples: int, most: int) -> None:
+    @settings(
+        max_examples=examples,
+        deadline=None,
+        database=None,
+        derandomize=True,
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(st.data())
+    def with_other_results(data: st.DataObject) -> None:
+        hold(redrawn(answer, lambda values: data.draw(st.sampled_from(list(values))), most))
+
+    with_other_results()
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_answers_have_words_for_extreme_results(
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn(answer_of(QUICK[name], folder, monkeypatch), 6, 3)
