@@ -19,7 +19,7 @@ from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.task import Task
-from tests.helpers.command import invoke, lyapcheck
+from tests.helpers.command import lyapcheck
 
 F = Fraction
 GAINS = paper_gain_file("table2_shoulder_elbow")

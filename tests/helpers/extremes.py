@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import fields, is_dataclass, replace
 from fractions import Fraction
@@ -29,8 +28,11 @@ WORDS = {"name", "robot", "title", "path", "source", "comment", "place", "sectio
 """Fields with a text that anybody may have chosen, and no word that the program reads again."""
 LISTS = {"joints", "assumptions", "notes", "reasons", "varies", "missing", "remarks"}
 GAINS = {"kp", "kv"}
-LEFT = {"m", "n", "ms", "index", "digits", "schema", "task", "tasks", "bench", "targets", "q", "w", "t", "state"}
+LEFT = {"m", "n", "ms", "index", "digits", "schema", "task", "tasks", "bench", "targets", "q", "w", "t"}
+LEFT |= {"state", "joint", "seed", "starts", "spread", "delta", "band", "T", "settling_band"}
 """What is asked, not found; and samples of motions, whose figures are not words."""
+ROWS = {"results", "sets", "claims"}
+MOST_DRAWN = 12
 KEPT = (RobotModel, GainFile, Promise, PurePath)
 
 
@@ -43,7 +45,7 @@ def redrawn(answer: Answer, draw: Draw, most: int) -> Answer:
     changed = {}
     for one in fields(answer):
         value = _value(getattr(answer, one.name), one.name, str(one.type), draw)
-        if isinstance(value, tuple) and value and is_dataclass(value[0]) and one.name in ("results", "sets", "rows"):
+        if one.name in ROWS and value and is_dataclass(value[0]):
             value = tuple(_several(list(value), draw, most))
         changed[one.name] = value
     return replace(answer, **changed)
@@ -57,47 +59,43 @@ def _several(results: list[Any], draw: Draw, most: int) -> list[Any]:
 def _value(value: Any, name: str, hint: str, draw: Draw) -> Any:
     if isinstance(value, KEPT) or name in LEFT or (callable(value) and not is_dataclass(value)):
         return value
-    if value is not None and re.search(r"\| None$", hint) and draw((False, False, True)):
+    if value is not None and hint.endswith("| None") and draw((False, False, True)):
         return None
-    if isinstance(value, Enclosure):
-        return _enclosure(draw)
-    if isinstance(value, Fraction):
-        return draw((value, *(POSITIVE if name in GAINS else FRACTIONS)))
-    if isinstance(value, bool) or value is None:
-        return value
-    if isinstance(value, float):
-        return draw((value, *FLOATS))
-    if isinstance(value, int):
-        return draw((value, *COUNTS)) if type(value) is int else value
+    others = _others(value, name)
+    if others:
+        return draw((value, *others))
+    return _enclosure(draw) if isinstance(value, Enclosure) else _whole(value, name, hint, draw)
+
+
+def _others(value: Any, name: str) -> Sequence[Any]:
+    """What else a number or a text might be; nothing for what the program reads again."""
+    if type(value) is Fraction:
+        return POSITIVE if name in GAINS else FRACTIONS
     if isinstance(value, str):
-        return draw((value, *NAMES)) if name in WORDS | LISTS else value
-    return _whole(value, name, hint, draw)
+        return NAMES if name in WORDS | LISTS else ()
+    return {float: FLOATS, int: COUNTS}.get(type(value), ())
 
 
 def _whole(value: Any, name: str, hint: str, draw: Draw) -> Any:
     if isinstance(value, np.ndarray):
-        drawn = [draw((float(x), *FLOATS)) for x in value.flat] if value.size <= 12 and value.dtype == float else None
-        return value if drawn is None else np.array(drawn).reshape(value.shape)
+        small = value.size <= MOST_DRAWN and value.dtype.kind == "f"
+        drawn = [draw((float(x), *FLOATS)) for x in value.flat] if small else value
+        return np.array(drawn).reshape(value.shape)
     if type(value) is tuple:
         inner = "x | None" if "| None," in hint or "| None]" in hint else ""
-        return tuple(_value(one, name, inner, draw) for one in value)
+        return tuple(_value(one, name, hint if type(one) is tuple else inner, draw) for one in value)
     if type(value) is dict:
         return {key: _value(one, name, "", draw) for key, one in value.items()}
-    if is_dataclass(value) and not type(value).__module__.startswith("lyapcheck.check."):
-        changed = {
-            one.name: _value(getattr(value, one.name), one.name, str(one.type), draw)
-            for one in fields(value)
-            if one.init
-        }
-        try:
-            return replace(value, **changed)  # type: ignore[type-var]
-        except ValueError:  # what the class itself refuses is no result
-            return value
-    return value
+    if not is_dataclass(value) or type(value).__module__.startswith("lyapcheck.check."):
+        return value
+    own = [one for one in fields(value) if one.init]
+    changed = {one.name: _value(getattr(value, one.name), one.name, str(one.type), draw) for one in own}
+    try:
+        return replace(value, **changed)  # type: ignore[type-var]
+    except ValueError:  # what the class itself refuses is no result
+        return value
 
 
 def _enclosure(draw: Draw) -> Enclosure:
     low = draw(FRACTIONS)
     return Enclosure(low, low + draw((Fraction(0), Fraction(1, 10**40), Fraction(1), Fraction(10**30))))
-
-
