@@ -53,7 +53,7 @@ def at_least(x: Exact, digits: int = SHOWN) -> str:
 
 
 def shown(value: float | None, form: str) -> str:
-    """A number of floating point in a form: a dash where there is none, a sign of infinity, no endless digits.
+    """A number of floating point in a form; a dash where there is none, or a sign of infinity.
 
     Example:
         >>> shown(2.5, ".2f"), shown(float("nan"), ".2f"), shown(float("-inf"), ".2f"), shown(1e300, ".2f")

@@ -51,6 +51,11 @@ def redrawn(answer: Answer, draw: Draw, most: int) -> Answer:
     return replace(answer, **changed)
 
 
+def other(row: Any, draw: Draw) -> Any:
+    """A row of an answer with other numbers, names and gaps."""
+    return _value(row, "", "", draw)
+
+
 def _several(results: list[Any], draw: Draw, most: int) -> list[Any]:
     count = draw((0, 1, len(results), most))
     return [results[k % len(results)] for k in range(count)] if results else []

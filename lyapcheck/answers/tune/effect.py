@@ -81,12 +81,14 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
     )
     goal = ", ".join(shown(x, "g") for x in target)
     first, last = result[0], result[-1]
+    L2, final, speed = (
+        f"from {shown(getattr(first, name), '.1f')}{unit} to {shown(getattr(last, name), '.1f')}{unit}"
+        for name, unit in (("L2", "°"), ("final", "°"), ("speed", ""))
+    )
     says = (
         f"Simulated by (11), without dry friction: in {shown(time, 'g')} s from rest to ({goal})°, from "
-        f"m = {first.m} to m = {last.m}: "
-        f"L2 goes from {shown(first.L2, '.1f')}° to {shown(last.L2, '.1f')}°, the error at the end from {shown(first.final, '.1f')}° to "
-        f"{shown(last.final, '.1f')}°, the top speed from {shown(first.speed, '.1f')} to {shown(last.speed, '.1f')} rad/s. For m ≥ 2 h is "
-        "flat at the goal."
+        f"m = {first.m} to m = {last.m}: L2 goes {L2}, the error at the end {final}, the top speed {speed} "
+        "rad/s. For m ≥ 2 h is flat at the goal."
     )
     blocks: tuple[Block, ...] = (Table(HEADS, rows), Paragraph(says))
     return Section("What m does", blocks)
