@@ -82,8 +82,8 @@ def and_list(names: Sequence[str]) -> str:
 
 
 def member_words(ms: Sequence[int]) -> str:
-    """``m = 1, 2``; ``every m`` where it concerns all."""
-    return f"m = {', '.join(map(str, ms))}" if ms else "every m"
+    """``m = 1, 2``; ``all m`` where it concerns all."""
+    return f"m = {', '.join(map(str, ms))}" if ms else "all m"
 
 
 LETTERS = {
