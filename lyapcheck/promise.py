@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -63,6 +63,21 @@ def promised(asked: Statement, shown: Judged) -> tuple[Promise | None, str]:
         return Promise(asked, shown), ""
     except Refused as refused:
         return None, f"what is proved does not answer the question ({refused})"
+
+
+def all_say(promises: Iterable[Promise | None], words: str) -> str:
+    """Words of proof that rest on several promises at once.
+
+    Raises:
+        Refused: one is missing, or there is none.
+    """
+    every = list(promises)
+    require(len(every) > 0, "promises", 0, "must be one or more")
+    for one in every:
+        require(one is not None, "promise", "", "is missing")
+        assert one is not None
+        words = one.says(words)
+    return words
 
 
 @contextmanager
