@@ -77,7 +77,7 @@ def limits_for(
             raise _without_arm(gain_file)
         told = ", ".join(map(decimal_text, bounds.gravity or ()))
         premise = (
-            f"premise: gravity exerts at most ({told}) N·m, by [bounds] gravity; no model of the arm shows it"
+            f"premise: gravity exerts no more than ({told}) N·m, by [bounds] gravity; no model of the arm shows it"
         )
         numbers = bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n)
         return Limits(*numbers, (premise,), gravity_notes=(premise,))

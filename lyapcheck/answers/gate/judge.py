@@ -22,6 +22,7 @@ from lyapcheck.control.deciding import CERTIFICATES, DECIDING, KNOWN, deciding_f
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.errors import argument_error
+from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
@@ -99,6 +100,26 @@ class GateResult:
         ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
+
+    def says(self, words: str) -> str:
+        """Words of proof about a set that is accepted.
+
+        Raises:
+            Refused: it is not.
+        """
+        return all_say(self.grounds.promises, words)
+
+    @property
+    def spoken(self) -> str:
+        """The verdict as it may be said."""
+        return self.says(self.verdict) if self.verdict == ACCEPTED else self.verdict
+
+    @property
+    def spoken_standing(self) -> str:
+        """The standing as it may be said."""
+        if self.standing == BREAKS_19 and self.stable is not None:
+            return self.stable.own_promise.says(BREAKS_19)
+        return self.spoken
 
     @cached_property
     def stable(self) -> Check | None:
