@@ -85,9 +85,7 @@ ROWS: dict[str, dict[str, Row]] = {
     # parameters, and (19) by the least viscous end. (10), (10p) and (10i) grow with each τmax;
     # no limit is asked as ``None``. But k_g is a
     # bound in two directions, of gravity from above and of the gains from below, and so the same.
-    "GateAccepted": dict.fromkeys(
-        ("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv"), _same
-    )
+    "GateAccepted": dict.fromkeys(("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv"), _same)
     | {"parameters": _wider, "viscous": _wider, "limits": _at_most, "conditions": _among}
     | {"stability": _each_covers},
     "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),

@@ -50,7 +50,7 @@ def proved_otherwise(
     arm = model if ranges else model.fixed()
     result = _scalar(gains, arm, viscous_min, ranges)
     if result is None or result.verdict != ACCEPTED:
-        result = lasalle(arm)
+        result = lasalle(model, ranges)
     return result if result.verdict == ACCEPTED else None
 
 
@@ -86,9 +86,7 @@ def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -
     return tuple((viscous_min, max(viscous_min, own)) for own in most)
 
 
-def _scalar(
-    gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, ranges: bool
-) -> Check | None:
+def _scalar(gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, ranges: bool) -> Check | None:
     from lyapcheck.family.registry import named
     from lyapcheck.search.closed_loop import closed_loop_of
     from lyapcheck.search.inertia import mass_of, mass_proof, remember
@@ -128,16 +126,22 @@ def decided(
     return Check(name, judgement=judged, value=eps0, promise=promise)
 
 
+def lasalle(model: RobotModel, ranges: bool) -> Check:
+    """Whether M(q) ≻ 0 is proved of an arm, for all values of its parameters or for the nominal ones."""
+    asked = definite(model if ranges else model.fixed())
+    judged = positive(model if ranges else model.fixed())
+    promise, reason = promised(asked, judged)
+    if promise is None:
+        return Check(LASALLE, reason=judged.reason or reason)
+    return Check(LASALLE, judgement=judged, promise=promise)
+
+
 @lru_cache(maxsize=8)
-def lasalle(arm: RobotModel) -> Check:
-    """Whether M(q) ≻ 0 is proved of an arm, for all values of its parameters."""
+def positive(arm: RobotModel) -> JudgedStatement:
+    """What the checker says of M(q) ≻ 0."""
     from lyapcheck.check.kinds.inertia import MassAbove
     from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
     remember(arm)
     mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
-    judged = judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
-    promise, reason = promised(definite(arm), judged)
-    if promise is None:
-        return Check(LASALLE, reason=judged.reason or reason)
-    return Check(LASALLE, judgement=judged, promise=promise)
+    return judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])

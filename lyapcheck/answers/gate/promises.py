@@ -62,6 +62,7 @@ class GateQuestions:
 
     def __init__(self, file: GainFile, limits: Limits, gamma: str) -> None:
         self.file, self.limits, self.gamma = file, limits, gamma
+        self._why_not = ""
         self._known: dict[tuple[str, int | None], bool] = {}
 
     @cached_property
@@ -74,7 +75,7 @@ class GateQuestions:
         premises: tuple[str, ...] = ()
         shown = None if arm is None else shown_gravity(arm, k_g)
         if arm is not None and shown is not None:
-            promise, _ = promised(gravity_kept(arm, shown.k_g), shown.judged)
+            promise, self._why_not = promised(gravity_kept(arm, shown.k_g), shown.judged)
             if promise is not None:
                 yield Gravity(shown.k_g, promise)
             if shown.k_g == k_g:
@@ -104,13 +105,14 @@ class GateQuestions:
             # another γ, or an h that the checker does not know: each check by itself
             own = [check for check in checks if check.id in numbers]
             return Grounds((*known, *(check.own_promise for check in own)))
+        needed = NEEDS_GRAVITY & set(numbers)
         missing = ""
-        for gravity in self.gravity if NEEDS_GRAVITY & set(numbers) else [Gravity(tuple(self.limits.gravity))]:
+        for gravity in self.gravity if needed else [Gravity(tuple(self.limits.gravity))]:
             one, missing = self._gains(gains, gravity.k_g, numbers)
             if one is not None:
                 promises = (one,) if gravity.promise is None else (gravity.promise, one)
                 return Grounds((*promises, *known), gravity.premises)
-        return Grounds(missing=missing)
+        return Grounds(missing=missing or self._why_not)
 
     def _gains(
         self, gains: GainSet, k_g: tuple[Fraction, ...], numbers: tuple[str, ...]

@@ -73,7 +73,7 @@ class Prover:
         reason = unknown_function(gains) or self._unphysical(controlled)
         proof = None
         if not reason and name == LASALLE:
-            return lasalle(self.model if self.ranges else self.model.fixed())
+            return lasalle(self.model, self.ranges)
         if not reason:
             friction = friction_of(self.model, self.viscous_min, self.ranges)
             proof, reason = (

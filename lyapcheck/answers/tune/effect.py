@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Block, Paragraph, Section, Table
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
             f"{one.final:.2f}",
             "—" if math.isnan(one.share) else f"{one.share:.2f}",
             f"{one.speed:.2f}",
-            "anywhere" if math.isinf(one.rest) else f"{one.rest:.1f}" if one.rest else "—",
+            "anywhere" if math.isinf(one.rest) else at_most(one.rest, 3) if one.rest else "—",
         )
         for one in result
     )
@@ -88,7 +89,7 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
         "flat at the goal."
     )
     blocks: tuple[Block, ...] = (Table(HEADS, rows), Paragraph(says))
-    return Section("What m does", blocks)
+    return Section("Simulated: what m does", blocks)
 
 
 def _six(value: float) -> float | None:
