@@ -7,12 +7,14 @@ is a state at which a motor saturates, else the condition that fails.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.otherwise import friction_of, unknown_function
+from lyapcheck.check.kinds.all_of import AllOf, EveryPart
+from lyapcheck.check.kinds.compared import SameHarmonics
 from lyapcheck.check.kinds.gate_accepted import (
     TORQUES,
     BrokenCondition,
@@ -20,7 +22,7 @@ from lyapcheck.check.kinds.gate_accepted import (
     GateParts,
     SaturatingState,
 )
-from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
 from lyapcheck.check.limits import LARGEST, MAX_ARM
 from lyapcheck.check.loop.field import size_of
@@ -35,10 +37,37 @@ from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
+    from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
 
 DIGITS = (30, 120, 1000)
 """Of γ, in turn."""
+
+
+Numbers = tuple[tuple[Ends, ...], tuple[Ends, ...], tuple[Fraction | None, ...]]
+"""Ranges of parameters and of viscous friction, and torque limits."""
+
+
+def numbers_of(limits: Limits, viscous_min: Fraction | None) -> Numbers:
+    """What the gate takes from an arm beside its gravity."""
+    least = limits.viscous_min or Fraction(0)
+    friction: tuple[Ends, ...] = ((least, least),) * limits.n
+    model = limits.model
+    if model is not None:
+        friction = friction_of(model, viscous_min, True) or tuple(b.bounds for b in model.viscous)
+    parameters = () if model is None else tuple(number.bounds for number in model.parameters.values())
+    return parameters, friction, limits.torque
+
+
+@dataclass(frozen=True)
+class ShownGravity:
+    """g and the potential of an arm, and for each joint k_gi, or a larger bound that is shown."""
+
+    gravity: tuple[Monomials, ...]
+    potential: Monomials
+    k_g: tuple[Fraction, ...]
+    proofs: tuple[Proof, ...]
+    judged: JudgedStatement
 
 
 def verdict_statement(result: GateResult) -> JudgedStatement | None:
@@ -63,24 +92,20 @@ def verdict_statement(result: GateResult) -> JudgedStatement | None:
 
 def _statement(result: GateResult) -> GateAccepted | None:
     """The statement, so far without gravity; ``None`` for another γ, or an h unknown to the checker."""
-    limits, gains, model = result.limits, result.gains, result.limits.model
+    limits, gains = result.limits, result.gains
     torques = {"10", *TORQUES} & set(result.deciding)
     known = result.gamma == "true" and named(gains.family, gains.m).bounded and not unknown_function(gains)
     if not known or limits.n > MAX_ARM or (torques and None in limits.torque):
         return None
-    least = limits.viscous_min or Fraction(0)
-    friction: tuple[Ends, ...] = ((least, least),) * limits.n
-    if model is not None:
-        own = friction_of(model, result.file.bounds.viscous_min, True)
-        friction = own or tuple(number.bounds for number in model.viscous)
+    parameters, friction, torque = numbers_of(limits, result.file.bounds.viscous_min)
     return GateAccepted(
         joints=limits.n,
         gravity=(),
         potential=(),
-        parameters=() if model is None else tuple(number.bounds for number in model.parameters.values()),
+        parameters=parameters,
         k_g=tuple(map(Fraction, limits.gravity)),
         viscous=friction,
-        limits=tuple(None if limit is None else Fraction(limit) for limit in limits.torque),
+        limits=tuple(None if limit is None else Fraction(limit) for limit in torque),
         family=gains.family,
         m=gains.m,
         kp=tuple(map(Fraction, gains.kp)),
@@ -103,35 +128,35 @@ def _with_gravity(
 ) -> Iterator[tuple[GateAccepted, tuple[Proof, ...]]]:
     """With the gravity of the model and k_g that it keeps; where none serves, with k_g as a premise."""
     if result.limits.model is not None:
-        shown = _shown(result.limits.model, statement.k_g)
+        shown = shown_gravity(result.limits.model, statement.k_g)
         if shown is not None:
-            gravity, potential, k_g, proofs = shown
-            yield replace(statement, gravity=gravity, potential=potential, k_g=k_g), proofs
+            own = {"gravity": shown.gravity, "potential": shown.potential, "k_g": shown.k_g}
+            yield replace(statement, **own), shown.proofs
     yield statement, ()
 
 
-Shown = tuple[tuple[Monomials, ...], Monomials, tuple[Fraction, ...], tuple[Proof, ...]]
-
-
 @lru_cache(maxsize=16)
-def _shown(model: RobotModel, k_g: tuple[Fraction, ...]) -> Shown | None:
-    """g and the potential, and for each joint k_gi, or a larger bound that is shown; with the proofs."""
+def shown_gravity(model: RobotModel, k_g: tuple[Fraction, ...]) -> ShownGravity | None:
+    """Bounds of gravity that the checker accepts; ``None`` where g is too long to be written out."""
     try:
         gravity = tuple(tuple(to_terms(torque)) for torque in model.gravity)
         potential = tuple(to_terms(model.potential))
     except TooManyTerms:
         return None
     ranges = tuple(number.bounds for number in model.parameters.values())
-    bounds: list[Fraction] = []
+    bounds: list[GravityBelow] = []
     proofs: list[Proof] = []
     for entry, k in zip(gravity, k_g, strict=True):
         own = GravityBelow(model.n, (entry,), ranges, k)
         ways: list[Proof] = [HarmonicSizes(), *([Bisection()] if model.n <= FEW_JOINTS else [])]
         proof = next((way for way in ways if proves(own, way)), None)
         sizes = (size_of(part, ranges) for part in own.entries)
-        bounds.append(max(k, *sizes) if proof is None else k)
+        bounds.append(own if proof is not None else replace(own, high=max(k, *sizes)))
         proofs.append(proof or HarmonicSizes())
-    return gravity, potential, tuple(bounds), tuple(proofs)
+    slope = GravityOfPotential(gravity, potential, ranges)
+    parts = AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(bounds, 1))))
+    judged = judged_statement(parts, [EveryPart((SameHarmonics(), *proofs))])
+    return ShownGravity(gravity, potential, tuple(one.high for one in bounds), tuple(proofs), judged)
 
 
 def _refutations(result: GateResult, statement: GateAccepted) -> Iterator[Proof]:
