@@ -20,7 +20,7 @@ from lyapcheck.answers.gate.statement import DIGITS, Numbers, numbers_of, shown_
 from lyapcheck.asked import gate_accepted, gravity_kept
 from lyapcheck.check.kinds.gate_accepted import TORQUES, GateAccepted, GateParts
 from lyapcheck.check.limits import MAX_ARM
-from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, Check
+from lyapcheck.control.conditions import CONDITIONS, Check
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text
@@ -49,6 +49,9 @@ class Grounds:
     promises: tuple[Promise, ...] = ()
     premises: tuple[str, ...] = ()
     missing: str = ""
+
+
+NO_GROUNDS = Grounds()
 
 
 class GateQuestions:
@@ -83,7 +86,7 @@ class GateQuestions:
         if arm is not None:
             kept = k_g if shown is None else shown.k_g
             premises = tuple(
-                f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, from masses and distances; no certificate shows it"
+                f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, by masses and distances; no certificate shows it"
                 for i, (k, own) in enumerate(zip(k_g, kept, strict=True), 1)
                 if shown is None or k != own
             )
