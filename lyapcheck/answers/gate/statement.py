@@ -130,8 +130,8 @@ def _with_gravity(
     if result.limits.model is not None:
         shown = shown_gravity(result.limits.model, statement.k_g)
         if shown is not None:
-            own = {"gravity": shown.gravity, "potential": shown.potential, "k_g": shown.k_g}
-            yield replace(statement, **own), shown.proofs
+            known = replace(statement, gravity=shown.gravity, potential=shown.potential, k_g=shown.k_g)
+            yield known, shown.proofs
     yield statement, ()
 
 
