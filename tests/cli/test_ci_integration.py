@@ -132,7 +132,7 @@ def action(folder, environment, **inputs):
             GOOD,
             "",
             0,
-            "::notice title=lyapcheck gate::! 1 accepted; dry friction (assumed) leaves at most 20.73°",
+            "::notice title=lyapcheck gate::! 1 accepted; dry friction (assumed) leaves at",
         ),
         (GOOD, "buap3-small", 1, "::error file=gains.toml,line=6"),
         (BAD, "", 1, "::error file=gains.toml,line=6,col=11"),
