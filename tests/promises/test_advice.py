@@ -13,9 +13,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.robots import names
-from tests.helpers.command import invoke
-from tests.promises.draws import FAMILIES, Arm, arms, asked, near_the_border, results, shares
+from lyapcheck.robots import load, names
+from tests.promises.draws import (
+    FAMILIES,
+    Arm,
+    arms,
+    asked,
+    drawn,
+    invoke,
+    near_the_border,
+    results,
+    shares,
+)
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ARMS = [*names(), *(str(EXAMPLES / f"{name}.toml") for name in ("px100", "ur5", "xarm6", "panda", "iiwa14"))]
@@ -33,15 +42,17 @@ def text_of(words: list[str]) -> str:
 def test_the_gate_accepts_what_tune_writes(tmp_path: Path, arm: str) -> None:
     out = tmp_path / "gains.toml"
     tuned = invoke("tune", arm, "--m", "1", "--out", str(out))
-    assert tuned.exit_code in (0, 2)
-    if tuned.exit_code == 0:
-        assert invoke("gate", str(out)).exit_code == 0
-    else:  # no gains by (19) without friction: what is advised instead is given
-        assert "λmin(B) is 0" in tuned.stdout
-        again = invoke("tune", arm, "--m", "1", "--viscous-min", "0.5", "--out", str(out))
-        assert (again.exit_code, invoke("gate", str(out)).exit_code) == (0, 0)
+    given: list[str] = []
+    if tuned.exit_code != 0:  # something is not known: what is advised is given
+        text = " ".join(tuned.stdout.split())
+        given += ["--viscous-min", "0.5"] if "give --viscous-min" in text else []
+        given += ["--torque", ",".join(["60"] * load(arm).n)] if "give --torque" in text else []
+        assert given, text
+        assert invoke("tune", arm, "--m", "1", *given, "--out", str(out)).exit_code == 0
+    assert invoke("gate", str(out)).exit_code == 0
 
 
+@drawn(4, 60)
 @given(arms(2), st.sampled_from(["0.5", "1"]), st.sampled_from([(), ("--damping", "0.1")]))
 def test_the_gate_accepts_what_tune_writes_for_ranges(arm: Arm, share: str, more: tuple[str, ...]) -> None:
     with TemporaryDirectory() as name:
@@ -53,23 +64,25 @@ def test_the_gate_accepts_what_tune_writes_for_ranges(arm: Arm, share: str, more
             assert invoke("gate", str(out), *arm.options).exit_code == 0, (arm, out.read_text())
 
 
-def test_targets_gate_simulate_and_the_report_agree(tmp_path: Path) -> None:
-    """From a tuned file on each command accepts what the one before has said."""
-    out = tmp_path / "gains.toml"
-    targets = ("--overshoot", "5", "--settle", "2.5", "--goal", "45")
-    assert invoke("tune", "pendulum1", "--m", "1", *targets, "--out", str(out)).exit_code == 0
-    assert invoke("gate", str(out)).exit_code == 0
-    run = asked("simulate", str(out), "--target", "45", "--time", "4")
-    assert run.exit_code == 0
-    for result in results(run):
-        assert max(Fraction(str(x)) for x in result["overshoot"]) <= 5
-
-
 @pytest.mark.slow
-def test_the_report_accepts_what_tune_writes(tmp_path: Path) -> None:
+def test_what_the_file_of_init_says_leads_to_gains_that_every_command_takes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """init, tune by the line of its gain file, gate, simulate, report."""
+    monkeypatch.chdir(tmp_path)
+    assert invoke("init", ".").exit_code == 0
+    (line,) = re.findall(r"lyapcheck (tune .*)$", Path("gains.toml").read_text(), re.MULTILINE)
+    assert invoke(*shlex.split(line)).exit_code == 0
+    assert invoke("gate", "tuned.toml").exit_code == 0
+    assert invoke("simulate", "tuned.toml", "--target", "45,45", "--time", "3").exit_code == 0
+    assert invoke("report", "tuned.toml", "--out", "report").exit_code in (0, 3)
+
+
+def test_gains_of_tune_break_no_promise_in_a_run(tmp_path: Path) -> None:
     out = tmp_path / "gains.toml"
-    assert invoke("tune", "reyes-kelly2", "--m", "1", "--out", str(out)).exit_code == 0
-    assert invoke("report", str(out), "--out", str(tmp_path / "report")).exit_code in (0, 3)
+    assert invoke("tune", "pendulum1", "--m", "1", "--out", str(out)).exit_code == 0
+    assert invoke("gate", str(out)).exit_code == 0
+    assert invoke("simulate", str(out), "--target", "45", "--time", "0.5").exit_code == 0
 
 
 def test_the_gate_accepts_what_init_starts(tmp_path: Path) -> None:
@@ -119,9 +132,14 @@ def follow_advice(path: Path, joints: list[str], options: tuple[str, ...]) -> No
             return
         tried = followed(path, result, joints)
         if not tried:
-            assert any("needs the motor" in check["message"] or "no k_v > 0" in check["message"]
-                       for check in result["checks"]), result  # fmt: skip
-            return
+            said = " ".join(check["message"] for check in result["checks"])
+            missing = "give [bounds] torque" in said
+            assert missing or "needs the motor" in said or "no k_v > 0" in said, result
+            if not missing:
+                return
+            bounds = f"[bounds]\ntorque = [{', '.join(['60'] * len(joints))}]\n"
+            path.write_text(path.read_text(encoding="utf-8") + bounds, encoding="utf-8")
+            continue
         (again,) = results(asked("gate", str(path), *options))
         fails = {(check["id"], check["joint"]) for check in again["checks"] if check["verdict"] != "accepted"}
         assert not fails & set(tried), (path.read_text(), result, again)
@@ -136,6 +154,7 @@ def remarks_hold(path: Path, result: dict[str, Any], options: tuple[str, ...]) -
             assert invoke("gate", str(path), *told[1].split(), *options).exit_code == 0, remark
 
 
+@drawn(4, 60)
 @given(arms(2), st.sampled_from(FAMILIES), st.sampled_from([Fraction(101, 100), Fraction(3)]))
 def test_what_the_gate_advises_passes(arm: Arm, family: str, share: Fraction) -> None:
     with TemporaryDirectory() as name:
@@ -147,8 +166,6 @@ def test_what_the_gate_advises_passes(arm: Arm, family: str, share: Fraction) ->
 @pytest.mark.parametrize("kp", ["500", "0.05"])
 @pytest.mark.parametrize("arm", names())
 def test_what_the_gate_advises_for_a_shipped_arm_passes(tmp_path: Path, arm: str, kp: str) -> None:
-    from lyapcheck.robots import load
-
     model, path = load(arm), tmp_path / "gains.toml"
     rows = "\n".join(f"{key} = [{', '.join([x] * model.n)}]" for key, x in (("kp", kp), ("kv", "5")))
     path.write_text(f'robot = "{arm}"\n[[gains]]\nname = "a"\nm = 1\n{rows}\n', encoding="utf-8")
@@ -159,12 +176,12 @@ def test_what_the_gate_advises_for_a_shipped_arm_passes(tmp_path: Path, arm: str
 
 OBSTACLES = [
     (("--kv-min", "9"), r"admits k_v ≤ ([0-9.]+); lower --kv-min", "--kv-min"),
-    (("--kv-share", "1", "--viscous-min", "500"), r"lower --kv-share below ([0-9.]+)", "--kv-share"),
+    (("--kv-share", "1", "--viscous-min", "5"), r"lower --kv-share below ([0-9.]+)", "--kv-share"),
 ]
 
 
 @pytest.mark.parametrize(("words", "advice", "option"), OBSTACLES, ids=["k_v", "share"])
-@pytest.mark.parametrize("arm", ["pendulum1", "reyes-kelly2", "buap3"])
+@pytest.mark.parametrize("arm", ["pendulum1", "buap3-small"])
 def test_what_tune_advises_leaves_gains(arm: str, words: tuple[str, ...], advice: str, option: str) -> None:
     base = ["tune", arm, "--m", "1", "--digits", "6"]
     text = text_of([*base, *words])
@@ -176,14 +193,16 @@ def test_what_tune_advises_leaves_gains(arm: str, words: tuple[str, ...], advice
 
 
 def test_tune_names_targets_where_there_is_no_friction(tmp_path: Path) -> None:
-    text = text_of(["tune", "pelican2", "--m", "1"])
-    assert "give targets, such as --overshoot 5" in text
-    out = tmp_path / "gains.toml"
-    words = ("tune", "pelican2", "--m", "1", "--overshoot", "50", "--goal", "10,10", "--stability", "proof")
-    assert invoke(*words, "--best", "--out", str(out)).exit_code in (0, 3)
+    joint = "axis = [0, 0, 1]\norigin = [0, 0, 0]\nmass = 1\ncom = [0.3, 0, 0]\ninertia = 0.1\n"
+    text = f'title = "x"\ngravity = [0, -9.81, 0]\n[[links]]\nname = "j1"\n{joint}viscous = 0\ntorque_limit = 20\n'
+    (tmp_path / "arm.toml").write_text(text, encoding="utf-8")
+    words, out = ["tune", str(tmp_path / "arm.toml"), "--m", "1"], tmp_path / "gains.toml"
+    assert "give targets, such as --overshoot 5" in text_of(words)
+    assert invoke(*words, "--overshoot", "5", "--goal", "45", "--out", str(out)).exit_code == 0
     assert invoke("gate", str(out)).exit_code == 0
 
 
+@drawn(5, 100)
 @given(arms(1), shares)
 def test_gains_for_ranges_are_gains_for_their_members(arm: Arm, at: list[Fraction]) -> None:
     with TemporaryDirectory() as name:

@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 
-from tests.helpers.command import invoke
-from tests.promises.draws import asked, results
+from tests.promises.draws import asked, invoke, results
 
 ARM = """
 title = "Heavy with a payload"
@@ -69,7 +68,7 @@ def test_the_largest_dry_friction_of_the_file_and_of_options_counts(tmp_path: Pa
     sets = '[[gains]]\nname = "a"\nm = 1\nkp = [28, 60, 7]\nkv = [0.05, 0.05, 0.05]\n'
     path.write_text(f'robot = "buap3"\n{sets}', encoding="utf-8")
     text = " ".join(one("gate", str(path))[1]["remarks"])
-    assert "leaves at most base 15.1" in text
+    assert "leaves at most base 15.01" in text
     assert one("gate", str(path), "--vary", "shoulder_gravity=0%..+200%")[0] == 1
     coulomb = f"coulomb = {{value = 1, low = 1, high = 6, {RANGED}}}"
     gains = files(
@@ -132,7 +131,7 @@ def test_a_bound_that_the_arm_itself_breaks_is_said(tmp_path: Path) -> None:
 def test_no_certificate_of_a_verdict_over_ranges_rests_on_the_nominal_arm(
     tmp_path: Path, conditions: tuple[str, ...]
 ) -> None:
-    """Without --vary proofs are about nominal numbers; the verdict is one statement over the file's ranges."""
+    """Without --vary proofs are about nominal numbers; the verdict is about the ranges of the file."""
     gains = files(tmp_path, "", f"{{value = 1, low = 0.9, high = 1.1, {RANGED}}}", kp=5)
     options = [word for name in conditions for word in ("--condition", name)]
     for number, (vary, ranges) in enumerate([((), False), (("--vary", "mass=0.8..1.2"), True)]):
