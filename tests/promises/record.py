@@ -1,4 +1,4 @@
-"""``python -m tests.promises.record``: all tests of promises with 200 draws each, and what they have asked."""
+"""``python -m tests.promises.record``: tests of promises with 200 draws each, and what they ask."""
 
 from __future__ import annotations
 

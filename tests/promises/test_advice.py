@@ -194,7 +194,8 @@ def test_what_tune_advises_leaves_gains(arm: str, words: tuple[str, ...], advice
 
 def test_tune_names_targets_where_there_is_no_friction(tmp_path: Path) -> None:
     joint = "axis = [0, 0, 1]\norigin = [0, 0, 0]\nmass = 1\ncom = [0.3, 0, 0]\ninertia = 0.1\n"
-    text = f'title = "x"\ngravity = [0, -9.81, 0]\n[[links]]\nname = "j1"\n{joint}viscous = 0\ntorque_limit = 20\n'
+    head = 'title = "x"\ngravity = [0, -9.81, 0]\n[[links]]\nname = "j1"\n'
+    text = f"{head}{joint}viscous = 0\ntorque_limit = 20\n"
     (tmp_path / "arm.toml").write_text(text, encoding="utf-8")
     words, out = ["tune", str(tmp_path / "arm.toml"), "--m", "1"], tmp_path / "gains.toml"
     assert "give targets, such as --overshoot 5" in text_of(words)
