@@ -307,7 +307,7 @@ def test_with_a_certificate_both_facts_are_told(everywhere: dict[str, GateResult
 
 def test_where_all_agree_nothing_is_said() -> None:
     said = remarks(judged(paper_gain_file())["tau_m1"])
-    assert [line.partition(" ")[0] for line in said] == ["dry", "damping"]
+    assert [line.partition(" ")[0] for line in said] == ["dry", "estimated"]
 
 
 def test_without_an_arm_stability_is_not_judged(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.promises import GateQuestions, Grounds
+from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
     ACCEPTED,
@@ -62,7 +62,7 @@ class GateResult:
     otherwise: Check | None = None
     explained: bool = False
     gamma: str = "true"
-    grounds: Grounds = Grounds()
+    grounds: Grounds = NO_GROUNDS
 
     @property
     def name(self) -> str:
@@ -185,7 +185,7 @@ def judged_sets(
         checks = (*broken, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
-        grounds = questions.grounds(gains, names, checks) if passes else Grounds()
+        grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
         result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results

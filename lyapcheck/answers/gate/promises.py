@@ -51,6 +51,9 @@ class Grounds:
     missing: str = ""
 
 
+NO_GROUNDS = Grounds()
+
+
 class GateQuestions:
     """The questions of one gain file about one arm.
 
@@ -83,7 +86,7 @@ class GateQuestions:
         if arm is not None:
             kept = k_g if shown is None else shown.k_g
             premises = tuple(
-                f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, from masses and distances; no certificate shows it"
+                f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, by masses and distances; no certificate shows it"
                 for i, (k, own) in enumerate(zip(k_g, kept, strict=True), 1)
                 if shown is None or k != own
             )

@@ -85,6 +85,10 @@ def verdict_statement(result: GateResult) -> JudgedStatement | None:
     for known, proofs in _with_gravity(result, statement):
         stability = tuple(proof for _, proof in _stability(result))
         its = judged_statement(known, (GateParts(proofs, digits, stability) for digits in DIGITS))
+        if its.shown != "proved" and stability and known.conditions:
+            # stability at nominal numbers is no part of a statement over ranges; its check has a certificate
+            alone = replace(known, stability=())
+            its = judged_statement(alone, (GateParts(proofs, digits, ()) for digits in DIGITS))
         if its.shown == "proved":
             return its
     return None
@@ -130,8 +134,8 @@ def _with_gravity(
     if result.limits.model is not None:
         shown = shown_gravity(result.limits.model, statement.k_g)
         if shown is not None:
-            own = {"gravity": shown.gravity, "potential": shown.potential, "k_g": shown.k_g}
-            yield replace(statement, **own), shown.proofs
+            known = replace(statement, gravity=shown.gravity, potential=shown.potential, k_g=shown.k_g)
+            yield known, shown.proofs
     yield statement, ()
 
 

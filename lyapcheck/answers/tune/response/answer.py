@@ -164,11 +164,8 @@ class BenchTuning(Answer):
         blocks = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
         found = [one.result for one in self.own]
-        inside = (
-            [all_say((p for r in found if r for p in r.grounds.promises), INSIDE)]
-            if found and all(found)
-            else []
-        )
+        promises = [one for result in found if result is not None for one in result.grounds.promises]
+        inside = [all_say(promises, INSIDE)] if found and all(found) else []
         return Document(self._title(), blocks, (*NOTES, *inside, *flat, *self.assumptions))
 
     def data(self) -> dict[str, Any]:

@@ -124,7 +124,7 @@ def _none(m: int, way: str, limits: Limits) -> str:
 def accepted(
     gains: GainSet, way: str, robot: str, bounds: Bounds | None, ranges: dict[str, ArmLimits] | None
 ) -> GateResult | None:
-    """What the gate says of the set with the conditions by which it accepts it; ``None`` where it does not."""
+    """The set as the gate accepts it, with the conditions by which it does; ``None`` where it does not."""
     for condition in CONDITIONS[way]:
         named = replace(gains, condition=("10p", condition))
         (result,) = gate(GainFile("tuned gains", robot, (named,), bounds or Bounds()), robot, arms=ranges)
