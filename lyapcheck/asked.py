@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.check.kinds.all_of import AllOf
@@ -15,21 +16,23 @@ from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelo
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import Decreasing
-from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from lyapcheck.check.statement import Ends, Statement
-    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.gains import Bounds, GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.plant import Plant
 
 
-def parameters_of(arm: RobotModel) -> tuple[Ends, ...]:
+def parameters_of(arm: Plant) -> tuple[Ends, ...]:
     """The range of each parameter of M; one that M does not depend on is held at its value."""
     first, rows = 2 * arm.n, mass_of(arm)
     terms = (powers for row in rows for entry in row for powers, _ in entry)
@@ -41,12 +44,26 @@ def parameters_of(arm: RobotModel) -> tuple[Ends, ...]:
 
 
 def decreasing(
-    gains: GainSet, arm: RobotModel, eps0: Fraction, coupling: tuple[Fraction, ...] = ()
+    gains: GainSet,
+    arm: Plant,
+    eps0: Fraction,
+    coupling: tuple[Fraction, ...] = (),
+    *,
+    nominal: bool = False,
 ) -> Decreasing:
-    """Does V fall at every state of every arm in the ranges, with this ε₀? See `Decreasing`."""
+    """Does V fall at every state of every arm in the ranges, with this ε₀? See `Decreasing`.
+
+    Args:
+        gains: the controller.
+        arm: as the user gave it.
+        eps0: that is printed.
+        coupling: the diagonal of Λ, where one is printed.
+        nominal: the question is about the nominal numbers of the arm alone.
+    """
+    arm = arm.fixed() if nominal else arm
     return Decreasing(
         mass=mass_of(arm),
-        viscous=tuple(number.bounds for number in arm.viscous),
+        viscous=tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous),
         parameters=parameters_of(arm),
         family=gains.family,
         m=gains.m,
@@ -62,7 +79,7 @@ def resting(gains: GainSet, dry: Sequence[Fraction], errors: Sequence[Fraction |
     return Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), tuple(errors))
 
 
-def bound_of_constant(name: str, arm: RobotModel, end: Fraction, along_links: bool) -> Statement:
+def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -> Statement:
     """Is a constant of the arm above this number (λmin(M)), or at most this number (all others)?
 
     Args:
@@ -84,7 +101,7 @@ def bound_of_constant(name: str, arm: RobotModel, end: Fraction, along_links: bo
     return GravityBelow(arm.n, gravity, ranges, end)
 
 
-def _of_links(name: str, arm: RobotModel, end: Fraction) -> Statement:
+def _of_links(name: str, arm: Plant, end: Fraction) -> Statement:
     chain = arm.chain
     assert chain is not None
     if name == "lambda_min":
@@ -96,7 +113,7 @@ def _of_links(name: str, arm: RobotModel, end: Fraction) -> Statement:
     return ChainGravityBelow(chain.links, chain.fall, tuple(i + 1 for i in _joints(name, arm)), end)
 
 
-def _joints(name: str, arm: RobotModel) -> range:
+def _joints(name: str, arm: Plant) -> range:
     """All joints for ``k_g``, one for ``k_g2``."""
     if name == "k_g":
         return range(arm.n)
@@ -104,7 +121,7 @@ def _joints(name: str, arm: RobotModel) -> range:
     return range(joint, joint + 1)
 
 
-def over_ranges(stated: Statement, arm: RobotModel) -> Statement | None:
+def over_ranges(stated: Statement, arm: Plant) -> Statement | None:
     """Does the same hold for all values of the ranges of M and g? ``None``: the kind knows no ranges."""
     if isinstance(stated, AllOf):
         parts = [(name, over_ranges(part, arm)) for name, part in stated.parts]
@@ -117,3 +134,72 @@ def over_ranges(stated: Statement, arm: RobotModel) -> Statement | None:
     if "mass" in names:
         asked["mass"] = mass_of(arm)
     return replace(stated, **asked)  # type: ignore[type-var]
+
+
+def gate_accepted(
+    gains: GainSet,
+    arm: RobotModel | None,
+    bounds: Bounds,
+    k_g: tuple[Fraction, ...],
+    conditions: Collection[str],
+) -> GateAccepted:
+    """Do the conditions on numbers hold for every arm in the ranges, where gravity keeps to k_g?
+
+    Args:
+        gains: the controller.
+        arm: as the user gave it, with all ranges; ``None`` where the gain file gives its limits alone.
+        bounds: limits of the gain file, which go before those of the arm.
+        k_g: a bound of each gravity torque, N·m; whether the arm keeps it asks `gravity_kept`.
+        conditions: those that decide; of them the ones on numbers.
+    """
+    parameters, viscous, limits = _of_motors(arm, bounds, len(k_g))
+    return GateAccepted(
+        joints=len(k_g),
+        gravity=(),
+        potential=(),
+        parameters=parameters,
+        k_g=k_g,
+        viscous=viscous,
+        limits=limits,
+        family=gains.family,
+        m=gains.m,
+        kp=tuple(gains.kp),
+        kv=tuple(gains.kv),
+        conditions=tuple(name for name in ("10", "10p", "10i", "19") if name in conditions),
+        stability=(),
+    )
+
+
+@lru_cache(maxsize=16)
+def _of_motors(
+    arm: RobotModel | None, bounds: Bounds, n: int
+) -> tuple[tuple[Ends, ...], tuple[Ends, ...], tuple[Fraction | None, ...]]:
+    """Ranges of parameters and friction, and the least torque limits."""
+    if arm is None:
+        least = bounds.viscous_min or Fraction(0)
+        return (), ((least, least),) * n, bounds.torque or (None,) * n
+    own = tuple(None if limit is None else limit.bounds[0] for limit in arm.torque_limit)
+    parameters = tuple(number.bounds for number in arm.parameters.values())
+    return parameters, viscous_of(arm, bounds.viscous_min), bounds.torque or own
+
+
+def viscous_of(arm: Plant, viscous_min: Fraction | None = None, *, nominal: bool = False) -> tuple[Ends, ...]:
+    """The range of each viscous friction; all from a λmin(B) on that replaces the arm's, N·m·s/rad."""
+    own = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)
+    if viscous_min in (None, min(low for low, _ in own)):
+        return own
+    return tuple((viscous_min, max(viscous_min, high)) for _, high in own)
+
+
+def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
+    """Is g the slope of the potential, and |g_i(q)| ≤ k_gi at every posture of every arm in the ranges?"""
+    ranges = tuple(number.bounds for number in arm.parameters.values())
+    gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
+    parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
+    slope = GravityOfPotential(gravity, tuple(to_terms(arm.potential)), ranges)
+    return AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(parts, 1))))
+
+
+def definite(arm: RobotModel) -> MassAbove:
+    """Is M(q) positive definite for every arm in the ranges?"""
+    return MassAbove(mass_of(arm), tuple(number.bounds for number in arm.parameters.values()), Fraction(0))

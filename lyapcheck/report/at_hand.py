@@ -73,7 +73,11 @@ def as_the_gate_judges(
         path, digest = (None, None) if certificate is None else (_path(key), certificate.digest)
         one = ClaimRow.of(claim, row.proof, row.title, path, digest, name)
         fresh.setdefault((row.id, row.m), []).append(one)
-    every = [one for row in rows for one in fresh.get((row.id, row.m), [row])]
+    every: list[ClaimRow] = []
+    for row in rows:
+        own = fresh.get((row.id, row.m))
+        if own is None or own[0] not in every:
+            every += own or [row]
     return every, {_path(key): one.text() for key, one in made.items()}
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.files.decimals import at_least
+from lyapcheck.output.digits import at_least
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.plain import read
 
@@ -58,6 +58,7 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
 
     So one tree of boxes is judged for many places.
     """
+    from lyapcheck.answers.epsilon.assembled import answers
     from lyapcheck.answers.epsilon.kept import kept_epsilon
     from lyapcheck.answers.epsilon.options import Options
 
@@ -66,9 +67,10 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
         result = kept_epsilon(gains, model, Options(max_boxes=BOXES))
-        known = None if served is None else served.for_smaller(gains.kv)
-        if known is not None and known.accepted() and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
-            result = replace(result, certified=known.loop.eps0, proof=known)
+        known = None if served is None else served.for_smaller(gains.kv).accepted()
+        if known is not None and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
+            promise, _ = answers(known, gains, model, ranges=False)
+            result = result if promise is None else replace(result, promise=promise, proof=known)
         served = result.proof
         cells.append(_cell(result, model, kv, goal))
     return cells[::-1]

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.asked import decreasing
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.errors import InputError
-from lyapcheck.files.decimals import at_least, at_most
 from lyapcheck.files.names import file_stem
+from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.promise import Promise, promised
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, KINDS, EpsilonRow, RunRow

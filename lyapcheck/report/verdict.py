@@ -195,7 +195,10 @@ def _gains(report: Report) -> tuple[str, ...]:
     elif proved:
         tail = f"; dV/dt < 0 at every state is proved for {and_list(proved)}{where}"
     if limitless:
-        tail += f"; of {and_list(limitless)} it is proved for motors without a limit, and theirs may saturate"
+        what = "it is" if proved else "dV/dt < 0 at every state is"
+        tail += (
+            f"; of {and_list(limitless)} {what} proved for motors without a limit, and theirs may saturate"
+        )
     if tail:
         tail = all_say((promises[row.name] for row in certified), tail)
     rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""

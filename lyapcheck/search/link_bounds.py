@@ -9,12 +9,12 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from time import monotonic
 
 import numpy as np
 
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.link_bounds import LinkBounds
+from lyapcheck.computing import computing_time
 from lyapcheck.constants.storage.problem import energy_problem, rate_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.constants.storage.rates import prices_shown
@@ -49,7 +49,7 @@ def linked_epsilon(
         controlled: gains and arm.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: budget of all attempts together.
-        deadline: by the monotonic clock, s; no attempt begins after it.
+        deadline: by the computing time of `lyapcheck.computing`, s; no attempt begins after it.
         progress: receives the share of the attempts done.
 
     Soundness: every proof has been accepted by ``lyapcheck.check.verify``.
@@ -68,7 +68,7 @@ def linked_epsilon(
         share = shares.pop(0)
         progress(0.9 * float(share), f"{float(share):.1%} of falsified")
         loop = controlled.loop(Fraction(f"{float(ceiling * share):.6g}"))
-        if monotonic() > deadline:
+        if computing_time() > deadline:
             reason = "the time is up: allow more seconds"
             break
         if not loop.admissible:
@@ -82,9 +82,10 @@ def linked_epsilon(
         else:
             reason = _not_proved(loop.eps0, outcome.reason)
             top, shares = share, []
-    if result is not None and not result.accepted():
+    accepted = None if result is None else result.accepted()
+    if result is not None and accepted is None:
         return None, looked_at, "the checker refused the boxes"
-    return result, looked_at, reason
+    return accepted, looked_at, reason
 
 
 def linked_proof(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof | None:

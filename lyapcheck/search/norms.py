@@ -36,20 +36,22 @@ def norm_epsilon(
     if viscous is not None:
         loop = replace(loop, viscous=viscous)
     proof, reason = norm_proof(loop, controlled.inertia_proof)
-    return (None, REFUSED) if proof is not None and not proof.accepted() else (proof, reason)
+    if proof is None:
+        return None, reason
+    accepted = proof.accepted()
+    return accepted, REFUSED if accepted is None else reason
 
 
 def norm_proof(
-    loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners, *, conic: bool = True
+    loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners
 ) -> tuple[DecreaseProof | None, str]:
     """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
 
     Args:
         loop: the loop.
         inertia: what shows M(q) ≻ 0.
-        conic: propose ε₀ by the conic program, and not by bisection, which loads nothing.
     """
-    result = scalar_epsilon(loop.tail, conic=conic)
+    result = scalar_epsilon(loop.tail)
     if result.eps0 is None:
         return None, result.reason
     return DecreaseProof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import LargerKv, PositiveAndDecreasing, statement_of
 from lyapcheck.check.loop.processes import shared_between
-from lyapcheck.control.judgement import proves
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.at_corners import MassAtCorners
@@ -26,13 +26,14 @@ if TYPE_CHECKING:
 class DecreaseProof:
     """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it.
 
-    ``kv`` is a larger K_v if the data are for that.
+    ``kv`` is a larger K_v if the data are for that; ``judged`` is what the checker says, where it was asked.
     """
 
     loop: ClosedLoop
     by: RateData
     inertia: Bisection | Links | MassAtCorners
     kv: tuple[Fraction, ...] = field(default=(), kw_only=True)
+    judged: JudgedStatement | None = field(default=None, kw_only=True, compare=False)
 
     @property
     def boxes(self) -> int:
@@ -52,9 +53,10 @@ class DecreaseProof:
 
     def for_smaller(self, kv: tuple[Fraction, ...]) -> DecreaseProof:
         """The same for a K_v of which no entry is larger."""
-        return replace(self, loop=replace(self.loop, kv=kv), kv=self.kv or self.loop.kv)
+        return replace(self, loop=replace(self.loop, kv=kv), kv=self.kv or self.loop.kv, judged=None)
 
-    def accepted(self, jobs: int = 1) -> bool:
-        """Whether the checker accepts it, in so many processes."""
+    def accepted(self, jobs: int = 1) -> DecreaseProof | None:
+        """The same with the verdict of the checker, in so many processes; ``None`` where it refuses."""
         with shared_between(jobs):
-            return proves(self.statement, self.certificate)
+            judged = judged_statement(self.statement, [self.certificate])
+        return replace(self, judged=judged) if judged.shown == "proved" else None

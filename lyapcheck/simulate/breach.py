@@ -54,7 +54,7 @@ class Breach:
             if self.confirmed
             else "simulated, in floating point"
         )
-        result = f"{at_least(self.value, 9)} {self.unit}, at most {at_most(self.limit, 9)} was promised"
+        result = f"{at_least(self.value, 9)} {self.unit}, above {at_most(self.limit, 9)}"
         return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
 
     @property

@@ -1,106 +1,80 @@
-"""Other results in the place of those of an answer: zeros, infinities, nothing, equal and hostile values."""
+"""Every option of every command by itself, with values at the ends of what it may be asked."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
-from dataclasses import fields, is_dataclass, replace
-from fractions import Fraction
-from pathlib import PurePath
-from typing import Any
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
 
-import numpy as np
+from lyapcheck.cli.commands import load
+from lyapcheck.cli.parser import Parser
+from tests.helpers.command import lyapcheck
 
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.gains import GainFile
-from lyapcheck.output.answer import Answer
-from lyapcheck.promise import Promise
-from lyapcheck.robots import RobotModel
-
-Draw = Callable[[Sequence[Any]], Any]
-"""One of some values."""
-NAMES = ("", "<b>&\"'`", "a|b\\", "two\nlines", "=1+1", "$x_1^{2}$ %", "]]>", "x" * 200, "名前 θ̈")
-FLOATS = (0.0, -0.0, 1e-300, 1e300, -1e300, 1 / 3, -1 / 3, 100.0, math.inf, -math.inf, math.nan)
-FRACTIONS = tuple(Fraction(x) for x in (0, 1, "1/3", "-1/3", "1e-300", "1e300", "-1e300"))
-POSITIVE = tuple(Fraction(x) for x in (1, "1/3", "1e-30", "1e30"))
-COUNTS = (0, 1, 300, 10**12)
-WORDS = {"name", "robot", "title", "path", "source", "comment", "place", "section", "word", "label"}
-"""Fields with a text that anybody may have chosen, and no word that the program reads again."""
-LISTS = {"joints", "assumptions", "notes", "reasons", "varies", "missing", "remarks"}
-GAINS = {"kp", "kv"}
-LEFT = {"m", "n", "ms", "index", "digits", "schema", "task", "tasks", "bench", "targets", "q", "w", "t"}
-LEFT |= {"state", "joint", "seed", "starts", "spread", "delta", "band", "T", "settling_band"}
-"""What is asked, not found; and samples of motions, whose figures are not words."""
-ROWS = {"results", "sets", "claims"}
-MOST_DRAWN = 12
-KEPT = (RobotModel, GainFile, Promise, PurePath)
+NUMBERS = ("0", "1", "-1", "1e-300", "1e300", "nan", "inf")
+WHOLE = ("0", "1", "-1", "1000000000000000000000")
+RANGES = (
+    "mass=+0%..+0%",
+    "mass=-100%..+0%",
+    "mass=+0%..+1e30%",
+    "viscous=-100%..+0%",
+    "viscous=0..0",
+    "payload=0..0",
+    "payload=0..1e30",
+    "payload=-1..1",
+    "mass=nan..nan",
+)
+MEMBERS = ("0", "1", "64", "65", "100000", "100001", "1:2", "2:1", "-1", "")
+FILES = ("FILE", "FILE...", "DIR", "PROOF.py", "PLAN.toml", "CERTIFICATE...", "OLD", "NAME|FILE", "ROBOT")
+"""What takes the name of a file: tests/cli/test_user_files.py is about those."""
+SLOW = {"map", "appendix"}
+"""Options that compute for minutes before there is anything to print."""
+NO_NUMBER = re.compile(r"(?<![\w.])[-+]?(nan|NaN)(?![\w=.])")
 
 
-def redrawn(answer: Answer, draw: Draw, most: int) -> Answer:
-    """The answer with other numbers, names and gaps, and with none or up to ``most`` of its results."""
-    if isinstance(answer, tuple):
-        return type(answer)(_several([_value(one, "", "", draw) for one in answer], draw, most))
-    if not is_dataclass(answer):
-        return answer
-    changed = {}
-    for one in fields(answer):
-        value = _value(getattr(answer, one.name), one.name, str(one.type), draw)
-        if one.name in ROWS and value and is_dataclass(value[0]):
-            value = tuple(_several(list(value), draw, most))
-        changed[one.name] = value
-    return replace(answer, **changed)
+def values(metavar: str, joints: int) -> tuple[str, ...]:
+    """What an option is given that stands for one of these in its help."""
+    if metavar == "NAME=LO..HI":
+        return RANGES
+    if metavar == "M":
+        return MEMBERS
+    lists = ("ANGLES", "TORQUES", "SHARES", "RATIOS", "RATES", "SPEEDS", "ERRORS")
+    if metavar in lists:
+        return tuple(",".join([one] * count) for one in NUMBERS for count in dict.fromkeys((1, joints)))
+    return (*NUMBERS, *WHOLE)
 
 
-def other(row: Any, draw: Draw) -> Any:
-    """A row of an answer with other numbers, names and gaps."""
-    return _value(row, "", "", draw)
+def lines(command: str, base: str, joints: int) -> Iterator[str]:
+    """The command line ``base`` with each option of a command, one at a time, at each extreme."""
+    parser = Parser(prog=command)
+    load(command).arguments(parser)
+    for action in parser.actions:
+        if not action.option_strings or action.dest in SLOW or action.metavar in FILES:
+            continue
+        option = action.option_strings[-1]
+        if option == "--help":
+            continue
+        if action.nargs == 0:
+            yield f"{base} {option}"
+        elif action.choices is not None:
+            yield from (f"{base} {option} {choice}" for choice in action.choices)
+        else:
+            for value in values(str(action.metavar), joints):
+                yield f"{base} {option}={value}" if value else f"{base} {option} ''"
 
 
-def _several(results: list[Any], draw: Draw, most: int) -> list[Any]:
-    count = draw((0, 1, len(results), most))
-    return [results[k % len(results)] for k in range(count)] if results else []
-
-
-def _value(value: Any, name: str, hint: str, draw: Draw) -> Any:
-    if isinstance(value, KEPT) or name in LEFT or (callable(value) and not is_dataclass(value)):
-        return value
-    if value is not None and hint.endswith("| None") and draw((False, False, True)):
-        return None
-    others = _others(value, name)
-    if others:
-        return draw((value, *others))
-    return _enclosure(draw) if isinstance(value, Enclosure) else _whole(value, name, hint, draw)
-
-
-def _others(value: Any, name: str) -> Sequence[Any]:
-    """What else a number or a text might be; nothing for what the program reads again."""
-    if type(value) is Fraction:
-        return POSITIVE if name in GAINS else FRACTIONS
-    if isinstance(value, str):
-        return NAMES if name in WORDS | LISTS else ()
-    return {float: FLOATS, int: COUNTS}.get(type(value), ())
-
-
-def _whole(value: Any, name: str, hint: str, draw: Draw) -> Any:
-    if isinstance(value, np.ndarray):
-        small = value.size <= MOST_DRAWN and value.dtype.kind == "f"
-        drawn = [draw((float(x), *FLOATS)) for x in value.flat] if small else value
-        return np.array(drawn).reshape(value.shape)
-    if type(value) is tuple:
-        inner = "x | None" if "| None," in hint or "| None]" in hint else ""
-        return tuple(_value(one, name, hint if type(one) is tuple else inner, draw) for one in value)
-    if type(value) is dict:
-        return {key: _value(one, name, "", draw) for key, one in value.items()}
-    if not is_dataclass(value) or type(value).__module__.startswith("lyapcheck.check."):
-        return value
-    own = [one for one in fields(value) if one.init]
-    changed = {one.name: _value(getattr(value, one.name), one.name, str(one.type), draw) for one in own}
+def fault(line: str, folder: Path) -> str:
+    """What is wrong with how a command line ends; empty where nothing is."""
     try:
-        return replace(value, **changed)  # type: ignore[type-var]
-    except ValueError:  # what the class itself refuses is no result
-        return value
-
-
-def _enclosure(draw: Draw) -> Enclosure:
-    low = draw(FRACTIONS)
-    return Enclosure(low, low + draw((Fraction(0), Fraction(1, 10**40), Fraction(1), Fraction(10**30))))
+        done = lyapcheck(*shlex.split(line), folder=folder)
+    except AssertionError as error:
+        return f"{line}: {error}"
+    if done.returncode not in (0, 1, 2, 3):
+        return f"{line}: exit {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"
+    found = NO_NUMBER.search(done.stdout)
+    if found:
+        start = done.stdout.rfind("\n", 0, found.start()) + 1
+        return f"{line}: prints {done.stdout[start : found.end() + 20]!r}"
+    if "Traceback" in done.stderr or "Warning" in done.stderr:
+        return f"{line}: says {done.stderr[-200:]!r}"
+    return ""

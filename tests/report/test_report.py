@@ -284,7 +284,6 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path: Path) -> None
     assert {row.id for row in own.claims} >= {"2.1", "10p.gains", "19.gains"}
     assert [badge.subject for badge in badges(own)] == ["mine"]
     assert own.versions.keys() >= {"lyapcheck", "casadi", "numpy", "python-flint"}
-    assert not own.versions.keys() & {"sympy", "cvxpy", "clarabel"}
     assert "printed proof" not in page.casefold()
     assert all(text not in page for text in ("Fig. 4", "Table 2 "))
 
@@ -387,7 +386,7 @@ BROKEN = [
     (["--m", "1", "2", "-3"], "--m = -3: m must be at least 1"),
     (["--m", "1", "--members", "2"], "--members: is not an option here"),
     (["--format", "docx"], "is not a format"),
-    (["--compare", "nowhere"], "cannot be read as a report"),
+    (["--compare", "nowhere"], "cannot be read"),
     (["--robot", "nobody"], "nobody"),
     (["--robot", "reyes-kelly2"], "3 joints"),
     (["--gains", "missing.toml"], "missing.toml"),

@@ -17,7 +17,7 @@ from lyapcheck.promise import promises_as_seen
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.model import Report
 from lyapcheck.report.write import render
-from tests.helpers.extremes import other
+from tests.helpers.redrawn import other
 from tests.house.test_promises import said, words_of_proof
 
 

@@ -19,7 +19,7 @@ from lyapcheck.answers.table import Table
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.formats import JudgedFormat
 from tests.helpers.command import invoke, lyapcheck
-from tests.helpers.extremes import redrawn
+from tests.helpers.redrawn import redrawn
 from tests.helpers.urdf_texts import generic
 
 pytestmark = pytest.mark.usefixtures("in_this_process")

@@ -16,22 +16,22 @@ from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
 
 RULE = "what dry friction leaves of the errors at every state of rest is proved"
-REST = (
-    "|e_i| at every state of rest; simulated at rest: the larger of this motion's and of one let go at "
-    "95 % of the bound; simulated on the way: the largest of this motion:"
+RUNS = (
+    "simulated at rest: the larger |e_i| of this motion's end and of one let go at 95 % of the bound; "
+    "simulated on the way: the largest of this motion"
 )
-NONE, DEGREES = "—", Fraction(5729577951309, 10**11)
-"""Degrees of a radian, from above."""
+NONE = "—"
 WITHOUT = "without --vary, proved"
 LEGEND = (
-    "proved: accepted by the checker, for dry friction up to what is stated, at every state of rest.",
-    "simulated: {}, in floating point, with that dry friction.",
+    "proved at most: accepted by the checker, for dry friction up to what is stated, at every state of rest."
 )
+SIMULATED = "simulated: {}, in floating point, with that dry friction."
 ONE_RUN = "one run at nominal numbers"
 CORNERS = "the worst of one run at {}, for {}, which proves nothing of what lies between"
 NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
@@ -58,7 +58,9 @@ class Comparisons(Answer):
         varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
         tried = ", ".join(dict.fromkeys(result.corners for result in self.results if result.corners))
         runs = CORNERS.format(tried, varies) if varies else ONE_RUN
-        notes = (LEGEND[0], LEGEND[1].format(runs), *(f"{text}." for text in assumed))
+        promises = [result.promise for result in self.results if result.promise is not None]
+        legend = [all_say(promises, LEGEND)] if promises else []
+        notes = (*legend, SIMULATED.format(runs), *(f"{text}." for text in assumed))
         return Document(title(self.results), (*behind, _times(self.results)), notes)
 
     def data(self) -> dict[str, Any]:
@@ -92,21 +94,25 @@ class Comparisons(Answer):
 def title(results: Sequence[BoundsComparison]) -> str:
     """Whether all bounds are proved."""
     robots = ", ".join(dict.fromkeys(result.robot for result in results))
-    whole = sum(result.proved for result in results)
+    promises = [result.promise for result in results if result.promise is not None and result.proved]
+    whole = len(promises)
     if len(results) == 1:
         return _one(results[0])
     if whole == len(results) > 0:
-        return f"✓ the errors at rest under all {whole} gain sets are proved on {robots}"
-    some = f"? the errors at rest under {whole} of {len(results)} gain sets are proved"
-    return f"{some} on {robots or 'no arm'}"
+        return all_say(promises, f"✓ the errors at rest under all {whole} gain sets are proved on {robots}")
+    if not promises:
+        count = len(results)
+        return f"? not all errors at rest are proved under any of {count} gain sets on {robots or 'no arm'}"
+    some = f"? the errors at rest under {whole} of {len(results)} gain sets are proved on {robots}"
+    return all_say(promises, some)
 
 
 def _one(result: BoundsComparison) -> str:
     over = f" with {', '.join(result.varies)}" if result.varies else ""
     about = f"{result.gains.name} on {result.robot}{over}:"
-    known = [error for error in result.rest if error is not None]
-    if result.proved:
-        return f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved"
+    known = [error for error in result.rest_degrees if error is not None]
+    if result.promise is not None and result.proved:
+        return result.promise.says(f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved")
     rows = zip(result.joints, result.rest, strict=True)
     missing = ", ".join(joint for joint, error in rows if error is None)
     return f"? {about} no error at rest is proved for {missing}"
@@ -116,14 +122,16 @@ def _behind(result: BoundsComparison) -> list[Table | Bullets]:
     """The errors of a gain set, and why a joint has no bound."""
     columns: list[tuple[str, Sequence[str]]] = [
         ("dry friction [N·m]", [NONE if f is None else decimal_text(f) for f in result.dry]),
-        ("proved at most", list(map(angle_up, result.rest))),
+        ("proved at most", list(map(angle_up, result.rest_degrees))),
         ("simulated at rest", list(map(_angle, result.simulated_rest))),
         ("simulated on the way", list(map(_angle, result.simulated_largest))),
     ]
     if result.unvaried is not None:
-        columns.insert(2, (WITHOUT, list(map(angle_up, result.unvaried.rest))))
+        columns.insert(2, (WITHOUT, list(map(angle_up, result.unvaried.rest_degrees))))
+    promise = result.promise
+    proved = "" if promise is None else promise.says("proved: |e_i| at every state of rest; ")
     rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
-    table = Table(("joint", *(head for head, _ in columns)), tuple(rows), REST)
+    table = Table(("joint", *(head for head, _ in columns)), tuple(rows), f"{proved}{RUNS}:")
     return [table, *([Bullets((f"{result.reason}.",))] if result.reason else [])]
 
 
@@ -131,7 +139,7 @@ def _times(results: Sequence[BoundsComparison]) -> Table:
     """When the simulated errors are small for good."""
     angles = ", ".join(dict.fromkeys(f"{math.degrees(result.delta):g}°" for result in results))
     rows = tuple((result.gains.name, _time(result)) for result in results)
-    return Table(("gains", "simulated time"), rows, f"Simulated: every |e_i| ≤ {angles} for good after:")
+    return Table(("gains", "simulated time"), rows, f"Simulated: all |e_i| ≤ {angles} for good after:")
 
 
 def _time(result: BoundsComparison) -> str:
@@ -147,7 +155,7 @@ def _angle(value: float) -> str:
 
 
 def angle_up(value: Fraction | None) -> str:
-    """A proved angle in degrees, in four digits and never rounded down; ``None`` is without a bound."""
+    """A proved angle, degrees, in four digits and never rounded down; ``None`` is without a bound."""
     if value is None:
         return "∞"
-    return f"{decimal_text(significant_up(value * DEGREES, 4))}°" if value else "0°"
+    return f"{decimal_text(significant_up(value, 4))}°" if value else "0°"

@@ -17,10 +17,10 @@ PROOF = "bounds"
 
 def certificates(result: BoundsComparison) -> dict[str, Certificate]:
     """The certificate by its file name; none where nothing was accepted."""
-    if result.resting is None:
+    if result.promise is None:
         return {}
     name, gains = f"{result.gains.name}.resting", result.gains
     says = f"how far from the goal it can rest: {gains.name} on {result.robot}"
     about = About(name, says, gains.m, len(result.joints), PROOF)
-    made = Certificate(about, result.resting, "proved", "enclosure", AtBounds())
+    made = Certificate(about, result.promise.shown.statement, "proved", "enclosure", AtBounds())
     return {f"{file_stem(gains.name)}.resting.json": made}

@@ -5,21 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lyapcheck import asked
 from lyapcheck._types import Array, Progress, part, silent
+from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.control.resting import DEGREES
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.search.rest import resting
 from lyapcheck.simulate.disturbed import disturbed
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.judgement import JudgedStatement
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
@@ -27,6 +32,8 @@ if TYPE_CHECKING:
     Varied = tuple[RobotModel, Sequence[Vary]]
     """An arm with ranges, and which."""
 
+PLACES = 6
+"""Decimals of a degree."""
 JUST_INSIDE = 0.95
 """Where a run starts, beside the proved bound of rest: simulated friction lets a joint creep."""
 
@@ -40,7 +47,7 @@ class BoundsComparison:
         robot: name of the arm.
         joints: names of its joints, base first.
         dry: N·m, the most that dry friction of each joint may be; none where nothing is known of it.
-        resting: what the checker accepted; none where it accepted nothing.
+        promise: of the errors at rest, as they are printed; none where there are none.
         reason: why a joint has no bound; empty where all have one.
         task: the motion that was simulated.
         delta: δ, rad.
@@ -58,7 +65,7 @@ class BoundsComparison:
     robot: str
     joints: tuple[str, ...]
     dry: tuple[Fraction | None, ...]
-    resting: Resting | None
+    promise: Promise | None
     reason: str
     task: Task
     delta: float
@@ -73,7 +80,12 @@ class BoundsComparison:
     @property
     def rest(self) -> tuple[Fraction | None, ...]:
         """rad, |e_i| at every state of rest; none for a joint without a bound."""
-        return (None,) * len(self.joints) if self.resting is None else self.resting.errors
+        return _errors(self.promise, len(self.joints))
+
+    @property
+    def rest_degrees(self) -> tuple[Fraction | None, ...]:
+        """The same in degrees."""
+        return tuple(None if error is None else error * DEGREES for error in self.rest)
 
     @property
     def proved(self) -> bool:
@@ -116,7 +128,8 @@ def compare(
     most = _most(whole) if dry is None else tuple(dry)
     known = [f for f in most if f is not None]
     shown = resting(gain_set, known) if len(known) == len(most) else None
-    errors = (None,) * model.n if shown is None else shown.errors
+    promise, reason = (None, "") if shown is None else _promised(gain_set, known, shown)
+    errors = _errors(promise, model.n)
     runs = []
     for index, arm in enumerate(arms):
         progress((0 if varied is None else 0.4) + 0.6 * index / len(arms), "simulation")
@@ -127,8 +140,8 @@ def compare(
         robot=model.name,
         joints=model.joints,
         dry=most,
-        resting=shown,
-        reason=_reason(gain_set, model.joints, most, errors),
+        promise=promise,
+        reason=reason or _reason(gain_set, model.joints, most, errors),
         task=task,
         delta=delta,
         simulated_time=None if None in times else max(time for time in times if time is not None),
@@ -139,6 +152,27 @@ def compare(
         corners="" if varied is None else corners_text(*varied),
         unvaried=unvaried,
     )
+
+
+def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
+    """The promise of what is printed, in degrees and rounded up; or why there is none."""
+    assert isinstance(shown.statement, Resting)
+    printed = [None if error is None else _rounded_up(error * DEGREES) for error in shown.statement.errors]
+    errors = [None if angle is None else angle / DEGREES for angle in printed]
+    return promised(asked.resting(gains, dry, errors), shown)
+
+
+def _errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
+    """rad, what is promised of each joint."""
+    if promise is None:
+        return (None,) * n
+    assert isinstance(promise.asked, Resting)
+    return promise.asked.errors
+
+
+def _rounded_up(value: Fraction) -> Fraction:
+    """To so many places as are printed."""
+    return Fraction(ceil(value * 10**PLACES), 10**PLACES)
 
 
 def _most(model: RobotModel) -> tuple[Fraction | None, ...]:

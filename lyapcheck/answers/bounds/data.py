@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def comparison_data(result: BoundsComparison) -> dict[str, Any]:
     """One gain set; angles in degrees, those that are proved rounded up."""
-    task = result.task
+    task, promise = result.task, result.promise
     return {
         "name": result.gains.name,
         "robot": result.robot,
@@ -23,8 +23,8 @@ def comparison_data(result: BoundsComparison) -> dict[str, Any]:
         "settling": {"delta": _degrees(result.delta)},
         "disturbance": {
             "friction": [above(x) for x in result.dry],
-            "rest": [None if x is None else _degrees_above(x) for x in result.rest],
-            "rest_statement": None if result.resting is None else result.resting.text(),
+            "rest": [None if x is None else float(x) for x in result.rest_degrees],
+            "rest_statement": None if promise is None else promise.says(promise.shown.statement.text()),
             "reason": result.reason,
         },
         "simulated": {
@@ -46,8 +46,3 @@ def above(value: Fraction | None) -> float | None:
 
 def _degrees(x: float) -> float:
     return round(math.degrees(x), 9)
-
-
-def _degrees_above(x: Fraction) -> float:
-    """Degrees, rounded up by more than the conversion can err."""
-    return math.ceil(math.degrees(x) * 1e6 * (1 + 1e-14)) / 1e6

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 CERTIFIED, FALSIFIED = "certified", "falsified"
 RULES = {
-    CERTIFIED: "V > 0 and dV/dt < 0 at every state but the origin, for some ε₀ > 0",
+    CERTIFIED: "V > 0 and dV/dt < 0 at all states but the origin, for some ε₀ > 0",
     FALSIFIED: "a state with dV/dt > 0",
     **FINDINGS,
 }
@@ -25,8 +25,8 @@ RULES = {
 def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotation]:
     """Whether an ε₀ is certified; then, as remarks, what is falsified and what follows from the numbers."""
     about = partial(Annotation, group=result.name, **gain_place(file, result.gains)._asdict())
-    level = Level.UNDECIDED if result.certified is None else Level.PASSED
-    message = f"no ε₀ is certified: {result.reasons.get(CERTIFIED, '')}" if result.certified is None else ""
+    level = Level.UNDECIDED if result.promise is None else Level.PASSED
+    message = f"no ε₀ is certified: {result.reasons.get(CERTIFIED, '')}" if result.promise is None else ""
     outcome = [about(level=level, rule=CERTIFIED, rule_text=RULES[CERTIFIED], case="ε₀", message=message)]
     said = {} if result.witness is None else {FALSIFIED: f"falsified {witness_text(result.witness)}"}
     said |= {rule: text for rule, text in FINDINGS.items() if text in result.findings}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.epsilon.four import eps0_of
 from lyapcheck.answers.epsilon.words import KINDS, exact, ratio_text
 from lyapcheck.output.digits import decimals
 
@@ -29,7 +30,7 @@ def result_data(result: FourEpsilons) -> dict[str, Any]:
         "boxes": result.boxes,
         "weighted": None if result.weighted is None else _weighted(result.weighted),
         "ranges": result.ranges,
-        "unvaried": exact(result.unvaried),
+        "unvaried": exact(eps0_of(result.unvaried)),
         "outside": list(result.outside),
         "corner": {name: exact(value) for name, value in result.corner.items()},
         "seed": result.seed,

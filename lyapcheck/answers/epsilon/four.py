@@ -7,12 +7,23 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.kinds.decreasing import Decreasing
+
 if TYPE_CHECKING:
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.promise import Promise
     from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.proof import DecreaseProof
     from lyapcheck.search.weights import Weighted
+
+
+def eps0_of(promise: Promise | None) -> Fraction | None:
+    """The ε₀ that a promise is about."""
+    if promise is None:
+        return None
+    assert isinstance(promise.asked, Decreasing)
+    return promise.asked.eps0
 
 
 @dataclass(frozen=True)
@@ -33,7 +44,7 @@ class FourEpsilons:
         robot: name of the arm.
         published: the end of (18), rounded down.
         scalar: ε₀ of the scalar form, from norms.
-        certified: the largest ε₀ of which the checker accepted a proof.
+        promise: that V falls with the largest ε₀ of which the checker accepted a proof.
         falsified: ε₀ of the witness.
         witness: the state that refutes ``falsified``.
         boxes: how many boxes branch and bound looked at.
@@ -42,13 +53,14 @@ class FourEpsilons:
         scalar_proof: behind ``scalar``, accepted by the checker; ``None`` where it accepted none.
         against: what ``witness`` refutes, and the arm it is a state of.
         weighted: a proof with weights Λ in y = w − εΛh, where one was asked for and found.
+        weighted_promise: that V falls with these weights.
         ranges: whether this is about all values of what is uncertain about the arm, or the nominal ones.
         corner: the uncertain numbers of the arm that ``witness`` is about, by name.
         reasons: why a number is missing, and what to try.
         findings: what the numbers say about each other, one sentence each.
         assumptions: what is taken for granted about the arm.
         seed: of the sampled states.
-        unvaried: what is certified at the numbers of the file, where these lie within the ranges.
+        unvaried: the promise at the numbers of the file, where these lie within the ranges.
         outside: the numbers whose value in the file lies outside the ranges.
         uncertain: whether the arm has ranges of M, potential or friction, asked for or not.
     """
@@ -57,7 +69,7 @@ class FourEpsilons:
     robot: str
     published: Fraction | None
     scalar: Fraction | None
-    certified: Fraction | None
+    promise: Promise | None
     falsified: Fraction | None
     witness: RisingState | None
     boxes: int
@@ -66,15 +78,21 @@ class FourEpsilons:
     scalar_proof: DecreaseProof | None = None
     against: Refutation | None = None
     weighted: Weighted | None = None
+    weighted_promise: Promise | None = None
     ranges: bool = False
     corner: Mapping[str, Fraction] = field(default_factory=dict)
     reasons: Mapping[str, str] = field(default_factory=dict)
     findings: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
     seed: int = 0
-    unvaried: Fraction | None = None
+    unvaried: Promise | None = None
     outside: tuple[str, ...] = ()
     uncertain: bool = False
+
+    @property
+    def certified(self) -> Fraction | None:
+        """The ε₀ that is promised."""
+        return eps0_of(self.promise)
 
     @property
     def name(self) -> str:

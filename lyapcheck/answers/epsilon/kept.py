@@ -28,6 +28,7 @@ from lyapcheck.check.kinds.decreasing import (
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.states import State
+from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.kept import KeptCertificates, remembered
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import at_corner
@@ -99,7 +100,7 @@ def _rebuilt(
 
 
 def _proof(one: Certificate, controlled: ControlledArm) -> DecreaseProof:
-    """The proof of a certificate, which must be of what is asked now."""
+    """The proof of a certificate, which was judged when it was taken and must be of what is asked now."""
     stated, proof = one.statement, one.proof
     if not isinstance(stated, Decreasing) or not isinstance(proof, PositiveAndDecreasing):
         raise TypeError("no proof of an ε₀")
@@ -108,7 +109,8 @@ def _proof(one: Certificate, controlled: ControlledArm) -> DecreaseProof:
         inertia, Bisection | Links | MassAtCorners
     ):
         raise TypeError("no proof of the search for ε₀")
-    result = DecreaseProof(controlled.loop(stated.eps0, stated.coupling), rate, inertia)
+    judged = JudgedStatement(stated, proof, one.verdict, one.grade)
+    result = DecreaseProof(controlled.loop(stated.eps0, stated.coupling), rate, inertia, judged=judged)
     if result.statement != stated:
         raise ValueError("other gains or another arm")
     return result

@@ -7,25 +7,25 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.epsilon.four import eps0_of
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_most, decimals
+from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon.four import FourEpsilons
+    from lyapcheck.promise import Promise
     from lyapcheck.search.falsify import RisingState
     from lyapcheck.search.weights import Weighted
 
 KINDS = ("published", "scalar", "certified", "falsified")
 LEGEND = (
-    "published: the end of (18), which claims dV/dt < 0 for every smaller ε₀.",
+    "published: the end of (18), which claims dV/dt < 0 for all smaller ε₀.",
     "scalar: from norms alone.",
-    "certified: dV/dt < 0 is proved at every state but the origin.",
-    "falsified: a state with dV/dt > 0 is proved.",
+    "falsified: a state with dV/dt > 0 is shown in balls.",
 )
-RANGED = (
-    "published, over ranges: (18) with the worst end of each of its constants, about the same arms as "
-    "the certified ε₀."
-)
+CERTIFIED = "certified: dV/dt < 0 is proved at every state but the origin."
+RANGED = "published, over ranges: (18) with the worst end of each of its constants, about all arms in them."
 NUMBER = "Marked *: a number in floating point without a certificate; the checker proves less from norms."
 
 
@@ -56,12 +56,15 @@ def number_cell(result: FourEpsilons, kind: str) -> str:
 def title(results: Sequence[FourEpsilons]) -> str:
     """Whether every gain set has a certified ε₀."""
     robots = ", ".join(dict.fromkeys(filter(None, map(_arm, results))))
-    outcome = sum(result.certified is not None for result in results)
+    promises = [result.promise for result in results if result.promise is not None]
+    outcome = len(promises)
     if len(results) == 1:
         return f"{_one(results[0])} on {robots}"
     if outcome == len(results) > 0:
-        return f"✓ all {outcome} gain sets have a certified ε₀ on {robots}"
-    return f"? {outcome} of {len(results)} gain sets have a certified ε₀ on {robots or 'no arm'}"
+        return all_say(promises, f"✓ all {outcome} gain sets have a certified ε₀ on {robots}")
+    if not promises:
+        return f"? no gain set of {len(results)} has a certified ε₀ on {robots or 'no arm'}"
+    return all_say(promises, f"? {outcome} of {len(results)} gain sets have a certified ε₀ on {robots}")
 
 
 def _arm(result: FourEpsilons) -> str:
@@ -70,15 +73,15 @@ def _arm(result: FourEpsilons) -> str:
 
 
 def _one(result: FourEpsilons) -> str:
-    if result.certified is None:
+    if result.promise is None:
         return f"? no ε₀ is certified for {result.name}"
-    return f"✓ ε₀ = {exact(result.certified)} is certified for {result.name}"
+    return result.promise.says(f"✓ ε₀ = {exact(result.certified)} is certified for {result.name}")
 
 
 FASTEST = 100
 """rad/s, beyond which no arm turns."""
 BUYS = (
-    "What ε₀ buys: V with ε = ε₀/(1 + ‖e‖) falls at every state, also where the arm stands still; it does "
+    "What ε₀ buys: V with ε = ε₀/(1 + ‖e‖) falls also where the arm stands still; it does "
     "not measure damping: gains that swing and gains that do not may have the same."
 )
 
@@ -86,8 +89,8 @@ BUYS = (
 def remarks(result: FourEpsilons) -> list[str]:
     """How the certified number was proved, findings, reasons for missing numbers and the witness."""
     said = [_way(result)] if result.certified is not None or result.boxes else []
-    if result.certified is not None and result.unvaried is not None:
-        said.append(_cost_text(result.certified, result.unvaried))
+    if result.promise is not None and result.unvaried is not None:
+        said.append(_cost_text(result.promise, result.unvaried))
     if result.outside:
         said.append(
             f"the file's own value lies outside the range of {', '.join(result.outside)}: nothing here is "
@@ -95,8 +98,8 @@ def remarks(result: FourEpsilons) -> list[str]:
         )
     said += [f"{finding}." for finding in result.findings]
     said += reasons(result)
-    if result.weighted is not None:
-        said.append(_weighted_text(result.weighted))
+    if result.weighted is not None and result.weighted_promise is not None:
+        said.append(result.weighted_promise.says(_weighted_text(result.weighted)))
     if result.witness is not None:
         said.append(f"falsified {witness_text(result.witness)}.")
         speed = float(max(map(abs, result.witness.state.w)))
@@ -113,7 +116,8 @@ def remarks(result: FourEpsilons) -> list[str]:
 
 def _way(result: FourEpsilons) -> str:
     """How the certified number was proved, and how much was tried."""
-    parts = [] if result.certified is None else [f"certified by {result.certified_by}"]
+    promise = result.promise
+    parts = [] if promise is None else [promise.says(f"certified by {result.certified_by}")]
     if result.proof is not None:
         parts.append(f"{boxes_text(result.proof.boxes)} judged by the checker")
     if result.boxes:
@@ -121,18 +125,20 @@ def _way(result: FourEpsilons) -> str:
     return f"{', '.join(parts)}."
 
 
-def _cost_text(certified: Fraction, nominal: Fraction) -> str:
+def _cost_text(whole: Promise, unvaried: Promise) -> str:
     """What the ranges cost."""
-    if certified >= nominal:
-        return f"the ranges cost nothing: at nominal numbers ε₀ = {exact(nominal)} is certified."
-    share = at_most(100 * (1 - certified / nominal), 2)
-    return f"the ranges cost {share} %: at nominal numbers ε₀ = {exact(nominal)} is certified."
+    certified, nominal = eps0_of(whole), eps0_of(unvaried)
+    assert certified is not None
+    assert nominal is not None
+    cost = "nothing" if certified >= nominal else f"{at_most(100 * (1 - certified / nominal), 2)} %"
+    about = unvaried.says(f"at nominal numbers ε₀ = {exact(nominal)} is certified.")
+    return f"the ranges cost {cost}: {about}"
 
 
 def reasons(result: FourEpsilons) -> list[str]:
     """Why a number is missing, or not larger than it is; a sentence each."""
     return [
-        f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"{kind} ε₀: {reason}."
+        f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"no larger {kind} ε₀: {reason}."
         for kind, reason in result.reasons.items()
     ]
 
@@ -162,8 +168,11 @@ def notes(results: Sequence[FourEpsilons]) -> list[str]:
     robots = ", ".join(dict.fromkeys(map(_arm, results)))
     seeds = ", ".join(dict.fromkeys(str(result.seed) for result in results))
     assumed = dict.fromkeys(text for result in results for text in result.assumptions)
+    promises = [result.promise for result in results if result.promise is not None]
     return [
-        *LEGEND,
+        *LEGEND[:-1],
+        *([all_say(promises, CERTIFIED)] if promises else []),
+        LEGEND[-1],
         *([RANGED] if any(result.ranges for result in results) else []),
         BUYS,
         *([NUMBER] if any(result.scalar_grade == "no certificate" for result in results) else []),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import Any
 
-from lyapcheck.answers.gate.friction import friction_lines, held
+from lyapcheck.answers.gate.friction import Fact, farthest, friction_lines, held
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.stability import remarks
 from lyapcheck.answers.gate.words import (
@@ -20,6 +21,7 @@ from lyapcheck.answers.gate.words import (
     limit_ends,
     limit_text,
     margin_text,
+    spoken_verdict,
     value_text,
 )
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
@@ -27,9 +29,12 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
 HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
+NAMED = "!"
+"""Accepted, with a fact that no condition is about."""
 DIGITS, MARGIN_DIGITS = 20, 12
 """Significant digits of limits and of margins in data; people see fewer."""
 LEVELS = {ACCEPTED: Level.PASSED, REJECTED: Level.FAILED, UNDECIDED: Level.UNDECIDED}
@@ -73,29 +78,56 @@ class GateAnswer(tuple[GateResult, ...], Answer):
         verdicts, words = ([getattr(result, name) for result in self] for name in ("verdict", "standing"))
         worst = next((v for v in (REJECTED, UNDECIDED) if v in verdicts), ACCEPTED)
         counts = {word: words.count(word) for word in (REJECTED, BREAKS_19, UNDECIDED, ACCEPTED)}
-        counted = "; ".join(
-            f"{count} {word.replace('breaks', 'break') if count > 1 else word}"
-            for word, count in counts.items()
-            if count
-        )
-        return f"{SYMBOLS[worst]} {counted or 'no gain sets'}"
+        counted = "; ".join(self._counted(word, count) for word, count in counts.items() if count)
+        facts = [fact for result in self if (fact := _fact(result))]
+        symbol = NAMED if worst == ACCEPTED and facts else SYMBOLS[worst]
+        said = max(facts, key=_weight)[1] if facts else ""
+        return "; ".join(filter(None, (f"{symbol} {counted or 'no gain sets'}", said)))
+
+    def _counted(self, standing: str, count: int) -> str:
+        """So many sets of a standing, as the promises on each of them allow to say it."""
+        words = f"{count} {standing.replace('breaks', 'break') if count > 1 else standing}"
+        known = [result for result in self if result.standing == standing]
+        if standing == ACCEPTED:
+            return all_say((one for result in known for one in result.grounds.promises), words)
+        if standing == BREAKS_19:
+            return all_say((result.stable.own_promise for result in known if result.stable), words)
+        return words
 
     def _notes(self) -> Iterator[str]:
         """What the conditions say, and what the numbers rest on."""
         shown = dict.fromkeys(check.id for result in self for check in result.checks)
         yield from (f"({name}) {RULES[name]}" for name in shown)
-        if any(check.id not in result.deciding for result in self for check in result.checks):
+        if any(not result.decides(check) for result in self for check in result.checks):
             yield NO_DECISION
         yield from dict.fromkeys(_assumptions(self))
 
 
+def _fact(result: GateResult) -> Fact | None:
+    """What dry friction, which no condition is about, makes of a set that is accepted."""
+    model = result.limits.model
+    if model is None or not result.explained or result.verdict != ACCEPTED:
+        return None
+    return farthest(result.gains, model)
+
+
+def _weight(fact: Fact) -> Fraction:
+    return fact[0]
+
+
 def _assumptions(results: GateAnswer) -> Iterator[str]:
-    return (text for result in results for text in result.limits.assumptions)
+    return (text for result in results for text in _rests_on(result))
+
+
+def _rests_on(result: GateResult) -> tuple[str, ...]:
+    return (*result.grounds.premises, *result.limits.assumptions)
 
 
 def _section(result: GateResult) -> Section:
-    symbol = SYMBOLS[result.verdict]
-    title = f"{symbol} {result.name}: {result.standing} ({about(result)}, {result.file.path})"
+    fact = _fact(result)
+    symbol = SYMBOLS[result.verdict] if fact is None else NAMED
+    standing = "; ".join((result.spoken_standing, *(() if fact is None else (fact[1],))))
+    title = f"{symbol} {result.name}: {standing} ({about(result)}, {result.file.path})"
     rows = tuple([_row(result, check) for check in result.checks])
     said = [*advices(result), *remarks(result)]
     table = Table(HEADS, rows, align="lllrrrr", keys=3)
@@ -106,7 +138,7 @@ def _row(result: GateResult, check: Check) -> tuple[str, ...]:
     """One check; a star for one that does not decide."""
     return (
         SYMBOLS[check.verdict],
-        check.id if check.id in result.deciding else f"{check.id} *",
+        check.id if result.decides(check) else f"{check.id} *",
         joint_name(result, check),
         value_text(check),
         limit_text(check),
@@ -122,13 +154,13 @@ def _data(result: GateResult) -> dict[str, Any]:
         "file": result.file.path,
         "family": result.gains.family,
         "m": result.m,
-        "verdict": result.verdict,
-        "standing": result.standing,
+        "verdict": result.spoken,
+        "standing": result.spoken_standing,
         "deciding": list(result.deciding),
         "strict": result.strict,
         "stable_otherwise": None if stable is None else {"condition": stable.id, "eps0": _exact(stable)},
         "remarks": remarks(result),
-        "assumptions": list(result.limits.assumptions),
+        "assumptions": list(_rests_on(result)),
         "checks": [_check_data(result, check) for check in result.checks],
     }
 
@@ -143,7 +175,7 @@ def _check_data(result: GateResult, check: Check) -> dict[str, Any]:
     return {
         "id": check.id,
         "joint": None if check.joint is None else joint_name(result, check),
-        "verdict": check.verdict,
+        "verdict": spoken_verdict(check),
         "value": _exact(check),
         "limit": None if limit is None else {"lower": limit[0], "upper": limit[1]},
         "margin": None if limit is None else margin_text(check, MARGIN_DIGITS),
@@ -161,7 +193,7 @@ def _annotations(result: GateResult) -> Iterator[Annotation]:
     level = LEVELS[result.verdict]
     if result.strict and level is Level.UNDECIDED:
         level = Level.FAILED
-    head = [] if result.standing in LEVELS else [result.standing]
+    head = [] if result.standing in LEVELS else [result.spoken_standing]
     known = [*head, *advices(result), *(() if result.stable is None else remarks(result)[:1])]
 
     def said(level: Level, rule: str, text: str, message: str) -> Annotation:

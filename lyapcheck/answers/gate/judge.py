@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.gate.promises import GateQuestions, Grounds
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
     ACCEPTED,
@@ -21,12 +22,15 @@ from lyapcheck.control.deciding import CERTIFICATES, DECIDING, KNOWN, deciding_f
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.errors import argument_error
+from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
+GRAVITY = "gravity"
+"""A stated bound that the arm itself breaks: it is rejected, whatever else decides."""
 MOST_EXPLAINED = 300
 """Gain sets of a file of which more is found out than whether they pass."""
 
@@ -39,11 +43,14 @@ class GateResult:
         file: that the set is from.
         gains: the set.
         limits: of the arm.
-        checks: of (10), (10p) and (19), and of the certificates that decide.
+        checks: of (10), (10p) and (19), of the certificates that decide, and of stated bounds of gravity
+            that the arm breaks.
         deciding: the conditions that must hold.
         strict: whether what is undecided counts as a failure.
         otherwise: a proof of stability for gains that break (19), where one was looked for and found.
         explained: whether more is to be said of the set than its checks.
+        gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
+        grounds: the promises on which the set is accepted, or why it is not.
     """
 
     file: GainFile
@@ -54,6 +61,8 @@ class GateResult:
     strict: bool = False
     otherwise: Check | None = None
     explained: bool = False
+    gamma: str = "true"
+    grounds: Grounds = Grounds()
 
     @property
     def name(self) -> str:
@@ -67,16 +76,50 @@ class GateResult:
 
     @cached_property
     def verdict(self) -> str:
-        """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
-        return self.verdict_of(self.deciding)
+        """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``.
+
+        Without a promise about the arm as it was given, checks that all pass are ``undecided``.
+        """
+        result = self.verdict_of((*self.deciding, GRAVITY))
+        return UNDECIDED if result == ACCEPTED and not self.grounds.promises else result
+
+    @property
+    def saturates(self) -> bool:
+        """Whether (10i) fails, so that nothing keeps a motor within its limit."""
+        return self.verdict_of(("10i",)) == REJECTED
 
     @property
     def standing(self) -> str:
         """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
-        if self.verdict != REJECTED or self.stable is None:
+        if (
+            self.verdict != REJECTED
+            or self.stable is None
+            or self.saturates
+            or self.verdict_of((GRAVITY,)) == REJECTED
+        ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
+
+    def says(self, words: str) -> str:
+        """Words of proof about a set that is accepted.
+
+        Raises:
+            Refused: it is not.
+        """
+        return all_say(self.grounds.promises, words)
+
+    @property
+    def spoken(self) -> str:
+        """The verdict as it may be said."""
+        return self.says(self.verdict) if self.verdict == ACCEPTED else self.verdict
+
+    @property
+    def spoken_standing(self) -> str:
+        """The standing as it may be said."""
+        if self.standing == BREAKS_19 and self.stable is not None:
+            return self.stable.own_promise.says(BREAKS_19)
+        return self.spoken
 
     @cached_property
     def stable(self) -> Check | None:
@@ -102,9 +145,11 @@ class GateResult:
     @property
     def failures(self) -> tuple[Check, ...]:
         """The deciding checks that were not accepted."""
-        return tuple(
-            [check for check in self.checks if check.verdict != ACCEPTED and check.id in self.deciding]
-        )
+        return tuple([check for check in self.checks if check.verdict != ACCEPTED and self.decides(check)])
+
+    def decides(self, check: Check) -> bool:
+        """Whether the verdict follows from a check."""
+        return check.id in self.deciding or check.id == GRAVITY
 
 
 def judged_sets(
@@ -129,15 +174,19 @@ def judged_sets(
     deciding = [deciding_for(gains, asked) for gains in gain_file.gains]
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
     if rests_on:
-        limits = limits.resting_on(rests_on)
+        limits = limits.resting_on((*limits.gravity_notes, *rests_on))
+    broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
+    questions = GateQuestions(gain_file, limits, gamma)
     for gains, names, certificates in zip(gain_file.gains, deciding, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        checks = (*conditions[key].all(gains, names), *certificates)
+        checks = (*broken, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
-        result = GateResult(gain_file, gains, limits, checks, names, strict, explained=more)
+        passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
+        grounds = questions.grounds(gains, names, checks) if passes else Grounds()
+        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 

@@ -16,7 +16,7 @@ from lyapcheck.files.decimals import decimal_text
 _NO_ARM = (
     "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
 )
-_SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps every joint within its limit"
+_SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps each joint within its limit"
 _NO_FRICTION = (
     "no viscous friction is known of a joint (λmin(B) = 0), so (19) admits no k_v. Without it the origin "
     "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
@@ -33,8 +33,9 @@ def remarks(result: GateResult) -> list[str]:
         outcome += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
     if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
         outcome.append(_SINGLE + _accepting(result))
-    elif joints == REJECTED and result.stable is not None:
-        outcome.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
+    elif result.saturates and result.stable is not None:
+        words = "(10i) fails: a motor may saturate, and stability is proved only while none does"
+        outcome.append(result.stable.own_promise.says(words))
     model, gains = result.limits.model, result.gains
     if not result.explained or model is None:
         return outcome
@@ -45,9 +46,11 @@ def _without_19(result: GateResult) -> list[str]:
     known, frictionless = result.stable, result.limits.viscous_min == 0
     if known is not None:
         where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
-        outcome = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}"
+        how = "proved stable while no motor saturates" if result.saturates else "proved stable without it"
+        outcome = f"(19) fails, yet the gains are {how}: {_proof(known, where)}"
         outcome += _accepting(result) if "19" in result.deciding else ""
-        return [outcome, _NO_FRICTION] if frictionless else [outcome]
+        said = [outcome, _NO_FRICTION] if frictionless else [outcome]
+        return [known.own_promise.says(words) for words in said]
     if not result.limits.robot:
         return [_NO_ARM]
     if frictionless:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import NONE, cell, lower, plain, plains, row, sized, upper
+from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row, sized, upper
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.output.digits import NONE
 from lyapcheck.output.document import Block, Bullets, Section, Table
 from lyapcheck.simulate.indices import SETTLING_BAND
 from lyapcheck.simulate.printed import printed_for
@@ -17,7 +18,7 @@ from lyapcheck.simulate.run import Run
 
 EXPERIMENT = "experiment"
 SETTLED = f"Settled: within {100 * SETTLING_BAND:g} % of the step for good; {NONE} where that is not reached."
-TORQUES = f"The bound (9) of ‖τ‖ and of each joint; {NONE} where h is unbounded and there is none."
+TORQUES = f"Estimated: the bound (9) of ‖τ‖ and of each joint; {NONE} where h is unbounded and there is none."
 OVERVIEW = ("gains", "L2 [°]", "ε₀", "V(0) [J]", "V", "largest ‖τ‖ [N·m]", "bound (9) [N·m]", "promises")
 HEADS = (
     "joint",

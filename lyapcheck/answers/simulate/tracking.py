@@ -9,17 +9,26 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import NONE, cell, lower, plain, plains, row, sized
+from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row, sized
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.digits import at_most
+from lyapcheck.output.digits import NONE, at_most
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.tracking.run import TrackingRun
 
-OVERVIEW = ("gains", "L2 [°]", "ε₀", "Θ′ ≻ 0 up to", "V must fall", "V(0) [J]", "V at end [J]", "promises")
-PROMISED = (
-    "Promised: by theory at the arm's nominal numbers, for every time and every motion from this start, "
+OVERVIEW = (
+    "gains",
+    "L2 [°]",
+    "ε₀",
+    "estimated Θ′ ≻ 0 up to",
+    "estimated to fall",
+    "V(0) [J]",
+    "V at end [J]",
+    "promises",
+)
+ESTIMATED = (
+    "Estimated: by theory at the arm's nominal numbers, for all times and all motions from this start, "
     "with bounds of M, C and q̇_d that no certificate shows; seen: in one run."
 )
 PER_JOINT = ("start", "rms", "peak_error", "entered", "final_error", "peak_torque", "torque_limit")
@@ -43,8 +52,8 @@ class TrackingRuns(Simulation[TrackingRun]):
         ]
 
     def legend(self) -> Sequence[str]:
-        """What a promise is."""
-        return (PROMISED,)
+        """What is estimated."""
+        return (ESTIMATED,)
 
     def overview(self) -> Table:
         """L2, ε₀ and V of each run."""
@@ -56,7 +65,7 @@ class TrackingRuns(Simulation[TrackingRun]):
         return Table(OVERVIEW, tuple(rows), align="lrrrlrrl")
 
     def section(self, one: TrackingRun) -> Section:
-        """A row a joint, and what was promised beside what was seen."""
+        """A row a joint, and what is estimated beside what was seen."""
         table = Table(_heads(one), tuple(_rows(one)), align="lrrrrrrrl")
         return Section(f"{self.mark(one.name)} {_headline(one)}".strip(), (table, Bullets(_facts(one))))
 
@@ -128,7 +137,7 @@ def _facts(one: TrackingRun) -> tuple[str, ...]:
     if math.isnan(one.accuracy):
         checks = "accuracy unknown: the run was cut short"
     return (
-        f"‖q̇_d‖ promised at most v_d = {speed} rad/s, seen {at_most(one.seen_speed)}",
+        f"estimated: ‖q̇_d‖ ≤ v_d = {speed} rad/s, seen {at_most(one.seen_speed)}",
         *_promised(one),
         f"{checks}; work balance {sized(one.work_balance)}",
     )
@@ -142,13 +151,15 @@ def _promised(one: TrackingRun) -> list[str]:
     share = (
         ""
         if math.isnan(one.tightness)
-        else f"; at most {at_most(100 * one.tightness, 3)} % of the fall was promised"
+        else f"; up to {at_most(100 * one.tightness, 3)} % of the fall was estimated"
     )
     lines = [f"V need not fall: {promise.reason}"] if promise.reason else []
-    lines.append(f"dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.motion.t.size} samples{share}")
+    lines.append(
+        f"seen: dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.motion.t.size} samples{share}"
+    )
     if promise.torque is not None:
         most, seen = up(promise.torque.error_rate), _error_rate(one)
-        lines.append(f"‖q̇ − q̇_d‖ promised at most {most} rad/s, seen {at_most(seen)}")
+        lines.append(f"estimated: ‖q̇ − q̇_d‖ ≤ {most} rad/s, seen {at_most(seen)}")
     return lines
 
 
@@ -159,7 +170,7 @@ def _error_rate(one: TrackingRun) -> float:
 def _heads(one: TrackingRun) -> tuple[str, ...]:
     within = f"within {math.degrees(one.band):g}° from [s]"
     heads = ("joint", "rms [°]", "peak error [°]", within, "final error [°]", "peak torque [N·m]")
-    return (*heads, "promised [N·m]", "limit [N·m]", "inside limit")
+    return (*heads, "estimated [N·m]", "limit [N·m]", "inside limit")
 
 
 def _rows(one: TrackingRun) -> list[tuple[str, ...]]:
@@ -181,13 +192,13 @@ def _rows(one: TrackingRun) -> list[tuple[str, ...]]:
 
 
 def _inside(one: TrackingRun, i: int) -> str:
-    """Whether the torque of a joint is promised to stay inside its motor's limit, or was seen to."""
+    """Whether the torque of a joint is estimated to stay inside its motor's limit, or was seen to."""
     limit, torque = one.torque_limit[i], one.promise.torque
     if limit is None:
         return ""
     if one.indices.peak_torque[i] > limit:
         return "NO"
-    return "promised" if torque is not None and torque.total[i] <= limit else "seen"
+    return "estimated" if torque is not None and torque.total[i] <= limit else "seen"
 
 
 def _promise(one: TrackingRun) -> dict[str, Any]:

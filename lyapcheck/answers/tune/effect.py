@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.output.digits import shown
+from lyapcheck.output.digits import at_most, shown
 from lyapcheck.output.document import Block, Paragraph, Section, Table
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
             shown(one.final, ".2f"),
             shown(one.share, ".2f"),
             shown(one.speed, ".2f"),
-            "anywhere" if one.rest == math.inf else shown(one.rest or None, ".1f"),
+            "anywhere" if math.isinf(one.rest) else at_most(one.rest, 3) if one.rest else "—",
         )
         for one in result
     )
@@ -91,7 +91,7 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
         "rad/s. For m ≥ 2 h is flat at the goal."
     )
     blocks: tuple[Block, ...] = (Table(HEADS, rows), Paragraph(says))
-    return Section("What m does", blocks)
+    return Section("Simulated: what m does", blocks)
 
 
 def _six(value: float) -> float | None:

@@ -56,7 +56,7 @@ def arguments(parser: Parser) -> None:
     about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
     parser.add_number("--spread", float, about)
     add_vary(parser)
-    about = "Time for branch and bound; the answer then depends on the machine."
+    about = "Computing time for branch and bound, s; the answer then depends on the machine."
     parser.add_number("--seconds", float, about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
     parser.add_argument("--weights", action="store_true", help=about)
@@ -183,7 +183,7 @@ def _each(
         began = perf_counter()
         result = replace(ask(model, options, 0.0, WITH_RANGES if options.ranges else 1.0), outside=left_out)
         if result.corner and not left_out:  # something ranges: what that costs is asked too
-            result = replace(result, unvaried=ask(own, nominal, WITH_RANGES, 1.0).certified)
+            result = replace(result, unvaried=ask(own, nominal, WITH_RANGES, 1.0).promise)
         results.append(result)
         seconds.append(perf_counter() - began)
     return results, seconds

@@ -27,7 +27,9 @@ def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> 
     result = compare(question.gains, model, task, delta, varied=varied)
     return answered(
         question,
-        VERDICTS[Exit.PROVED if result.proved else Exit.UNDECIDED],
+        VERDICTS[Exit.UNDECIDED]
+        if result.promise is None or not result.proved
+        else result.promise.says(VERDICTS[Exit.PROVED]),
         comparison_data(result),
         tuple(certificates(result).values()),
         result.reason,

@@ -24,7 +24,7 @@ def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> 
     result = kept_epsilon(question.gains, known.model, asked)
     return answered(
         question,
-        VERDICTS[Exit.UNDECIDED if result.certified is None else Exit.PROVED],
+        VERDICTS[Exit.UNDECIDED] if result.promise is None else result.promise.says(VERDICTS[Exit.PROVED]),
         result_data(result),
         tuple(certificates(result).values()),
         "; ".join(text for kind, text in result.reasons.items() if kind == "certified" and not result.proof),
