@@ -5,6 +5,8 @@ From Interval Require Export Tactic.
 Require Export Definitions.
 Require Export Family Bounds Words Stability.
 Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified Damping Properties.
+Require Export GateDefinitions.
+Require Gate.
 Require Export String.
 Export ListNotations.
 Open Scope R_scope.

@@ -11,6 +11,9 @@ Check origin_is_only_equilibrium.
 Check pendulums.
 Check h_derive.
 Check U_derive.
+Check Gate.accepts.
+Check Gate.saturated.
+Check Gate.saturated_rejects.
 Definition headlines := (proposition_of_the_paper, V_of_the_paper, tracking_of_the_paper, V_is_positive_definite, V_is_radially_unbounded,
-  origin_is_only_equilibrium, pendulums, h_derive, U_derive).
+  origin_is_only_equilibrium, pendulums, h_derive, U_derive, Gate.accepts, Gate.saturated, Gate.saturated_rejects).
 Print Assumptions headlines.

@@ -11,7 +11,7 @@ import os
 
 TYPE_CHECKING = False  # typing takes longer to import than a short command to run
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 VARIABLE = "LYAPCHECK_PATH"
 
@@ -25,18 +25,22 @@ def folders(package: str) -> list[str]:
 
 def modules(path: Iterable[str]) -> tuple[str, ...]:
     """The modules in some folders that are not private, sorted."""
-    files = {name for folder in path if os.path.isdir(folder) for name in os.listdir(folder)}
-    return tuple(sorted(name[:-3] for name in files if name.endswith(".py") and name[0] != "_"))
+    return tuple(sorted({name[:-3] for _, name in _files(path) if name[0] != "_"}))
 
 
 def defining(function: str, path: Iterable[str]) -> tuple[str, ...]:
     """The modules in some folders that define a function, sorted; they are read, not imported."""
-    start = f"def {function}(".encode()
-    result = set()
+    from lyapcheck.files.reader import SCRIPT, read_bytes
+
+    start = f"\ndef {function}(".encode()
+    found = {name for file, name in _files(path) if start in b"\n" + read_bytes(file, SCRIPT)}
+    return tuple(sorted(name[:-3] for name in found))
+
+
+def _files(path: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """The Python files in some folders, and their names; a pipe or a device is none."""
     for folder in filter(os.path.isdir, path):
         for name in os.listdir(folder):
-            if name.endswith(".py"):
-                with open(os.path.join(folder, name), "rb") as file:
-                    if any(line.startswith(start) for line in file):
-                        result.add(name.removesuffix(".py"))
-    return tuple(sorted(result))
+            file = os.path.join(folder, name)
+            if name.endswith(".py") and os.path.isfile(file):
+                yield file, name

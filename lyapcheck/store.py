@@ -17,7 +17,7 @@ import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +28,8 @@ OFF = "LYAPCHECK_NO_STORE"
 """Set in the environment, so that worker processes know it too, where nothing is to be taken or kept."""
 ANSWERS = "answers"
 BEHIND = ("lyapcheck", "casadi", "clarabel", "cvxpy", "matplotlib", "numpy", "python-flint", "scipy", "sympy")
+LARGEST = 200_000_000
+"""Bytes of a kept file."""
 _DIGEST = hashlib.sha256().digest_size
 
 
@@ -50,11 +52,8 @@ def home() -> Path:
 
 def kept(kind: str, name: str) -> bytes | None:
     """The content of a kind kept under a name, if it is there, ours alone to write, and whole."""
-    path = home() / kind / name
     try:
-        if not _private(path.parent) or not _private(path) or not path.is_file():
-            return None
-        content = path.read_bytes()
+        content = _content(home() / kind / name)
     except (OSError, RuntimeError):
         return None
     body, digest = content[:-_DIGEST], content[-_DIGEST:]
@@ -66,7 +65,7 @@ def keep(kind: str, name: str, body: bytes) -> Path | None:
     try:
         folder = home() / kind
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if not _private(folder):
+        if not _private(folder.stat()):
             return None
         return _write(folder, body + hashlib.sha256(body).digest()).replace(folder / name)
     except (OSError, RuntimeError):
@@ -104,7 +103,15 @@ def made_with() -> str:
 
 @cache
 def _versions() -> tuple[tuple[str, str], ...]:
-    return tuple((name, version(name)) for name in BEHIND)
+    return tuple((name, _version(name)) for name in BEHIND)
+
+
+def _version(name: str) -> str:
+    """Of a package, empty where it is not installed."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
 
 
 def exact(*subjects: object) -> str:
@@ -169,8 +176,24 @@ def _write(folder: Path, content: bytes) -> Path:
     return Path(name)
 
 
-def _private(path: Path) -> bool:
+def _content(path: Path) -> bytes:
+    """The bytes of a kept file; none of one that is no file of ours alone, or a link.
+
+    Looked at by the descriptor that is read: nothing can take its place in between.
+
+    Raises:
+        OSError: it is not there.
+    """
+    flags = [getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOFOLLOW", "O_CLOEXEC", "O_BINARY")]
+    if not _private(path.parent.stat()):
+        return b""
+    with os.fdopen(os.open(path, os.O_RDONLY | sum(flags)), "rb") as file:
+        status = os.fstat(file.fileno())
+        whole = _private(status) and stat.S_ISREG(status.st_mode) and status.st_size <= LARGEST
+        return file.read(LARGEST) if whole else b""
+
+
+def _private(status: os.stat_result) -> bool:
     """Whether only this user can change it: what is kept here is run and shown."""
-    status = path.stat()
     mine = not hasattr(os, "getuid") or status.st_uid == os.getuid()
     return mine and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)

@@ -162,7 +162,7 @@ def _not_accepted(result: Sequence[Checked]) -> Table:
     rows = []
     for one in result:
         rows.append((SIGNS[one.status], one.file, one.reason))
-        if one.status == "undecided":
+        if one.status == "undecided" and one.finding.statement:
             rows += [("", "", text) for text in (_open_statement(one), _words(one))]
     return Table(("", "file", "reason"), tuple(rows), align="lll", keys=2)
 
@@ -180,7 +180,8 @@ def _open_statement(one: Checked) -> str:
 
 
 def _annotation(one: Checked) -> Annotation:
-    said = {"accepted": "", "refused": one.reason, "undecided": f"{one.reason}; {_open_statement(one)}"}
+    stated = f"; {_open_statement(one)}" if one.finding.statement else ""
+    said = {"accepted": "", "refused": one.reason, "undecided": f"{one.reason}{stated}"}
     path = str(one.document.path)
     return Annotation(
         LEVELS[one.status], "certificate", RULES["certificate"], one.file, "", said[one.status], path

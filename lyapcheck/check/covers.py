@@ -66,6 +66,11 @@ ROWS: dict[str, dict[str, Row]] = {
     "Decreasing": _LOOP | {"eps0": _same, "coupling": _same},
     # more friction than was asked about leaves larger errors
     "Resting": dict.fromkeys(("family", "m", "kp"), _same) | {"torque": _at_least, "errors": _at_most},
+    # k_g is bounded from below by gravity and from above by the gains
+    "GateAccepted": dict.fromkeys(
+        ("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv", "conditions", "stability"), _same
+    )
+    | {"parameters": _wider, "viscous": _wider, "limits": _at_most},
     "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),
 }
 """For each kind, how a field that is shown must stand to the one that was asked for.

@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,10 @@ from lyapcheck.check.limits import Limits
 from lyapcheck.check.worker import serve
 serve(Limits(seconds, memory))
 """
-START = 60
+START = 600
 """Seconds in which a process must have started, however few a certificate may take."""
+PATIENCE = 20
+"""Where the system counts computing time: so many times as long by the clock, for what waits for ever."""
 
 
 class CannotStart(Exception):
@@ -56,7 +59,7 @@ class Guard:
         """What a certificate shows by itself."""
         answer = self._ask(content, full)
         if "ended" in answer:
-            return Judgement().refused(answer["ended"])
+            return replace(Judgement().refused(answer["ended"]), spent=True)
         result = answer["finding"]
         pairs = {name: tuple(map(tuple, result[name])) for name in ("shows", "rules", "theorems")}
         return Judgement(**{**result, **pairs, "granted": tuple(result["granted"])})
@@ -64,7 +67,9 @@ class Guard:
     def _ask(self, content: bytes, full: bool) -> dict[str, Any]:
         process = self._process or self._start()
         header = json.dumps({"full": full, "size": len(content)}).encode("ascii")
-        answer, late = _exchange(process, [header + b"\n", content], self.limits.seconds)
+        patience = START + PATIENCE * self.limits.seconds
+        seconds = patience if "seconds" in self.limited else self.limits.seconds
+        answer, late = _exchange(process, [header + b"\n", content], seconds)
         if answer is None:
             self._stop()
             return {"ended": self._ended(process.returncode, late)}
@@ -99,7 +104,7 @@ class Guard:
         """Why a certificate has no answer."""
         seconds, memory = self.limits.seconds, self.limits.memory
         if late or (code < 0 and -code == getattr(signal, "SIGXCPU", 0)):
-            return f"takes more than {seconds} s to judge; --seconds allows more"
+            return f"takes more than {seconds} s of computing time; --seconds allows more"
         how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
         return f"ends the process that judges it ({how}): {memory} MiB may be too few; --memory allows more"
 

@@ -12,6 +12,7 @@ from lyapcheck.check.refusal import plain
 class Judgement:
     """Why a certificate is refused (``reason``), or what it shows; all text but ``claim`` is safe to print.
 
+    ``spent``: judging it came to no end, so that it is neither accepted nor refused.
     ``claim`` is the id as it is written, ``label`` the same to be printed; ``label`` and ``says`` are its
     author's words, ``statement`` is rendered from data, ``shows`` lists (digest, verdict, which part) for the
     statement and the parts of it that the proof decides, ``theorems`` lists (name, where it is proved),
@@ -20,6 +21,7 @@ class Judgement:
 
     reason: str = ""
     unreadable: bool = False
+    spent: bool = False
     digest: str = ""
     claim: str = ""
     label: str = ""

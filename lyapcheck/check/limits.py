@@ -23,7 +23,7 @@ MOST = 1_000_000
 
 @dataclass(frozen=True)
 class Limits:
-    """Seconds and MiB that the process may take which judges a certificate."""
+    """Seconds of computing time and MiB that the process may take which judges a certificate."""
 
     seconds: int = 600
     memory: int = 4096

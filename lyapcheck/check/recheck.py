@@ -93,7 +93,8 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
 
     Soundness: a certificate is accepted if its own proof is, and each certificate that it uses is at hand and
     accepted, is of the claim it is used for and proves it. It is refused if one of these is known not to be
-    so, and undecided otherwise. Uses cannot go in circles: each digest is over the digests it uses.
+    so, and undecided otherwise, as it is where judging it came to no end. Uses cannot go in circles: each
+    digest is over the digests it uses.
     """
     with Guard(limits or Limits()) as guard:
         own = [_own(document, guard, full) for document in documents]
@@ -119,7 +120,7 @@ def _own(document: Document, guard: Guard, full: bool) -> Checked:
         finding = guard.judge(content(document.path), full)
     except (OSError, ValueError) as error:
         finding = replace(Judgement().refused(words(error)), unreadable=True)
-    status = "refused" if finding.reason else "accepted"
+    status = "undecided" if finding.spent else "refused" if finding.reason else "accepted"
     return Checked(document, finding, status, finding.reason, finding.grade)
 
 

@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import asdict
 from importlib import import_module
 from importlib.util import find_spec
+from math import ceil
 from pathlib import Path
 from typing import IO, Any
 
@@ -28,8 +29,6 @@ RECURSION = 6_000
 """Levels of calls: an expression may be 300 deep, and a level of it takes several calls."""
 SHARE = 8
 """A process that has come to this share of its memory is replaced, so that each certificate has its own."""
-GRACE = 5
-"""Seconds by which the limit of the system lies above that of the parent, which gives the better reason."""
 
 
 def serve(limits: Limits) -> None:
@@ -82,7 +81,7 @@ def _limit_seconds(limits: Limits) -> None:
     """The limit of the system on what this certificate may take, above what was used before."""
     if resource is not None:
         used = resource.getrusage(resource.RUSAGE_SELF)
-        _lower(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime) + limits.seconds + GRACE)
+        _lower(resource.RLIMIT_CPU, ceil(used.ru_utime + used.ru_stime) + limits.seconds)
 
 
 def _is_spent(limits: Limits) -> bool:

@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+import os
 import re
-import runpy
 import sys
 import traceback
 from collections.abc import Callable, Collection, Iterable
 from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from lyapcheck.claims.claim import Proof
 from lyapcheck.control.paper import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
+from lyapcheck.files.reader import SCRIPT, read_bytes
 
 SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py")
 """The proof scripts that come with lyapcheck."""
 
 MOST_NEAR = 8
 """How many ids are suggested for one that is only the beginning of them."""
+RUNNING = "<run_path>"
+"""The name of a script as a module, as ``runpy`` has it."""
 _IMPORTED = re.compile(r" \(/[^()]*\)$")
 
 
@@ -35,8 +38,8 @@ def find_script(name: str) -> Path:
     if path.suffix.lower() != ".py" and (path.exists() or path.suffix):
         rule = "a proof script is a Python file (.py)"
         raise InputError(Problem(name, None, "PROOF", name, rule, "give the path of a .py file"))
-    if path.is_file():
-        return path
+    if os.path.lexists(path):
+        return path  # what is no regular file is refused as what it is, where it is read
     shipped = proofs_folder() / path.name
     if path.parent in (Path(), Path("proofs")) and shipped.is_file():
         return shipped
@@ -51,7 +54,7 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
         InputError: the script has a syntax error, raises, or does not define exactly one proof.
     """
     name = shown or str(path)
-    return _only_proof(lambda: runpy.run_path(str(path)), path, name)
+    return _only_proof(lambda: _run(path, read_bytes(path, SCRIPT, name)), path, name)
 
 
 def load_library(script: str) -> Proof:
@@ -61,7 +64,7 @@ def load_library(script: str) -> Proof:
         InputError: there is no such script, or as for `load_proof`.
     """
     path = find_script(script)
-    return _only_proof(lambda: _run_once(path, path.read_bytes()), path, str(path))
+    return _only_proof(lambda: _run_once(path, read_bytes(path, SCRIPT)), path, str(path))
 
 
 def _only_proof(run: Callable[[], dict[str, Any]], path: Path, name: str) -> Proof:
@@ -89,13 +92,32 @@ def companion(script: str) -> SimpleNamespace:
         script: a path, or the name of a script that comes with lyapcheck.
     """
     path = find_script(script)
-    return SimpleNamespace(**_run_once(path, path.read_bytes()))
+    return SimpleNamespace(**_run_once(path, read_bytes(path, SCRIPT)))
 
 
 @lru_cache(maxsize=64)
-def _run_once(path: Path, _content: bytes) -> dict[str, Any]:
+def _run_once(path: Path, content: bytes) -> dict[str, Any]:
     """What a script defines; anew where its text has changed."""
-    return runpy.run_path(str(path))
+    return _run(path, content)
+
+
+def _run(path: Path, content: bytes) -> dict[str, Any]:
+    """What a script of that text defines.
+
+    It is a module while it runs: dataclasses look theirs up.
+    """
+    module = ModuleType(RUNNING)
+    module.__file__ = str(path)
+    before = sys.modules.get(RUNNING)
+    sys.modules[RUNNING] = module
+    try:
+        exec(compile(content, str(path), "exec", dont_inherit=True), vars(module))
+    finally:
+        if before is None:
+            sys.modules.pop(RUNNING, None)
+        else:
+            sys.modules[RUNNING] = before
+    return dict(vars(module))
 
 
 def line_of(error: BaseException, path: Path) -> int | None:

@@ -14,6 +14,7 @@ import sys
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.stopping import Stopping
 from lyapcheck.errors import InputError, argument_error
+from lyapcheck.libraries import missing
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 
@@ -70,6 +71,9 @@ def main() -> None:
             _tell(f"error: {problem}")
         sys.exit(Exit.USAGE)
     except Exception as error:
+        if isinstance(error, ImportError) and (lack := missing(error)) is not None:
+            _tell(f"error: {lack}")
+            sys.exit(Exit.USAGE)
         if isinstance(error, OSError) and error.filename is None and error.errno in FULL:
             _drop(sys.stdout)
             rule = f"cannot be written ({error.strerror})"

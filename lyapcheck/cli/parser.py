@@ -90,7 +90,7 @@ class Parser(argparse.ArgumentParser):
             except ValueError:
                 example = 1 if least is None else least
                 raise argument_error(option, word, f"is not {what}", f"write {option} {example}") from None
-            if least is not None and value < least:
+            if least is not None and not value >= least:  # which no NaN is
                 raise argument_error(option, word, f"must be at least {least}", f"write {option} {least}")
             if most is not None and value > most:
                 raise argument_error(option, word, f"must be at most {most}", f"write {option} {most}")

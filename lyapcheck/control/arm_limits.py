@@ -6,11 +6,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from flint import fmpq_mpoly
-
+from lyapcheck.control.gravity import RefutedBound, computed_bounds, settled
 from lyapcheck.robots import Number, RobotModel, load
-from lyapcheck.robots.chain_bounds import chain_bounds
-from lyapcheck.robots.dynamics import TooManyTerms
 
 if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
@@ -30,6 +27,9 @@ class ArmLimits:
         viscous_notes: which friction is assumed, and why.
         model: the arm itself.
         varied: whether the limits, and proofs about the arm, are to hold for all of its ranges.
+        gravity_notes: which printed bounds of gravity the model does not keep.
+        refuted: those that it breaks.
+        own: the arm as its file gives it, without ranges that are supposed beside it.
     """
 
     name: str
@@ -41,6 +41,9 @@ class ArmLimits:
     viscous_notes: tuple[str, ...] = ()
     model: RobotModel | None = field(default=None, compare=False, repr=False)
     varied: bool = False
+    gravity_notes: tuple[str, ...] = ()
+    refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
+    own: RobotModel | None = field(default=None, compare=False, repr=False)
 
     @property
     def n(self) -> int:
@@ -63,7 +66,8 @@ def varied_limits(name: str, varies: tuple[Vary, ...]) -> ArmLimits:
     Raises:
         InputError: no such arm, or a range of nothing that it has.
     """
-    nominal, result = arm_limits(name), model_limits(load(name, vary=varies))
+    nominal = arm_limits(name)
+    result = model_limits(load(name, vary=varies), nominal.model)
     asked = ", ".join(one.text for one in varies)
     pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, result.viscous_min)]
     pairs += [
@@ -86,57 +90,43 @@ def _shown(value: Fraction) -> str:
     return f"{float(value):.6g}"
 
 
-def model_limits(model: RobotModel) -> ArmLimits:
-    """The limits for all values of what is uncertain about the arm, with what they assume."""
+def model_limits(model: RobotModel, own: RobotModel | None = None) -> ArmLimits:
+    """The limits for all values of what is uncertain about the arm, with what they assume.
+
+    Args:
+        model: the arm.
+        own: the arm as its file gives it, where ranges are supposed beside it.
+    """
+    gravity = settled(model, stated_bounds(model), own or model)
     return ArmLimits(
         name=model.name,
         joints=model.joints,
         torque=tuple(None if limit is None else limit.bounds[0] for limit in model.torque_limit),
-        gravity=gravity_bounds(model),
+        gravity=gravity.bounds,
         viscous_min=min(number.bounds[0] for number in model.viscous),
         torque_notes=_assumed("torque limit", model.joints, model.torque_limit),
         viscous_notes=_assumed("friction", model.joints, model.viscous),
         model=model,
+        gravity_notes=gravity.notes,
+        refuted=gravity.refuted,
+        own=own or model,
     )
 
 
 def gravity_bounds(model: RobotModel) -> tuple[Fraction, ...]:
-    """k_gi of each joint: as the source prints it, else the smaller of two bounds.
-
-    The sum of the coefficients of g_i in size, and for a chain of links what masses and distances say.
-
-    Raises:
-        TooManyTerms: no links are known, and g is too long to be written out.
-
-    Soundness: every monomial is a product of sines and cosines, at most 1 in size, and of parameters, at
-        most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other, which grows
-        with each mass.
-    """
-    printed = [None if bound is None else bound.bounds[1] for bound in model.gravity_bound]
-    along = model.chain_bounds
-    if along is None and model.heaviest is not None:
-        along = chain_bounds(model.heaviest)
-    chain = None if along is None else along.gravity
-    try:
-        sums = tuple(_coefficient_sum(model, torque) for torque in model.gravity)
-    except TooManyTerms:
-        if chain is None:
-            raise
-        sums = chain
-    pairs = zip(printed, sums, chain or sums, strict=True)
-    return tuple(min(a, b) if bound is None else bound for bound, a, b in pairs)
+    """k_gi of each joint: as the source prints it, whatever the model says, else computed."""
+    pairs = zip(stated_bounds(model), computed_bounds(model), strict=True)
+    return tuple(own if bound is None else bound for bound, own in pairs)
 
 
-def _coefficient_sum(model: RobotModel, poly: fmpq_mpoly) -> Fraction:
-    sizes = [Fraction(1)] * (2 * model.n)
-    sizes += [max(map(abs, number.bounds)) for number in model.parameters.values()]
-    total = Fraction(0)
-    for powers, coefficient in poly.terms():
-        size = abs(Fraction(int(coefficient.p), int(coefficient.q)))
-        for base, power in zip(sizes, powers, strict=True):
-            size *= base ** int(power)
-        total += size
-    return total
+def kept_bounds(model: RobotModel) -> tuple[Fraction, ...]:
+    """k_gi of each joint: as the source prints it where the model keeps it for all of its ranges."""
+    return settled(model, stated_bounds(model), model).bounds
+
+
+def stated_bounds(model: RobotModel) -> tuple[Fraction | None, ...]:
+    """The bounds that the source of the arm prints, N·m."""
+    return tuple(None if bound is None else bound.bounds[1] for bound in model.gravity_bound)
 
 
 def _assumed(what: str, joints: tuple[str, ...], numbers: tuple[Number | None, ...]) -> tuple[str, ...]:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.control.arm_limits import ArmLimits, arm_limits
 from lyapcheck.control.gains import arm_named_in
+from lyapcheck.control.gravity import Gravity, RefutedBound, settled
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
@@ -28,6 +30,8 @@ class Limits:
         robot: the arm as it was named; empty where the gain file gives all numbers itself.
         model: the arm; ``None`` where the gain file gives all numbers itself.
         varied: whether proofs about the arm are to hold for all of its ranges, not at its nominal numbers.
+        refuted: stated bounds of gravity that the arm itself breaks, which are not among ``gravity``.
+        gravity_notes: what there is to say of ``gravity``.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -40,6 +44,8 @@ class Limits:
     robot: str = ""
     model: RobotModel | None = field(default=None, compare=False, repr=False)
     varied: bool = False
+    refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
+    gravity_notes: tuple[str, ...] = ()
 
     @property
     def n(self) -> int:
@@ -69,7 +75,12 @@ def limits_for(
     if name is None:
         if None in (bounds.torque, bounds.gravity, bounds.viscous_min):
             raise _without_arm(gain_file)
-        return Limits(bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n))
+        told = ", ".join(map(decimal_text, bounds.gravity or ()))
+        premise = (
+            f"premise: gravity exerts at most ({told}) N·m, by [bounds] gravity; no model of the arm shows it"
+        )
+        numbers = bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n)
+        return Limits(*numbers, (premise,), gravity_notes=(premise,))
     known = {} if arms is None else arms
     if name not in known:
         with arm_named_in(gain_file, robot):
@@ -78,15 +89,20 @@ def limits_for(
     if arm.n != n:
         raise _wrong_arm(gain_file, arm.name, arm.n)
     notes = (*(() if bounds.torque else arm.torque_notes), *(() if bounds.viscous_min else arm.viscous_notes))
+    gravity = Gravity(arm.gravity, arm.gravity_notes, arm.refuted)
+    if bounds.gravity is not None and arm.model is not None:
+        gravity = settled(arm.model, bounds.gravity, arm.own or arm.model)
     return Limits(
         torque=bounds.torque or arm.torque,
-        gravity=bounds.gravity or arm.gravity,
+        gravity=gravity.bounds,
         viscous_min=bounds.viscous_min or arm.viscous_min,
         joints=arm.joints,
-        assumptions=notes,
+        assumptions=(*gravity.notes, *notes),
         robot=name,
         model=arm.model,
         varied=arm.varied,
+        refuted=gravity.refuted,
+        gravity_notes=gravity.notes,
     )
 
 

@@ -113,21 +113,20 @@ def significant_up(value: Fraction, digits: int) -> Fraction:
     return math.ceil(value / unit) * unit
 
 
-def at_least(value: Fraction, digits: int) -> str:
-    """A bound from below, to so many significant digits: the decimal printed is never above it."""
-    rounded = significant_down(value, digits) if value >= 0 else -significant_up(-value, digits)
-    return f"{float(rounded):.{digits}g}"
-
-
-def at_most(value: Fraction, digits: int) -> str:
-    """A bound from above, to so many significant digits: the decimal printed is never below it."""
-    rounded = significant_up(value, digits) if value >= 0 else -significant_down(-value, digits)
-    return f"{float(rounded):.{digits}g}"
-
-
 def _last_unit(value: Fraction, digits: int) -> Fraction:
     """What the last of so many significant digits counts."""
-    return Fraction(10) ** ((math.floor(math.log10(value)) if value else 0) + 1 - digits)
+    return Fraction(10) ** ((_decimal_exponent(value) if value else 0) + 1 - digits)
+
+
+def _decimal_exponent(value: Fraction) -> int:
+    """The whole number e with 10^e ≤ value < 10^(e + 1), also of what no double holds."""
+    bits = value.numerator.bit_length() - value.denominator.bit_length()
+    result = math.floor(bits * math.log10(2))
+    while Fraction(10) ** (result + 1) <= value:
+        result += 1
+    while Fraction(10) ** result > value:
+        result -= 1
+    return result
 
 
 def decimal_text(value: Fraction | int, places: int | None = None) -> str:

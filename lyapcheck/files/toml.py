@@ -15,9 +15,7 @@ from lyapcheck.errors import InputError, Problem, file_error
 from lyapcheck.files.decimals import written
 from lyapcheck.files.place import KeyPath, Place
 from lyapcheck.files.places import places
-
-LARGEST_FILE = 20_000_000
-"""Bytes; a file of ten thousand gain sets has about two million."""
+from lyapcheck.files.reader import TOML, Bound, read_text, sayable
 
 
 @dataclass(frozen=True)
@@ -55,14 +53,14 @@ class TomlFile:
         return None if place is None else place.line
 
 
-def open_document(path: Path, shown: str | None = None) -> TomlFile:
+def open_document(path: Path, shown: str | None = None, bound: Bound = TOML) -> TomlFile:
     """Read a TOML file; ``shown`` is the name that messages use, as the user wrote it.
 
     Raises:
         InputError: no such file, not a file, too large, not UTF-8, or not TOML (with the line).
     """
-    name = _sayable(str(path) if shown is None else shown)
-    text = _text(path, name)
+    name = sayable(str(path) if shown is None else shown)
+    text = read_text(path, bound, name)
     try:
         return TomlFile(name, text, tomllib.loads(text, parse_float=written))
     except tomllib.TOMLDecodeError as error:
@@ -71,25 +69,6 @@ def open_document(path: Path, shown: str | None = None) -> TomlFile:
         raise file_error(name, "is nested too deeply", "write plain tables and lists") from None
     except ValueError:
         raise _too_long(name, text) from None
-
-
-def _text(path: Path, name: str) -> str:
-    try:
-        if path.is_dir():
-            raise file_error(name, "is a folder", "name a file in it")
-        if path.stat().st_size > LARGEST_FILE:
-            raise file_error(name, f"is larger than {LARGEST_FILE} bytes", "split it into several files")
-        return path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise file_error(name, "is not UTF-8 text", "save it as UTF-8") from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise file_error(name, f"cannot be read ({reason})", "check the path") from None
-
-
-def _sayable(name: str) -> str:
-    """A file name that can be written out, whatever bytes it has on disk."""
-    return name.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def _too_long(name: str, text: str) -> InputError:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 import lyapcheck
+from lyapcheck.computing import Spent, run_within
 from lyapcheck.errors import argument_error
+from lyapcheck.files.reader import holds
 
 PACKAGES = "coq libcoq-interval"
 QUIET = "-ambiguous-paths,-notation-overridden"
@@ -38,12 +39,16 @@ class CoqRefused(Exception):
     """What Coq says against a file."""
 
 
+class CoqUndecided(Exception):
+    """Coq has come to no end."""
+
+
 class Coq:
     """Coq with the library ``formal/`` compiled in a folder of its own.
 
     Args:
         folder: where sources and compiled files go; the library there is made anew if its sources differ.
-        seconds: the most that one file may take.
+        seconds: of computing time that one file may take; the library takes what it takes.
 
     Raises:
         InputError: there is no ``coqc``, or no CoqInterval beside it.
@@ -55,24 +60,27 @@ class Coq:
         self.printed.mkdir(parents=True, exist_ok=True)
         self._compile_library()
 
-    def accept(self, name: str, text: str, *options: str) -> str:
+    def accept(self, name: str, text: str, *options: str, limited: bool = True) -> str:
         """Write a file and have it compiled, with options of ``coqc``; what Coq prints.
 
+        ``limited``: whether it may take no longer than was said.
+
         Raises:
-            CoqRefused: Coq does not accept it, or takes too long.
+            CoqRefused: Coq does not accept it.
+            CoqUndecided: Coq takes too long.
         """
         path = self.printed / f"{name}.v"
         path.write_text(text, encoding="utf-8")
-        return self._compile(path, ("-Q", str(self.printed), "Printed", *options))
+        return self._compile(
+            path, ("-Q", str(self.printed), "Printed", *options), self.seconds if limited else None
+        )
 
-    def _compile(self, path: Path, more: tuple[str, ...] = ()) -> str:
+    def _compile(self, path: Path, more: tuple[str, ...] = (), seconds: int | None = None) -> str:
         command = [self.program, "-q", "-w", QUIET, "-R", str(self.library), LIBRARY, *more, str(path)]
         try:
-            done = subprocess.run(
-                command, capture_output=True, text=True, timeout=self.seconds, check=False, cwd=self.folder
-            )
-        except subprocess.TimeoutExpired:
-            raise CoqRefused(f"coqc takes more than {self.seconds} s") from None
+            done = run_within(command, seconds, self.folder)
+        except Spent:
+            raise CoqUndecided(f"coqc takes more than {seconds} s of computing time") from None
         if done.returncode != 0:
             raise CoqRefused(_first_error(done.stderr))
         return done.stdout
@@ -83,7 +91,7 @@ class Coq:
         for name in sources():
             text = (formal() / name).read_bytes()
             path = self.library / name
-            same = path.exists() and path.read_bytes() == text and path.with_suffix(".vo").exists()
+            same = holds(path, text) and path.with_suffix(".vo").exists()
             fresh = fresh and same  # what comes later rests on what comes before
             if fresh:
                 continue

@@ -13,7 +13,7 @@ from lyapcheck.check.files import content
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain, require
-from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, Kernel, axioms_of, golden, seconds_in
+from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, CoqUndecided, Kernel, axioms_of, golden, seconds_in
 from lyapcheck.kernel.record import GRADE
 from lyapcheck.kernel.scripts import script
 from lyapcheck.kernel.statements import shown
@@ -23,11 +23,12 @@ JOBS = 2
 COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|computed)\b")
 HEAD = f"""From Coq Require Import Floats.
 Require Import {LIBRARY}.Certificates.
+Import {LIBRARY}.GateDefinitions.
 Import {LIBRARY}.Definitions.
 Import ListNotations.
 Open Scope R_scope.
 """
-"""The page of definitions comes last: no other file's names stand before its own."""
+"""The pages of definitions come last: no other file's names stand before its own."""
 
 
 def theorem_file(certificate: Certificate) -> str:
@@ -96,6 +97,8 @@ def _compiled(one: Checked, coq: Coq, progress: Callable[[str], None]) -> Kernel
         return Kernel(one.file, False, f"there is no theorem of Coq's for {lack}")
     except CoqRefused as refusal:
         return Kernel(one.file, False, plain(f"Coq refuses it: {refusal}"))
+    except CoqUndecided as late:
+        return Kernel(one.file, False, plain(f"Coq comes to no end: {late}; --seconds allows more"))
     except (OSError, ValueError) as error:
         return Kernel(one.file, False, plain(str(error)))
     theorem = text.split("Theorem claim : ", 1)[1].split(".\nProof.", 1)[0]
@@ -118,9 +121,8 @@ def _within(modules: dict[int, str], coq: Coq, name: str) -> set[int]:
     text = "".join(f"Require Printed.{module}.\n" for module in modules.values())
     claims = ", ".join(f"Printed.{module}.claim" for module in modules.values())
     try:
-        printed = coq.accept(
-            f"axioms_{name}", f"{text}Definition all := ({claims}).\nPrint Assumptions all.\n"
-        )
+        asked = f"{text}Definition all := ({claims}).\nPrint Assumptions all.\n"
+        printed = coq.accept(f"axioms_{name}", asked, limited=False)
         if axioms_of(printed) <= golden(name):
             return set(modules)
     except CoqRefused:

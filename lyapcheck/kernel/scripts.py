@@ -19,6 +19,7 @@ from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
+from lyapcheck.check.kinds.gate_accepted import GateAccepted, GateParts
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import OfArm
@@ -30,6 +31,7 @@ from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms, property_script
+from lyapcheck.kernel.gate import gate_refutation_script, gate_script
 from lyapcheck.kernel.signs import for_small, implication
 from lyapcheck.kernel.statements import proposition
 from lyapcheck.kernel.suprema import facts
@@ -62,6 +64,8 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
         return facts(statement) + proved(statement, proof)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):
         return script(statement.parts[proof.part][1], proof.proof, verdict)
+    if isinstance(statement, GateAccepted):
+        return gate_refutation_script(statement, proof)
     return facts(statement) + _refuted(statement, proof)
 
 
@@ -94,6 +98,19 @@ def _(statement: AllOf, proof: Proof) -> str:
     return (
         "".join(f"split; [|]. {part} " for part in parts[:-1]).replace("split; [|]. ", "split. ") + parts[-1]
     )
+
+
+@proved.register
+def _(statement: Decreasing, proof: Proof) -> str:
+    return arm_script(statement, proof)
+
+
+@proved.register
+def _(statement: GateAccepted, proof: Proof) -> str:
+    stability = proof.stability if isinstance(proof, GateParts) else ()
+    each = zip(statement.stability, stability, strict=True)
+    parts = [gate_script(statement, proof), *(proved(part, own) for part, own in each)]
+    return "".join(f"split. {{ {part} }} " for part in parts[:-1]) + parts[-1]
 
 
 @proved.register

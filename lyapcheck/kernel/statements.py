@@ -21,6 +21,7 @@ from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
@@ -36,6 +37,7 @@ from lyapcheck.check.kinds.property import (
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Relation, Statement
+from lyapcheck.kernel.gate import gate_proposition, gate_refuted
 from lyapcheck.kernel.letters import every_n
 from lyapcheck.kernel.systems import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
@@ -90,6 +92,8 @@ def shown(statement: Statement, proof: Proof, verdict: str) -> str:
         return shown(statement.parts[proof.part][1], proof.proof, verdict)
     if isinstance(statement, Decreasing) and isinstance(proof, StateWitness):
         return _of_arm("falsified", statement)
+    if isinstance(statement, GateAccepted):
+        return gate_refuted(statement, proof)
     return f"~ ({proposition(statement)})"
 
 
@@ -106,6 +110,12 @@ def proposition(statement: Statement) -> str:
 @proposition.register
 def _(statement: AllOf) -> str:
     return " /\\ ".join(f"({proposition(part)})" for _, part in statement.parts)
+
+
+@proposition.register
+def _(statement: GateAccepted) -> str:
+    parts = [gate_proposition(statement), *map(proposition, statement.stability)]
+    return " /\\ ".join(f"({part})" for part in parts)
 
 
 @proposition.register

@@ -21,7 +21,7 @@ def facts(statement: Statement) -> str:
     """Bounds of the suprema γ_m, ρ_m and L_m that occur."""
     result: set[tuple[str, int]] = set()
     _collect(statement, result)
-    return "".join(_constant(name, m) for name, m in sorted(result))
+    return "".join(supremum(name, m) for name, m in sorted(result))
 
 
 def _collect(value: Any, result: set[tuple[str, int]]) -> None:
@@ -35,19 +35,19 @@ def _collect(value: Any, result: set[tuple[str, int]]) -> None:
             _collect(part, result)
 
 
-def _constant(name: str, m: int) -> str:
+def supremum(name: str, m: int) -> str:
     """That γ_m or ρ_m lies between two numbers of five digits."""
     if name not in AT:
         raise NotPrinted(f"the constant {name}_{m}")
     lower, upper, tactic = AT[name]
-    low, high = _between(name, m)
+    low, high = between(name, m)
     at = f"({lower} {m} ltac:(lia) {rational(_attained(name, m))})"
     least = f"assert (low_{name}_{m} : {rational(low)} <= {name} {m}) by "
     most = f"assert (up_{name}_{m} : {name} {m} <= {rational(high)}) by (apply {upper}; {tactic}). "
     return f"{least}(eapply Rle_trans; [|exact {at}]; numbers). {most}"
 
 
-def _between(name: str, m: int) -> tuple[Fraction, Fraction]:
+def between(name: str, m: int) -> tuple[Fraction, Fraction]:
     """Numbers of five digits on both sides of γ_m or ρ_m, not so near that intervals cannot tell."""
     known, digits = member("hyperbolic", m), 10 ** (9 if m == 1 else 5)
     value = known.gamma if name == "gamma" else known.rho

@@ -140,17 +140,18 @@ def arm(mass: Sequence[Sequence[Monomials]], viscous: Sequence[Fraction]) -> str
     n = len(mass)
     if any(len(powers) != 2 * n for row in mass for entry in row for powers, _ in entry):
         raise NotPrinted("an arm with uncertain parameters")
-    rows = [f"[{'; '.join(_entry(entry) for entry in row)}]" for row in mass]
+    rows = [f"[{'; '.join(monomials(entry) for entry in row)}]" for row in mass]
     return f"(Arm {n} [{'; '.join(rows)}] {exact_list(viscous)})"
 
 
 def any_arm(mass: Sequence[Sequence[Monomials]], parameters: Iterable[Ends]) -> str:
     """An arm of which M(q) alone is said something, and the ranges of its parameters."""
-    rows = [f"[{'; '.join(_entry(entry) for entry in row)}]" for row in mass]
+    rows = [f"[{'; '.join(monomials(entry) for entry in row)}]" for row in mass]
     ranges = (f"({exact(low)}, {exact(high)})" for low, high in parameters)
     return f"(Arm {len(mass)} [{'; '.join(rows)}] []%Q) [{'; '.join(ranges)}]"
 
 
-def _entry(terms: Monomials) -> str:
+def monomials(terms: Monomials) -> str:
+    """A polynomial as its list of monomials."""
     shown = (f"([{'; '.join(map(str, powers))}]%nat, {exact(value)})" for powers, value in terms)
     return f"[{'; '.join(shown)}]"

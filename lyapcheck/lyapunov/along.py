@@ -66,9 +66,16 @@ class AtState:
         a0, a1, a2 = self.coefficients()
         return (a1 + a2 * eps0) * eps0 - a0
 
-    def fast(self) -> list[list[Any]]:
-        """F, (n, n), with a₁ = wᵀ F w + …: what decides for fast states; not symmetric."""
-        entries, n = self._of("fast", self._terms), self.model.n
+    def fast(self, joint: int | None = None) -> list[list[Any]]:
+        """F, (n, n), with a₁ = wᵀ F w + …: what decides for fast states; not symmetric.
+
+        It is linear in h and h' together; the part that one joint has in it if that is named.
+        """
+        known, n = self._terms, self.model.n
+        if joint is not None:
+            h, d = ([0.0 * x if i != joint else x for i, x in enumerate(known[name])] for name in "hd")
+            known = known | {"h": h, "d": d, "G": self.arm.coriolis(h)}
+        entries = self._of("fast", known)
         return [entries[i * n : (i + 1) * n] for i in range(n)]
 
     def slope(self) -> list[Any]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import cache, lru_cache, partial
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -144,14 +146,25 @@ class LyapunovNumeric:
 
 def _compiled(model: Plant, family: Family, name: str) -> Loop | None:
     """The loop over states; gains, B and ε₀ are its parameters."""
-    n, (outputs, output) = model.n, OUTPUTS[name]
+    n, write = model.n, partial(formula, model, family, name)
+    return loop(question(name, model, family), (n, n, n, 3 * n + 1), OUTPUTS[name][0], write)
 
-    def formula(writer: Any, arrays: Sequence[Sequence[Any]]) -> list[Any]:
-        (q, e, w, p), of = arrays, writer.arithmetic
-        at = AtState(model, of, forms_in(family, of), q, e, w, p[:n], p[n : 2 * n], p[2 * n : 3 * n])
-        return output(at, p[3 * n])
 
-    return loop((name, arm_digest(model), family), (n, n, n, 3 * n + 1), outputs, formula)
+def formula(model: Plant, family: Family, name: str, writer: Any, inputs: Sequence[Any]) -> list[Any]:
+    """What the loop does with (q, e, w, parameters)."""
+    (q, e, w, p), of, n = inputs, writer.arithmetic, model.n
+    at = AtState(model, of, forms_in(family, of), q, e, w, p[:n], p[n : 2 * n], p[2 * n : 3 * n])
+    return OUTPUTS[name][1](at, p[3 * n])
+
+
+def question(name: str, model: Plant, family: Family) -> tuple[str, ...]:
+    """What the loops of an arm and a family depend on, a family of a user's own with its source."""
+    return name, arm_digest(model), repr(family), _source_of(type(family))
+
+
+@cache
+def _source_of(kind: type) -> str:
+    return Path(inspect.getfile(kind)).read_text(encoding="utf-8")
 
 
 @lru_cache(maxsize=256)

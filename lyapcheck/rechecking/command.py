@@ -18,8 +18,8 @@ HELP = {
     "format": "How to write it.",
     "full": "Write long statements, and what their authors say of them, whole.",
     "trusted": "Also list the rules and modules that each verdict rests on.",
-    "seconds": "The most that judging one certificate may take; past it, it is refused.",
-    "memory": "The most memory that judging one certificate may take, in MiB.",
+    "seconds": "The most computing time, in s, for one certificate; past it, it is undecided.",
+    "memory": "The most memory, in MiB, for one certificate; past it, it is undecided.",
 }
 REPAIR = "give files written with --certificates, or their folders; those of a report: certificates/*/"
 

@@ -73,9 +73,9 @@ def _certificate(one: Checked) -> Iterator[str]:
         yield f"accepted   {one.file}: {result.verdict} [{one.grade}]: {result.statement}"
     else:
         yield f"{one.status:<9}  {one.file}: {one.reason}"
-    if one.status == "undecided":
+    if one.status == "undecided" and result.statement:
         yield f"{INDENT}the statement, if the rest is shown {result.verdict}: {result.statement}"
-    if one.status != "refused":
+    if one.status != "refused" and result.statement:
         member = f" (m = {result.m})" if result.m is not None else ""
         words = f"{result.label}{member}: “{result.says}”"
         yield f"{INDENT}statement {result.statement_digest[:12]}; the author's words: {words}"

@@ -10,7 +10,7 @@ from lyapcheck.report.plain import read
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.check import ClaimResult, ProofResult
+    from lyapcheck.answers.check import ClaimResult
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,7 @@ class ClaimRow:
         witness, evidence: plain data; what else was found on the way.
         proof, title: of the script.
         details: the author's words, then what supports the verdict.
+        gains: the gain set that it is about, where it is about one.
         certificate: its path in the report; none where nothing was decided.
         rules: that accepted it.
         granted: what they take for granted.
@@ -45,17 +46,27 @@ class ClaimRow:
     proof: str
     title: str
     details: tuple[str, ...]
+    gains: str | None
     certificate: str | None
     digest: str | None
     rules: tuple[str, ...]
     granted: tuple[str, ...]
 
     @classmethod
-    def of(cls, claim: ClaimResult, result: ProofResult, path: str | None, digest: str | None) -> ClaimRow:
+    def of(
+        cls,
+        claim: ClaimResult,
+        proof: str,
+        title: str,
+        path: str | None,
+        digest: str | None,
+        gains: str | None = None,
+    ) -> ClaimRow:
         """A claim of a proof, with the path and the digest of its certificate if it has one."""
         own = {
-            "proof": result.name,
-            "title": result.title,
+            "proof": proof,
+            "title": title,
+            "gains": gains,
             "details": list(filter(None, (claim.words, *claim.support))),
             "certificate": path,
             "digest": digest,
@@ -63,6 +74,11 @@ class ClaimRow:
             "granted": claim.decision.granted,
         }
         return read(cls, claim.data() | own)
+
+    @property
+    def about(self) -> str:
+        """``tau_m1, m = 1``; the gain set and the member, where there is one."""
+        return ", ".join([*filter(None, [self.gains]), *([] if self.m is None else [f"m = {self.m}"])])
 
     @property
     def heading(self) -> str:

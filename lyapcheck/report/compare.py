@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.reader import REPORT, read_text
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
@@ -110,10 +111,11 @@ def read_report(path: Path) -> dict[str, Any]:
         InputError: it cannot be read, or is no report of a known schema.
     """
     file = path / "report.json" if path.is_dir() else path
+    text = read_text(file, REPORT)
     try:
-        result = json.loads(file.read_text(encoding="utf-8"))
+        result = json.loads(text)
         schema = result["schema"] if isinstance(result, dict) else None
-    except (OSError, ValueError, KeyError) as error:
+    except (ValueError, KeyError, RecursionError) as error:
         rule = f"cannot be read as a report ({error})"
         repair = "name a report.json, or the folder that holds it"
         raise InputError(Problem(str(file), None, "--compare", "", rule, repair)) from error
@@ -121,6 +123,12 @@ def read_report(path: Path) -> dict[str, Any]:
         rule = f"has the schema {schema!r}, known is {SCHEMAS[0]!r}"
         repair = "write the old report again with this version"
         raise InputError(Problem(str(file), None, "--compare", "", rule, repair))
+    try:
+        compare(result, result, str(file))
+    except (LookupError, TypeError, AttributeError, ValueError) as error:
+        rule = f"has other rows than a report ({type(error).__name__}: {error})"
+        repair = "name a report.json as lyapcheck report writes it"
+        raise InputError(Problem(str(file), None, "--compare", "", rule, repair)) from error
     return dict(result)
 
 
@@ -135,13 +143,21 @@ def _pairs(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> Iterator[tuple[Any
 
 
 def _verdicts(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
-    def rows(report: Mapping[str, Any]) -> dict[tuple[str, str, Any], str]:
-        every = (*report["claims"], *report["others"])
-        return {(row["proof"], row["id"], row["m"]): f"{row['verdict']} [{row['grade']}]" for row in every}
+    # a report of an older version has no gain sets in its rows
+    named = all("gains" in row for report in (old, new) for row in report["claims"])
 
-    for (proof, claim, m), was, now in _pairs(rows(old), rows(new)):
+    def rows(report: Mapping[str, Any]) -> dict[tuple[Any, ...], str]:
+        every = (*report["claims"], *report["others"])
+        return {
+            (row["proof"], row["id"], row["gains"] if named else None, row["m"]): (
+                f"{row['verdict']} [{row['grade']}]"
+            )
+            for row in every
+        }
+
+    for (proof, claim, gains, m), was, now in _pairs(rows(old), rows(new)):
         if was != now:
-            member = "" if m is None else f", m = {m}"
+            member = f", {gains}" if gains else "" if m is None else f", m = {m}"
             yield _change("claim", f"{proof}: {claim}{member}", was, now)
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.check.loop.processes import main_unnamed
-from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.computed import Computed
 from lyapcheck.report.drawings import (
     draw_comparisons,
@@ -25,7 +25,6 @@ from lyapcheck.report.drawings import (
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
 from lyapcheck.report.jobs import Done, done, gains_job, map_job, proofs_job, with_the_map
-from lyapcheck.report.model import behind
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending, work_in
 
@@ -67,12 +66,12 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         certificates |= made
     certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
     certificates |= {one.cell.path: one.certificate for one in mapped.cells if one.certificate}
-    rows = tuple(row for part in proofs.proofs for row in part.rows)
+    rows = [row for part in proofs.proofs for row in part.rows]
     if subject.own:
-        needed = {proof: _behind_own(proof, rows, notes) for proof in {row.proof for row in rows}}
-        unwanted = {row.certificate for row in rows if row.id not in needed[row.proof]}
-        rows = tuple(row for row in rows if row.id in notes.own.get(row.proof, ()))
-        certificates = {path: text for path, text in certificates.items() if path not in unwanted}
+        known = {row.certificate for row in rows}
+        rows, fresh = as_the_gate_judges(rows, gate)
+        gone = known - {row.certificate for row in rows}
+        certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
     figures |= draw_sides(proofs.small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     return Computed(
         claims=tuple(row for row in rows if row.proof == "published"),
@@ -86,12 +85,6 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         certificates=certificates,
         packages=tuple(sorted(frozenset[str]().union(*(job.result().packages for job in jobs.labels)))),
     )
-
-
-def _behind_own(proof: str, rows: Sequence[ClaimRow], notes: Notes) -> set[str]:
-    """The claims that a report on an arm of one's own has, and all that they rest on."""
-    own = [row for row in rows if row.proof == proof]
-    return set().union(*(behind(name, own) for name in notes.own.get(proof, ())))
 
 
 @dataclass(frozen=True)

@@ -152,7 +152,7 @@ def _claims(report: Report) -> Iterator[Section]:
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
             shown = ", ".join(
-                f"{SYMBOLS[row.verdict]} {row.verdict}" + (f" (m = {row.m})" if row.m else "")
+                f"{SYMBOLS[row.verdict]} {row.verdict}" + (f" ({row.about})" if row.about else "")
                 for row in result
             )
             if len({row.verdict for row in result}) == 1:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.files.decimals import at_least
+from lyapcheck.output.digits import at_least
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.plain import read
 

@@ -5,21 +5,23 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.files.decimals import at_least, at_most
+from lyapcheck.errors import InputError
+from lyapcheck.files.names import file_stem
+from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.gain_rows import BOTH_ENDS, EpsilonRow, RunRow
+from lyapcheck.report.gain_rows import BOTH_ENDS, KINDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
-    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.report.gain_map import JudgedCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
@@ -79,20 +81,54 @@ def done(work: Callable[..., Any], *arguments: Any) -> Done:
     return Done(result, frozenset(name for name in BEHIND if MODULES.get(name, name) in sys.modules))
 
 
-def _claims(proof: str, ms: Sequence[int], robot: str, gains: str, only: Sequence[str] = ()) -> ProofData:
-    """The claims of a proof, with what their verdicts rest on."""
+def _claims(
+    proof: str, ms: Sequence[int], robot: str, gains: GainFile, only: Sequence[str] = (), more: bool = False
+) -> ProofData:
+    """The claims of a proof, with what their verdicts rest on.
+
+    Args:
+        proof: the script.
+        ms: the members.
+        robot: the arm.
+        gains: with the gain set of each m first.
+        only: the claims wanted; all if empty.
+        more: whether only those about gains are, as the others are known.
+    """
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.certificates import file_name
 
     result = run_proof(proof, ms, robot, None, gains, only)
-    rows = []
+    names = {one.m: one.name for one in reversed(gains.gains) if one.m is not None}
+    stems = {own: own for own in result.certificates}
+    if more:
+        each = {file_name(claim, m): names[m] for claim in result.about_gains for m in ms}
+        stems = {own: f"{file_stem(name)}.{own}" for own, name in each.items() if own in stems}
+    paths, rows = {own: f"certificates/{result.name}/{stem}" for own, stem in stems.items()}, []
     for row in result.claims:
-        own = file_name(row.id, row.m)
-        certificate = result.certificates.get(own)
-        path = f"certificates/{result.name}/{own}" if certificate else None
-        rows.append(ClaimRow.of(row, result, path, certificate.digest if certificate else None))
-    files = {f"certificates/{result.name}/{own}": one.text() for own, one in result.certificates.items()}
-    return ProofData(tuple(rows), files)
+        name = names.get(row.m) if row.m is not None and row.id in result.about_gains else None
+        if name is None and more:
+            continue
+        certificate = result.certificates.get(own := file_name(row.id, row.m))
+        digest = certificate.digest if certificate else None
+        rows.append(ClaimRow.of(row, result.name, result.title, paths.get(own), digest, name))
+    return ProofData(tuple(rows), {path: result.certificates[own].text() for own, path in paths.items()})
+
+
+def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only: Sequence[str]) -> ProofData:
+    """Some claims of a proof; those about gains for each gain set of an m, one set of each m at a time."""
+    left = [one for one in gains.gains if one.m in ms]
+    rows: list[ClaimRow] = []
+    certificates: dict[str, str] = {}
+    while left or not rows:
+        turn = list({one.m: one for one in reversed(left)}.values())[::-1]
+        left = [one for one in left if one not in turn]
+        asked = ms if not rows else [one.m for one in turn if one.m is not None]
+        file = replace(gains, gains=tuple(turn) or gains.gains)
+        part = _claims(proof, asked, robot, file, only, more=bool(rows))
+        rows += part.rows
+        certificates |= part.certificates
+    order = list(dict.fromkeys(row.id for row in rows))
+    return ProofData(tuple(sorted(rows, key=lambda row: order.index(row.id))), certificates)
 
 
 @dataclass(frozen=True)
@@ -114,16 +150,16 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
-    wanted_of = {PROOF: (), **OTHERS}
-    chosen = [proof for proof in wanted_of if not own or Path(proof).stem in notes.own]
-    proofs = tuple(_claims(proof, ms, robot, gains, wanted_of[proof]) for proof in chosen)
+    wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
     if own:
-        return ProofsData(proofs, {})
+        chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
+        return ProofsData(tuple(_own_claims(proof, ms, robot, file, only) for proof, only in chosen), {})
+    proofs = tuple(_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items())
     wanted: dict[str, list[int]] = {}
     for row in proofs[0].rows:
         if row.verdict == "refuted" and row.section.startswith(CHAIN):
             wanted.setdefault(row.id, []).extend([] if row.m is None else [row.m])
-    sets = {one.m: one for one in read_gain_file(gains).gains if one.m is not None and one.m in ms}
+    sets = {one.m: one for one in file.gains if one.m is not None and one.m in ms}
     for note in notes.findings:
         if note.ask and sets and not wanted.keys() & set(note.claims):
             wanted |= {name: [note.ask["m"]] for name in note.claims}
@@ -158,6 +194,13 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
     from lyapcheck.answers.epsilon.kept import kept_epsilon
     from lyapcheck.answers.epsilon.options import Options
 
+    if lacking := without_friction(gain_set, model):
+        blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(EpsilonRow))
+        blank |= {"name": gain_set.name, "m": gain_set.m, "robot": model.name, "seed": seed, "boxes": BOXES}
+        reasons = dict.fromkeys(KINDS, lacking)
+        return EpsilonRow(
+            **blank | {"assumptions": model.assumptions, "reasons": reasons, "certificates": {}}
+        ), {}
     result = kept_epsilon(gain_set, model, Options(max_boxes=BOXES, seed=seed))
     low, high = rounded(result.certified, up=False), rounded(result.falsified, up=True)
     files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
@@ -178,6 +221,17 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
         certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS},
     )
     return replace(row, reasons={k: text for k, text in row.reasons.items() if row.eps0(k) is None}), files
+
+
+def without_friction(gain_set: GainSet, model: RobotModel) -> str:
+    """Why no ε₀ is certified on an arm that lacks friction; empty where it has some, or h is unbounded."""
+    from lyapcheck.search.controlled_arm import ControlledArm
+
+    try:
+        ControlledArm(gain_set, model).require_friction()
+    except InputError as refused:
+        return f"{model.name} {refused.problems[0].rule}"
+    return ""
 
 
 def rounded(value: Fraction | None, up: bool) -> str | None:
@@ -221,6 +275,7 @@ def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:
 
     model = load(robot)
     with each_once():
+        sets = {m: one for m, one in sets.items() if not without_friction(one, model)}
         cells = gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
         return MapData(cells, for_the_sets(cells, sets))
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.report.claim_row import ClaimRow
 
 if TYPE_CHECKING:
@@ -175,3 +176,9 @@ def behind(claim: str, rows: Iterable[ClaimRow]) -> set[str]:
 def applies(result: GateResult) -> bool:
     """Whether the conditions of the gate are about gains at all: without γ they have no limit."""
     return any(check.limit is not None for check in result.checks)
+
+
+def keeps_limits(result: GateResult) -> bool:
+    """Whether no motor saturates at any state: (11), of which stability is proved, knows no limit."""
+    bounds_hold = result.verdict_of(("gravity",)) != REJECTED
+    return bounds_hold and ACCEPTED in (result.verdict_of(("10p",)), result.verdict_of(("10i",)))

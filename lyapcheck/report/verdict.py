@@ -13,7 +13,7 @@ from lyapcheck.answers.gate.judge import GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import BOUNDS, CLASS
-from lyapcheck.report.model import Report, applies, behind
+from lyapcheck.report.model import Report, applies, behind, keeps_limits
 from lyapcheck.report.notes import Box
 from lyapcheck.report.text import and_list
 
@@ -160,20 +160,28 @@ def _gains(report: Report) -> tuple[str, ...]:
     parts = []
     if passed:
         parts.append(f"{_named(passed)} meet{'s' if len(passed) == 1 else ''} (10p) and (19)")
-    if failed:
-        ids = (check.id for result in failed for check in result.failures)
-        broken = and_list([f"({one})" for one in dict.fromkeys(ids)])
-        parts.append(f"{_named(failed)} break{'s' if len(failed) == 1 else ''} {broken}")
+    broken: dict[str, list[GateResult]] = {}
+    for result in failed:
+        ids = dict.fromkeys(f"({check.id})" for check in result.failures if check.verdict == REJECTED)
+        broken.setdefault(and_list(list(ids)), []).append(result)
+    for ids_words, rows in broken.items():
+        parts.append(f"{_named(rows)} break{'s' if len(rows) == 1 else ''} {ids_words}")
     if not parts:
         return ()
-    stable = {row.name for row in report.epsilon if row.certified}
-    proved = [row.name for row in judged if row.name in stable]
+    certified = [row for row in judged if row.name in {one.name for one in report.epsilon if one.certified}]
+    proved = [row.name for row in certified if keeps_limits(row)]
+    limitless = [row.name for row in certified if not keeps_limits(row)]
     tail = ""
     if proved and len(proved) == len(judged):
         tail = "; dV/dt < 0 at every state is proved for " + ("it" if len(proved) == 1 else "all of them")
         tail += " on this arm" if report.own else ", so all are stable all the same" if failed else ""
     elif proved:
         tail = f"; dV/dt < 0 at every state is proved for {and_list(proved)}"
+    if limitless:
+        what = "it is" if proved else "dV/dt < 0 at every state is"
+        tail += (
+            f"; of {and_list(limitless)} {what} proved for motors without a limit, and theirs may saturate"
+        )
     rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""
     subject = "" if report.own else "Gains of Table 2: "
     return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
@@ -191,6 +199,7 @@ def _of_gains(row: GateResult, report: Report) -> Badge:
     if not applies(row):
         return Badge(row.name, "conditions do not apply", "open")
     eps0 = next((one.certified for one in report.epsilon if one.name == row.name), None)
-    stable = ", proved stable" if eps0 else ""
-    tones = {ACCEPTED: "good", REJECTED: "warn" if eps0 else "bad"}
+    proved = eps0 is not None and keeps_limits(row)
+    stable = ", proved stable" if proved else ""
+    tones = {ACCEPTED: "good", REJECTED: "warn" if proved else "bad"}
     return Badge(row.name, f"{row.verdict}{stable}", tones.get(row.verdict, "open"))

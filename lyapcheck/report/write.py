@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from lyapcheck.errors import argument_error
+from lyapcheck.files.reader import holds
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.shell import redirect
@@ -73,7 +74,7 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         encoded = {name: one if isinstance(one, bytes) else one.encode() for name, one in files.items()}
-        fresh = {name: content for name, content in encoded.items() if not _holds(folder / name, content)}
+        fresh = {name: content for name, content in encoded.items() if not holds(folder / name, content)}
         staged = Path(tempfile.mkdtemp(dir=folder, prefix=".writing-"))
         with pending(staged):
             for name, content in fresh.items():
@@ -88,7 +89,3 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     finally:
         if staged is not None:
             shutil.rmtree(staged, ignore_errors=True)
-
-
-def _holds(path: Path, content: bytes) -> bool:
-    return path.is_file() and path.read_bytes() == content

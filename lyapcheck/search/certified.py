@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from time import monotonic
 
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.proof import MOST_CENTRED
+from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
@@ -69,7 +69,7 @@ def certified_epsilon(
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: the budget of all attempts together.
         jobs: processes that share the boxes, of the search and of the checker; they change no answer.
-        seconds: no new boxes are looked at after that time; the answer then depends on the machine.
+        seconds: of computing time, after which no new boxes are looked at; the answer depends on the machine.
         on_progress: receives the share of the attempts done.
 
     Returns:
@@ -81,10 +81,10 @@ def certified_epsilon(
         return CertifiedEpsilon(None, 0, _UNBOUNDED)
     progress = on_progress or silent
     if controlled.n > FEW_JOINTS:
-        deadline = monotonic() + (math.inf if seconds is None else seconds)
+        deadline = computing_time() + (math.inf if seconds is None else seconds)
         return CertifiedEpsilon(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
     search = _Search(controlled, ceiling, progress)
-    began, seconds = monotonic(), math.inf if seconds is None else seconds
+    began, seconds = computing_time(), math.inf if seconds is None else seconds
     with boxes_shared(jobs):
         # no more than half of everything for what may be too much
         first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
@@ -116,7 +116,7 @@ def linked_otherwise(
         ceiling: an ε₀ that is known to fail.
         boxes: what was proved without.
         max_boxes: of errors e alone, of all attempts together.
-        seconds: no attempt begins after that time.
+        seconds: of computing time, after which no attempt begins.
         on_progress: receives the share of the attempts done.
 
     Soundness: as for `certified_epsilon`.
@@ -124,7 +124,7 @@ def linked_otherwise(
     near = boxes.eps0 is not None and boxes.eps0 >= ENOUGH * ceiling
     if near or max_boxes <= 0 or not links_follow(controlled):
         return boxes
-    deadline = monotonic() + (math.inf if seconds is None else seconds)
+    deadline = computing_time() + (math.inf if seconds is None else seconds)
     found = linked_epsilon(controlled, ceiling, max_boxes, deadline, on_progress or silent)
     result, looked_at = CertifiedEpsilon(*found), boxes.looked_at + found[1]
     if (result.eps0 or 0) > (boxes.eps0 or 0):

@@ -8,8 +8,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.inertia import Bisection, Links
@@ -19,9 +17,7 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, terms
 from lyapcheck.search.inertia import mass_of, mass_proof, remember
@@ -29,6 +25,8 @@ from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.lyapunov.numeric import LyapunovNumeric
+    from lyapcheck.robots.numeric import NumericModel
     from lyapcheck.search.proof import RateData
 
 
@@ -83,11 +81,15 @@ class ControlledArm:
     @cached_property
     def numeric(self) -> NumericModel:
         """The arm in NumPy."""
+        from lyapcheck.robots.numeric import NumericModel
+
         return NumericModel(self.model)
 
     @cached_property
     def lyapunov(self) -> LyapunovNumeric:
         """V and dV/dt in floating point, with ε₀ = 0."""
+        from lyapcheck.lyapunov.numeric import LyapunovNumeric
+
         return LyapunovNumeric(self.model, self.family, list(self.kp), list(self.kv))
 
     @cached_property
@@ -177,5 +179,7 @@ class ControlledArm:
         return DecreaseProof(loop, by, self.inertia_proof)
 
     def _doubles(self, gains: tuple[Fraction, ...]) -> Array:
+        import numpy as np
+
         unit = math.degrees(1.0) if self.per_degree else 1.0
         return np.array([float(gain) * unit for gain in gains])

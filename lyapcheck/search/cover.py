@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from time import monotonic
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress
+from lyapcheck.computing import computing_time
 from lyapcheck.search.cuts import Boxes, Branches, Indices, Nodes, halve
 
 Prover = Callable[[Boxes], NDArray[np.bool_]]
@@ -64,7 +64,7 @@ class SharedSearch(Protocol):
         """How many they are dealt out to."""
 
     def below(self, hands: Sequence[Boxes], most: int, seconds: float) -> Iterator[Branches]:
-        """What is below each hand, as far as that many boxes and seconds lead."""
+        """What is below each hand, as far as that many boxes and seconds of computing time for all lead."""
 
 
 @dataclass
@@ -121,7 +121,7 @@ def cover(
         choose: the side of each box that should be halved.
         max_boxes: how many boxes may be looked at.
         on_progress: receives the share of the volume decided.
-        deadline: by the monotonic clock, s; the search gives up after it.
+        deadline: by the computing time of `lyapcheck.computing`, s; the search gives up after it.
         share: has others look at what lies below the boxes of a level.
         worth: how many boxes of a level are left to them, more than ``FEW``.
 
@@ -160,7 +160,7 @@ def _shared(
     most = 5 * (max_boxes - seen) // (4 * share.hands)
     while True:
         asked = [hand for hand in hands if hand.open]
-        parts = share.below([hand.boxes for hand in asked], most, deadline - monotonic())
+        parts = share.below([hand.boxes for hand in asked], most, deadline - computing_time())
         for hand, part in zip(asked, parts, strict=True):
             hand.take(part, nodes)
             total = seen + sum(sum(one.levels) for one in hands)
@@ -202,7 +202,7 @@ def explored(
         prove: see ``cover``, as for the rest.
         choose: the sides.
         most: a level that would make them more boxes than that is left waiting.
-        deadline: by the monotonic clock, s.
+        deadline: by the computing time of `lyapcheck.computing`, s.
         on_progress: receives the share of the volume decided.
         few: whether no level so far had more than ``FEW`` boxes.
         worth: a level of so many boxes is left waiting as well.
@@ -213,7 +213,7 @@ def explored(
     while len(boxes):
         if len(boxes) >= worth or sum(levels) + len(boxes) > most:
             return Branches(levels, nodes.parts, waiting=(boxes, names))
-        if monotonic() > deadline:
+        if computing_time() > deadline:
             return Branches(levels, nodes.parts, late=True)
         levels.append(len(boxes))
         few = few and len(boxes) <= FEW

@@ -9,12 +9,12 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from time import monotonic
 
 import numpy as np
 
 from lyapcheck._types import Progress
 from lyapcheck.check.kinds.link_bounds import LinkBounds
+from lyapcheck.computing import computing_time
 from lyapcheck.constants.storage.problem import energy_problem, rate_problem
 from lyapcheck.constants.storage.program import propose
 from lyapcheck.constants.storage.rates import prices_shown
@@ -49,7 +49,7 @@ def linked_epsilon(
         controlled: gains and arm.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: budget of all attempts together.
-        deadline: by the monotonic clock, s; no attempt begins after it.
+        deadline: by the computing time of `lyapcheck.computing`, s; no attempt begins after it.
         progress: receives the share of the attempts done.
 
     Soundness: every proof has been accepted by ``lyapcheck.check.verify``.
@@ -68,7 +68,7 @@ def linked_epsilon(
         share = shares.pop(0)
         progress(0.9 * float(share), f"{float(share):.1%} of falsified")
         loop = controlled.loop(Fraction(f"{float(ceiling * share):.6g}"))
-        if monotonic() > deadline:
+        if computing_time() > deadline:
             reason = "the time is up: allow more seconds"
             break
         if not loop.admissible:

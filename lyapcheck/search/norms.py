@@ -43,16 +43,15 @@ def norm_epsilon(
 
 
 def norm_proof(
-    loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners, *, conic: bool = True
+    loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners
 ) -> tuple[DecreaseProof | None, str]:
     """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
 
     Args:
         loop: the loop.
         inertia: what shows M(q) ≻ 0.
-        conic: propose ε₀ by the conic program, and not by bisection, which loads nothing.
     """
-    result = scalar_epsilon(loop.tail, conic=conic)
+    result = scalar_epsilon(loop.tail)
     if result.eps0 is None:
         return None, result.reason
     return DecreaseProof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""

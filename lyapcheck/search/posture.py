@@ -5,12 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness
 from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.libraries import installed
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
@@ -35,7 +34,14 @@ def unphysical(controlled: ControlledArm) -> str:
 def _against(
     controlled: ControlledArm, parameters: tuple[tuple[Fraction, Fraction], ...]
 ) -> PostureWitness | None:
-    """The nominal arm where M(q) is the least of many postures; ``None`` where that is positive."""
+    """The nominal arm where M(q) is the least of many postures; ``None`` where that is positive.
+
+    None is looked for without NumPy.
+    """
+    if not installed("numpy"):
+        return None
+    import numpy as np
+
     q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (POSTURES, controlled.n))
     q = np.round(q, DIGITS)
     sizes, vectors = np.linalg.eigh(controlled.numeric.mass(q))

@@ -76,7 +76,7 @@ def fastest_directions(controlled: ControlledArm, q: Array, e: Array) -> tuple[A
 
     with B replaced by B + K_v for the linear function; directions are of unit length.
     """
-    symmetric = _fast(controlled.lyapunov.at_columns(q, e, np.zeros_like(e)))
+    symmetric = _symmetric(controlled.lyapunov.at_columns(q, e, np.zeros_like(e)))
     scale = 1 / np.sqrt(controlled.fast_damping)
     values, vectors = np.linalg.eigh(symmetric * scale[:, None] * scale)
     directions = vectors[:, :, -1] * scale
@@ -136,7 +136,7 @@ def worst_rates(controlled: ControlledArm, states: States) -> States:
     eps0 = 1 / np.maximum(now, slowest)
     at = controlled.lyapunov.at_columns(states.q, states.e, states.w)
     damping = controlled.viscous + controlled.kv * controlled.family.secant(states.w)
-    Y = damping[:, :, None] * np.eye(controlled.n) - eps0[:, None, None] * _fast(at)
+    Y = damping[:, :, None] * np.eye(controlled.n) - eps0[:, None, None] * _symmetric(at)
     near = (eps0 * at.near)[:, None] * damping * _rows(at.h, len(now))
     middle = (near + (eps0 * eps0)[:, None] * _rows(at.slope(), len(now))) / 2
     safe = np.abs(np.linalg.det(Y)) > 1e-12
@@ -177,10 +177,14 @@ def size(controlled: ControlledArm, eps0: float, states: States) -> Array:
     return np.asarray(eps0 * near * np.sum(h * h, axis=1) + np.sum(states.w * states.w, axis=1))
 
 
-def _fast(at: AtState) -> Array:
-    """sym F of each state, (count, n, n)."""
+def fast(at: AtState, joint: int | None = None) -> Array:
+    """F of each state, (count, n, n); of h(e) with all but one joint left out if that is named."""
     count = np.size(at.near)
-    rows = np.stack([_rows(row, count) for row in at.fast()], axis=1)
+    return np.stack([_rows(row, count) for row in at.fast(joint)], axis=1)
+
+
+def _symmetric(at: AtState) -> Array:
+    rows = fast(at)
     return (rows + np.swapaxes(rows, 1, 2)) / 2
 
 

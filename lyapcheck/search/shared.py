@@ -15,11 +15,11 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from multiprocessing import get_context
-from time import monotonic
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.processes import main_unnamed
+from lyapcheck.computing import computing_time
 from lyapcheck.search.centred import judge_of
 from lyapcheck.search.cover import Chooser, Prover, SharedSearch, explored
 from lyapcheck.search.cuts import Branches
@@ -72,7 +72,7 @@ class LoopShare:
 
     def below(self, hands: Sequence[Array], most: int, seconds: float) -> Iterator[Branches]:
         """What is below each hand."""
-        return self.sharing.submit(self.loop, hands, most, seconds)
+        return self.sharing.submit(self.loop, hands, most, seconds / len(hands))
 
 
 _SHARING: ContextVar[Sharing | None] = ContextVar("sharing", default=None)
@@ -102,9 +102,9 @@ def share_of(loop: ClosedLoop) -> SharedSearch | None:
 
 
 def branches_of(loop: ClosedLoop, boxes: Array, most: int, seconds: float) -> Branches:
-    """What is found below some boxes of a closed loop, in another process."""
+    """What is found below some boxes of a closed loop, in another process that computes so many seconds."""
     prove, choose = _judge(loop)
-    deadline = math.inf if math.isinf(seconds) else monotonic() + seconds
+    deadline = math.inf if math.isinf(seconds) else computing_time() + seconds
     return explored(boxes, prove, choose, most, deadline, few=False)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 
+from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.simulate.compiled import Compiled
 from lyapcheck.simulate.gains import Gains
 
@@ -55,18 +56,10 @@ def closed_loop(gains: Gains, model: RobotModel) -> LoopDynamics:
 
     References: (6), (11) of ``reyes2019family``.
     """
-    from lyapcheck.robots import graph
-
     n = model.n
     state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("q_d", n)
     q, w = state[:n], state[n : 2 * n]
-    e = goal - q
-    at_e = gains.family.casadi(e)
-    spring = ca.DM(gains.kp) * at_e.h
-    damper = ca.DM(gains.kv) * gains.family.casadi(w).h
-    friction = graph.viscous(model) @ w
-    mass = graph.mass(model, q)
-    acceleration = graph.solve(mass, spring - damper - friction - graph.coriolis(model, q, w) @ w)
-    rate = ca.vertcat(w, acceleration, ca.dot(w, friction + damper), ca.dot(e, e))
-    energy = ca.dot(w, mass @ w) / 2 + ca.dot(ca.DM(gains.kp), at_e.potential)
-    return LoopDynamics(n, state, goal, rate, spring - damper + graph.gravity(model, q), energy)
+    e, gain = goal - q, (ca.DM(gains.kp), ca.DM(gains.kv))
+    at = at_symbols(model, q, e, w, *gain, gains.family.casadi)
+    rate = ca.vertcat(w, *at.acceleration(), at.damping(), ca.dot(e, e))
+    return LoopDynamics(n, state, goal, rate, ca.vertcat(*at.torque()), at.value(0.0))

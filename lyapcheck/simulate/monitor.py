@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.control.arm_limits import gravity_bounds
+from lyapcheck.control.arm_limits import kept_bounds
 from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.run import Promises
 
@@ -64,7 +64,7 @@ def torque_bound(gains: Gains, model: RobotModel) -> float | None:
     gamma = gains.family.constants().gamma
     if gamma is None:
         return None
-    gravity = math.hypot(*map(float, gravity_bounds(model)))
+    gravity = math.hypot(*map(float, kept_bounds(model)))
     return math.sqrt(model.n) * gamma.float_upper * (max(gains.kp) + max(gains.kv)) + gravity
 
 
@@ -76,5 +76,5 @@ def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
     gamma = gains.family.constants().gamma
     if gamma is None:
         return None
-    rows = zip(gains.kp, gains.kv, gravity_bounds(model), strict=True)
+    rows = zip(gains.kp, gains.kv, kept_bounds(model), strict=True)
     return tuple(gamma.float_upper * (p + v) + float(weight) for p, v, weight in rows)

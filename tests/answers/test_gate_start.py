@@ -82,7 +82,7 @@ def test_the_summary_of_a_job_is_added_to(monkeypatch: pytest.MonkeyPatch, tmp_p
     show(answer, "github")
     text = path.read_text()
     assert text.startswith("before\n# ✗ 2 break (19), stability proved otherwise; 1 accepted")
-    assert "## ✓ tau_m1" in text
+    assert "## \\! tau_m1" in text
     show(answer, "text")
     assert path.read_text() == text
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "none" / "summary.md"))

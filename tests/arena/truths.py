@@ -34,6 +34,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, Sta
 from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall, SmallWitness
+from lyapcheck.check.kinds.gate_accepted import BrokenCondition, GateAccepted, GateParts, SaturatingState
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
@@ -475,7 +476,63 @@ def on_states() -> dict[str, Case]:
     }
 
 
-CASES = on_points() | on_entries() | on_small_values() | on_postures() | on_states()
+GATE = GateAccepted(
+    joints=1,
+    gravity=((((1, 0, 1), F(1)),),),
+    potential=(((0, 1, 1), F(-1)),),
+    parameters=((F(1), F(2)),),
+    k_g=(F(2),),
+    viscous=((F(2), F(3)),),
+    limits=(F(10),),
+    family="hyperbolic",
+    m=1,
+    kp=(F(5),),
+    kv=(F(1),),
+    conditions=("10", "10p", "10i", "19"),
+    stability=(MassAbove(((UNIT,),), (), F(0)),),
+)
+"""g = p sin q, p in [1, 2]."""
+PASSED = GateParts((HarmonicSizes(),), 30, (Bisection(),))
+
+
+def on_gates() -> dict[str, Case]:
+    """Gains on one joint with a motor."""
+    side, heavy = SaturatingState(0, (F(1),), (F(2),), F(20)), SaturatingState(0, (F(1),), (F(9),), F(20))
+    broken = BrokenCondition("19", 0, 30)
+    rubbed = replace(GATE, viscous=((F(1, 2), F(3)),))
+    tight = replace(GATE, kv=(F(19, 10),))
+    return {
+        "the limit of a motor": (GATE, replace(GATE, limits=(F(7),)), side),
+        "the range of gravity": (GATE, replace(GATE, parameters=((F(1), F(9)),)), heavy),
+        "the stiffness of the gate": (GATE, replace(GATE, kp=(F(9),)), side),
+        "the other side": (
+            GATE,
+            replace(GATE, limits=(F(7),)),
+            replace(side, turns=(F(3),), x=F(-20)),
+        ),
+        "what is asked of a motor": (
+            replace(GATE, limits=(F(7),), conditions=("19",)),
+            replace(GATE, limits=(F(7),), conditions=("10i", "19")),
+            side,
+        ),
+        "the friction of the gate": (GATE, rubbed, broken),
+        "a condition that is asked": (replace(rubbed, conditions=("10i",)), rubbed, broken),
+        "the function of the gate": (tight, replace(tight, m=3), broken),
+        "k_g in a condition": (GATE, replace(GATE, k_g=(F(5),)), BrokenCondition("10p", 0, 30)),
+        "the norm of a limit": (GATE, replace(GATE, limits=(F(15, 2),)), BrokenCondition("10", 0, 30)),
+    }
+
+
+def broken_gates() -> Iterator[tuple[str, Statement, Proof]]:
+    """False verdicts of the gate, each with the proof of the true one."""
+    yield "k_g", replace(GATE, k_g=(F(3, 2),)), PASSED
+    yield "equality", replace(GATE, limits=(F(8),)), PASSED
+    yield "potential", replace(GATE, potential=(((0, 1, 1), F(1)),)), PASSED
+    yield "no-proof", GATE, replace(PASSED, gravity=())
+    yield "no-stability", GATE, replace(PASSED, stability=())
+
+
+CASES = on_points() | on_entries() | on_small_values() | on_postures() | on_states() | on_gates()
 
 
 Part = tuple[Statement, Proof]
@@ -544,6 +601,11 @@ def good() -> Iterator[tuple[str, Statement, Proof]]:
         "linked": ((ChainAbove(LINKS, F(0)), OwnMoments()), identity),
     }.items():
         yield f"arm-{name}", *together(*parts)
+    yield "gate", GATE, PASSED
+    yield "gate-premise", replace(GATE, gravity=(), potential=()), replace(PASSED, gravity=())
+    for name in ("the limit of a motor", "the friction of the gate"):
+        _, false, proof = on_gates()[name]
+        yield f"gate-{plain(name)}", false, proof
 
 
 def certified(name: str, statement: Statement, proof: Proof, verdict: str, grade: str) -> bytes:
@@ -562,6 +624,11 @@ def main() -> None:
     for name, (true, false, proof) in CASES.items():
         content = certified(name, true, proof, "refuted", verify(false, proof).grade)
         arena.add(f"bad/true.tru.{plain(name)}.json", content, ["refused"], f"true because of {name}")
+    for name, statement, proof in broken_gates():
+        content = certified(name, statement, proof, "proved", "exact")
+        arena.add(
+            f"bad/false.tru.gate-{name}.json", content, ["refused"], f"a false verdict of the gate: {name}"
+        )
     for name, parts in arms().items():
         grade = weakest(verify(*part).grade for part in parts)
         content = certified(name, *together(*parts), "proved", grade)

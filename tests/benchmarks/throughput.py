@@ -19,7 +19,7 @@ from lyapcheck import (
     read_gain_file,
 )
 
-from . import generated_c
+from . import generated_c, same_statements
 from .by_hand import rates_loop
 from .measure import Disagreement, states_per_second
 from .results import RateResult
@@ -142,6 +142,9 @@ def _numba(function: str, item: GainSet, robot: str, states: tuple[Any, ...]) ->
         values, rates = rates_numba.loops(robot, MEMBER, kp, kv, EPS0)
         call = values if function == "V" else rates
         yield Way("numba, parallel, fastmath", len(states[0]), lambda: call(*states))
+        kept, _ = _numeric(item, robot, len(states[0]))
+        same = same_statements.numba_loop(kept, "value" if function == "V" else "rate")
+        yield Way("numba, the same statements", len(states[0]), lambda: same(*states))
 
 
 def _loop(function: str, item: GainSet, robot: str) -> Callable[..., Any]:

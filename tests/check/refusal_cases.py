@@ -24,6 +24,26 @@ Z_A_Y = ["dot", ["vec", "z"], ["apply", ["mat", "A"], ["vec", "y"]]]
 Y_A_Z = ["dot", ["vec", "y"], ["apply", ["mat", "A"], ["vec", "z"]]]
 
 
+SATURATED, BROKEN = "gate-the-limit-of-a-motor.tru", "gate-the-friction-of-the-gate.tru"
+GATE: list[tuple[str, Any, str]] = [
+    ("joints", 0, "must be from 1"),
+    ("kp", ["1", "1"], "one a joint"),
+    ("kv", ["0"], "must be positive"),
+    ("k_g", ["-1"], "must not be negative"),
+    ("viscous", [["3", "2"]], "must be ranges from 0 on"),
+    ("conditions", ["19", "10"], "must be some, in order"),
+    ("limits", [None], "must be known where a condition needs them"),
+    ("gravity", [], "must be empty without gravity"),
+    ("gravity", [[], []], "one a joint"),
+    ("stability", [{"kind": "AllOf", "parts": []}], "is not about this arm and loop"),
+]
+AT_STATES: list[tuple[str, Any, str]] = [
+    ("joint", 1, "must be from 0 to 0"),
+    ("x", "1000000001", "must be from −"),
+    ("x", "0", "is not shown to exceed"),
+]
+
+
 def base(name: str) -> Document:
     """A good certificate of the arena; of one with premises the first."""
     path = ARENA / "good" / f"{name}.json"
@@ -429,5 +449,14 @@ CASES: list[tuple[str, Edits | Changed, str]] = [
     ),
     (CASCADE, state_changed_too, "must be of w alone"),
     (FREE, one_change_more("zz"), "is no state"),
+    *(("gate.tru", [((S, name), value)], words) for name, value, words in GATE),
+    ("gate.tru", [((P, "digits"), 0)], "must be from 1 to 1000"),
+    ("gate.tru", [((S, "limits"), ["7"])], "is not shown to hold"),
+    ("gate.tru", [((P, "gravity"), [])], "must be one a part"),
+    ("gate.tru", [((P, "stability"), [])], "must be one a part"),
+    *((SATURATED, [((P, name), value)], words) for name, value, words in AT_STATES),
+    (SATURATED, [((S, "conditions"), ["19"])], "say nothing of a torque"),
+    (BROKEN, [((P, "condition"), "12")], "is not among the conditions"),
+    (BROKEN, [((S, "viscous"), [["2", "3"]])], "is not shown to fail"),
 ]
 """A good certificate of the arena, what is changed in it, and words of the reason why it is refused."""

@@ -15,6 +15,7 @@ from lyapcheck.check import kinds
 from lyapcheck.check.covers import ROWS, require_covered
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import Bisection, MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
@@ -35,6 +36,21 @@ SHOWN: dict[str, Statement] = {
     "MassBelow": MassBelow(MASS, RANGE, F(4)),
     "GravityBelow": GravityBelow(1, (((SINE, F(5)),),), RANGE, F(6)),
     "GravityOfPotential": GravityOfPotential((((SINE, F(5)),),), ((COSINE, F(-5)),), RANGE),
+    "GateAccepted": GateAccepted(
+        1,
+        (((SINE, F(5)),),),
+        ((COSINE, F(-5)),),
+        RANGE,
+        (F(5),),
+        RANGE,
+        (F(20),),
+        "hyperbolic",
+        1,
+        (F(5),),
+        (F(1),),
+        ("10i",),
+        (),
+    ),
     "Decreasing": Decreasing(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), F(1, 10), ()),
     "Resting": Resting("hyperbolic", 1, (F(5),), (F(1),), (F(1, 3),)),
 }
@@ -44,6 +60,7 @@ EASIER: dict[str, Any] = {
     "MassAbove.low": F(1, 2),
     "MassBelow.high": F(5),
     "GravityBelow.high": F(7),
+    "GateAccepted.limits": (F(21),),
     "Resting.torque": (F(1, 2),),
     "Resting.errors": (F(1, 2),),
 }
@@ -54,6 +71,10 @@ HARDER: dict[str, Any] = {
     "MassAbove.low": F(3, 2),
     "MassBelow.high": F(3),
     "GravityBelow.high": F(5),
+    "GateAccepted.limits": (F(19),),
+    "k_g": (F(4),),
+    "conditions": ("10p",),
+    "stability": (MassAbove(MASS, RANGE, F(0)),),
     "Resting.torque": (F(2),),
     "Resting.errors": (F(1, 4),),
     "mass": (((((0, 0, 1), F(1)),),),),

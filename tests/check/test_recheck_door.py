@@ -6,15 +6,19 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.certificate import digest_of, parse, read
 from lyapcheck.check.codec import members
 from lyapcheck.check.files import content, gather
 from lyapcheck.check.guard import CannotStart, Guard
+from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING, Limits
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
@@ -309,18 +313,43 @@ SLOW = sines(290)
 LARGE = same(["mul", *(["add", ["var", f"a{k}"], ONE] for k in range(22))])
 
 
-def test_what_takes_too_long_is_refused_and_the_rest_goes_on(folder):
+def test_what_takes_too_long_is_undecided_and_the_rest_goes_on(folder):
     (folder / "a slow one.json").write_text(SLOW, encoding="utf-8")
-    result = statuses(folder, "--seconds", "1")
-    assert result["a slow one.json"] == ("refused", "takes more than 1 s to judge; --seconds allows more")
-    assert result["good.json"][0] == "accepted"
+    for command in (MODULE, COMMAND):
+        done = run(folder, "--format", "json", "--seconds", "1", command=command)
+        rows = {row["file"]: row for row in json.loads(done.stdout)["certificates"]}
+        slow = rows["a slow one.json"]
+        said = "takes more than 1 s of computing time; --seconds allows more"
+        assert (slow["status"], slow["reason"], slow["verdict"]) == ("undecided", said, None)
+        assert rows["good.json"]["status"] == "accepted"
+        assert done.returncode == 3
+
+
+def test_what_waits_has_not_computed(folder):
+    """As on a machine where others compute: it is by the clock that it takes longer than it may."""
+    with Guard(Limits(seconds=1)) as guard:
+        good = (folder / "good.json").read_bytes()
+        assert not guard.judge(good, False).reason
+        os.kill(guard._process.pid, signal.SIGSTOP)
+        threading.Timer(2.5, os.kill, (guard._process.pid, signal.SIGCONT)).start()
+        assert guard.judge(good, False) == guard.judge(good, False)
+        assert not guard.judge(good, False).reason
+
+
+@pytest.mark.parametrize("form", ["text", "markdown", "csv", "sarif", "junit", "github", "html", "latex"])
+def test_what_is_undecided_for_want_of_time_can_be_written(folder, form):
+    outcome = recheck(gather([folder]))
+    one = replace(outcome.checked[0], status="undecided", reason="late", finding=Judgement(spent=True))
+    text = Recheck(replace(outcome, checked=(one,), granted={}, rules={})).written(form)
+    assert "late" in text
+    assert "None" not in text
 
 
 @pytest.mark.slow
-def test_what_takes_too_much_memory_is_refused_and_the_rest_goes_on(folder):
+def test_what_takes_too_much_memory_is_undecided_and_the_rest_goes_on(folder):
     (folder / "a large one.json").write_text(LARGE, encoding="utf-8")
     result = statuses(folder, "--memory", "200")
-    assert result["a large one.json"][0] == "refused"
+    assert result["a large one.json"][0] == "undecided"
     assert "200 MiB may be too few; --memory allows more" in result["a large one.json"][1]
     assert result["good.json"][0] == "accepted"
 
@@ -333,7 +362,9 @@ def test_whatever_ends_the_process_that_judges_ends_no_more_than_that(folder, nu
         assert not guard.judge(good, False).reason
         os.kill(guard._process.pid, signal.Signals[number])
         guard._process.wait()
-        assert number in guard.judge(good, False).reason
+        ended = guard.judge(good, False)
+        assert number in ended.reason
+        assert ended.spent
         assert not guard.judge(good, False).reason
 
 

@@ -72,6 +72,7 @@ BAD = [
         ["--condition = 11: is not one of 10, 10p, 10i, 19, scalar, global, lasalle"],
     ),
     ("gate TABLE2 --gamma rounded", ["--gamma = rounded: is not one of true, printed"]),
+    ("derive --n 0", ["n = 0: must be from 1 to 7"]),
     ("check", ["the following arguments are required: PROOF.py"]),
     ("check none.py", ["none.py: PROOF = none.py: no such proof script"]),
     ("check published.py --only 99", ["id = 99: no claim has this id"]),

@@ -1,16 +1,23 @@
-"""The built wheel, installed away from the checkout, does what the checkout does."""
+"""The built wheel, installed away from the checkout, does what the checkout and the documents say."""
 
 from __future__ import annotations
 
 import os
+import re
+import shlex
+import shutil
 import subprocess
 import sys
-import sysconfig
 import venv
 import zipfile
 from pathlib import Path
 
 import pytest
+
+from lyapcheck.cli.commands import NAMES
+from tests.cli.test_every_command import CALLS, GAINS, PLAN
+from tests.extending.page import FILE
+from tests.house.test_docs import DOCS, EXTENDED, commands
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 HERE = Path(sys.executable).parent
@@ -19,8 +26,10 @@ pytestmark = pytest.mark.slow
 
 
 def run(*command, cwd):
-    """Run a program with nothing of the checkout in its environment."""
-    environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    """Run a program with nothing of the checkout in its environment, and a store of its own."""
+    given = ("PYTHON", "LYAPCHECK")
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(given)}
+    environment["XDG_CACHE_HOME"] = str(cwd / ".cache")
     return subprocess.run(
         [str(word) for word in command],
         cwd=cwd,
@@ -28,7 +37,7 @@ def run(*command, cwd):
         capture_output=True,
         text=True,
         check=False,
-        timeout=300,
+        timeout=3000,
     )
 
 
@@ -55,7 +64,8 @@ def installed(wheel, tmp_path_factory) -> Path:
     done = run(*pip, "install", "--quiet", "--no-index", "--no-deps", wheel, cwd=home)
     assert done.returncode == 0, done.stderr
     (site,) = home.glob("lib/python*/site-packages")
-    (site / "dependencies.pth").write_text(sysconfig.get_paths()["purelib"] + "\n", encoding="utf-8")
+    places = [path for path in sys.path if path.endswith(("site-packages", "dist-packages"))]
+    (site / "dependencies.pth").write_text("\n".join(places) + "\n", encoding="utf-8")
     return python.parent
 
 
@@ -72,19 +82,29 @@ def ask(installed, elsewhere, code):
 
 def test_the_wheel_carries_everything_that_is_read_at_run_time(wheel):
     held = set(zipfile.ZipFile(wheel).namelist())
-    package = {
-        f"lyapcheck/{path.relative_to(CHECKOUT / 'lyapcheck').as_posix()}"
-        for path in (CHECKOUT / "lyapcheck").rglob("*")
-        if path.is_file() and "__pycache__" not in path.parts
+    places = {
+        "lyapcheck": "lyapcheck",
+        **{name: f"lyapcheck/{name}" for name in ("proofs", "examples", "formal")},
     }
-    proofs = {f"lyapcheck/proofs/{path.name}" for path in (CHECKOUT / "proofs").iterdir() if path.is_file()}
-    assert package <= held
-    assert proofs <= held
-    for ending in (".py", ".toml", "/references.bib", "/published.py"):
-        assert any(name.startswith("lyapcheck/proofs/") and name.endswith(ending) for name in held)
-    for needed in ("py.typed", "robots/arms/buap3.toml", "report/page/style.css", "report/page/page.js"):
-        assert f"lyapcheck/{needed}" in held
-    assert not [name for name in held if name.startswith(("tests/", "proofs/"))]
+    for folder, place in places.items():
+        listed = run("git", "ls-files", "-z", folder, cwd=CHECKOUT).stdout.split("\0")
+        there = [name for name in listed if name]
+        assert there
+        assert {place + name.removeprefix(folder) for name in there} <= held
+    for name in studies():
+        assert f"lyapcheck/report/{name}.json" in held
+    assert not [name for name in held if name.startswith(("tests/", "proofs/", "examples/", "formal/"))]
+    assert not [name for name in held if name.endswith((".vo", ".glob", ".pyc"))]
+
+
+def studies():
+    """The results of studies that the code reads."""
+    texts = [path.read_text(encoding="utf-8") for path in (CHECKOUT / "lyapcheck" / "report").rglob("*.py")]
+    return {name for text in texts for name in re.findall(r'study_file\("(\w+)"\)', text)}
+
+
+def test_studies_are_found():
+    assert studies() == {"gain_map", "printed_experiment"}
 
 
 def test_python_finds_the_wheel_and_not_the_checkout(installed, elsewhere):
@@ -99,12 +119,6 @@ def test_every_public_name_resolves(installed, elsewhere):
     assert "class" in ask(installed, elsewhere, code)
 
 
-def paper_gains(installed, elsewhere):
-    gains = ask(installed, elsewhere, "import lyapcheck; print(lyapcheck.paper_gain_file('table2'))")
-    assert Path(gains).is_relative_to(installed.parent)
-    return gains
-
-
 def same(installed, elsewhere, *arguments):
     """What the wheel prints, which must be what the checkout prints."""
     theirs = run(installed / "lyapcheck", *arguments, cwd=elsewhere)
@@ -115,40 +129,114 @@ def same(installed, elsewhere, *arguments):
     return theirs
 
 
-def test_table(installed, elsewhere):
-    assert same(installed, elsewhere, "table", "--m", "1:5", "--format", "json").returncode == 0
+@pytest.mark.parametrize("name", NAMES)
+def test_every_command_has_help(installed, elsewhere, name):
+    assert same(installed, elsewhere, name, "--help").returncode == 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_command_does_its_work(installed, elsewhere, name):
+    (elsewhere / "one.toml").write_text(GAINS, encoding="utf-8")
+    (elsewhere / "plan.toml").write_text(PLAN, encoding="utf-8")
+    words, code = CALLS[name]
+    done = run(installed / "lyapcheck", name, *words.split(), cwd=elsewhere)
+    assert done.returncode == code, done.stderr
 
 
 def test_gate_on_the_papers_gains(installed, elsewhere):
-    done = same(installed, elsewhere, "gate", paper_gains(installed, elsewhere))
+    gains = ask(installed, elsewhere, "import lyapcheck; print(lyapcheck.paper_gain_file('table2'))")
+    assert Path(gains).is_relative_to(installed.parent)
+    done = same(installed, elsewhere, "gate", gains)
     assert done.returncode == 1
     assert "tau_m1: accepted" in done.stdout
 
 
-def test_check_finds_the_papers_proof(installed, elsewhere):
-    done = same(installed, elsewhere, "check", "published.py", "--only", "7b")
-    assert done.returncode == 0
-    assert done.stdout.count("✓  7b ") == 3
+FEWER = ("--max-boxes", "2000")
+"""For what takes minutes otherwise: what is found is less, and how it is written the same."""
+PAGES = [page for page in DOCS if page.name != EXTENDED and commands(page)]
+"""adding.md adds rules to the checker, which an installed one does not take: tests/extending."""
+ELSEWHERE = "tcp://head:8786"
+CODES = {
+    "lyapcheck check published.py --n 1 --m 10 --only 7b": 1,
+    "lyapcheck check published.py --m 2 --only 19": 0,
+    "lyapcheck gate tuned.toml": 0,
+    "lyapcheck gate ur5_gains.toml": 0,
+    "lyapcheck recheck made": 0,
+    "lyapcheck recheck certificates": 0,
+}
+"""What lines end with; the others may find less than all with fewer boxes."""
+TUTORIAL = [1, 0, 0, 0, 0]
 
 
-def test_explain(installed, elsewhere):
-    assert same(installed, elsewhere, "explain", "7b").returncode == 0
+def block(page, start):
+    """The first block of TOML on a page that begins with a key."""
+    text = (CHECKOUT / "docs" / page).read_text(encoding="utf-8")
+    return next(one for one in re.findall(r"```toml\n(.*?)```", text, re.DOTALL) if one.startswith(start))
 
 
-def test_certificates_of_the_wheel_pass_the_checker_of_the_wheel(installed, elsewhere):
-    lyapcheck = installed / "lyapcheck"
-    wanted = ("check", "published.py", "--only", "7b", "--m", "2", "--certificates", "found")
-    assert run(lyapcheck, *wanted, cwd=elsewhere).returncode == 0
-    done = run(lyapcheck, "recheck", "found", cwd=elsewhere)
-    assert (done.returncode, done.stderr) == (0, "")
+def prepare(installed, folder, page):
+    """What the reader of a page has: the files that it shows, and their own under the names that it takes."""
+
+    def made(*words):
+        done = run(installed / "lyapcheck", *words, cwd=folder)
+        assert done.returncode in (0, 1), done.stderr
+
+    for match in FILE.finditer(page.read_text(encoding="utf-8")):
+        (folder / match["path"]).write_text(match["text"], encoding="utf-8")
+    if page.name == "README.md":
+        made("init")
+    elif page.name == "tutorial.md":
+        (folder / "gains.toml").write_text(block("tutorial.md", "robot"), encoding="utf-8")
+    elif page.name == "commands.md":
+        made("tune", "buap3", "--m", "1", "--out", "gains.toml")
+        made("robot", "buap3", "--export", "my_arm.toml")
+        sine = block("files.md", "kind").partition("\n\n")[0]
+        (folder / "sine.toml").write_text(sine, encoding="utf-8")
+        (folder / "plan.toml").write_text(block("sweep.md", "robots"), encoding="utf-8")
+        (folder / "plots").mkdir()
+    elif page.name == "trusted.md":
+        made("check", "published.py", "--only", "7b", "--m", "1", "--certificates", "certificates")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_the_documents_hold_in_an_empty_folder(installed, elsewhere, page):
+    """Every line of a page, in its order: none is refused, and none fails."""
+    prepare(installed, elsewhere, page)
+    codes = []
+    for line in commands(page):
+        if ELSEWHERE in line:
+            continue
+        words = shlex.split(line)[1:]
+        fewer = FEWER if words[0] == "epsilon" else ()
+        done = run(installed / "lyapcheck", *words, *fewer, cwd=elsewhere)
+        codes.append(done.returncode)
+        assert done.returncode in ((CODES[line],) if line in CODES else (0, 1, 3)), (line, done.stderr)
+        assert "Traceback" not in done.stderr
+    assert codes
+    if page.name == "tutorial.md":
+        assert codes == TUTORIAL
+
+
+def test_lines_whose_end_is_known_are_there():
+    assert set(CODES) <= {line for page in PAGES for line in commands(page)}
 
 
 def test_report_has_its_style_and_script(installed, elsewhere):
-    gains = Path(paper_gains(installed, elsewhere)).with_name("table2_shoulder_elbow.toml")
-    lyapcheck = installed / "lyapcheck"
+    gains = ask(
+        installed, elsewhere, "import lyapcheck; print(lyapcheck.paper_gain_file('table2_shoulder_elbow'))"
+    )
     wanted = ("report", "--m", "1", "--robot", "reyes-kelly2", "--gains", gains, "--out", "report")
-    done = run(lyapcheck, *wanted, cwd=elsewhere)
+    done = run(installed / "lyapcheck", *wanted, cwd=elsewhere)
     assert done.returncode == 0, done.stderr
     assert {"index.html", "report.md", "report.json"} <= {
         path.name for path in (elsewhere / "report").iterdir()
     }
+
+
+@pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")
+def test_coqs_kernel_judges_certificates(installed, elsewhere):
+    own = CHECKOUT / "tests" / "kernel" / "certificates"
+    names = [own / name for name in ("7b.m2.json", "2.1.json", "reyes-kelly2.m1.falsified.json")]
+    done = run(installed / "lyapcheck", "recheck", "--kernel", *names, cwd=elsewhere)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("kernel") >= len(names)

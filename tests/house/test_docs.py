@@ -1,10 +1,9 @@
-"""The documents: their commands are ones that lyapcheck takes, the tutorial does what it says."""
+"""The documents: their commands are ones that lyapcheck takes; tests/cli/test_wheel.py runs them."""
 
 from __future__ import annotations
 
 import re
 import shlex
-import shutil
 import tomllib
 from pathlib import Path
 
@@ -12,7 +11,6 @@ import pytest
 
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
-from tests.helpers.command import lyapcheck
 
 ROOT = Path(__file__).parents[2]
 DOCS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
@@ -44,43 +42,8 @@ def test_every_command_in_the_documents_is_one(page: str, line: str) -> None:
         parser.parse(words)
 
 
-MINUTES = re.compile(
-    "epsilon|bounds|report|check published.py --cert|--runs|--experiment|--settle|--eps0|--ref|ur5.toml"
-)
-"""What takes minutes, or files that no page gives; the tests of each command run the like."""
-RUN = [(page, line) for page, line in EVERY if page in ("commands.md", "files.md", "tune.md")]
-
-
-@pytest.mark.slow
-def test_commands_do_what_they_are_shown_for(tmp_path: Path) -> None:
-    """In the order of the pages, those that take seconds; tutorial.md and adding.md are run as a whole."""
-    shutil.copytree(ROOT / "examples", tmp_path / "examples")
-    codes = {}
-    for page, line in RUN:
-        if not MINUTES.search(line) and not line.startswith("lyapcheck recheck"):
-            run = lyapcheck(*shlex.split(line)[1:], folder=tmp_path)
-            codes[line] = run.returncode
-            assert run.returncode in (0, 1), (page, line, run.stderr)
-    assert len(codes) > 8
-    assert codes["lyapcheck check published.py --n 1 --m 10 --only 7b"] == 1
-    assert codes["lyapcheck gate tuned.toml"] == codes["lyapcheck gate examples/ur5_gains.toml"] == 0
-
-
 def test_there_are_commands_in_the_documents() -> None:
     assert len(EVERY) > 25
-
-
-@pytest.mark.slow
-def test_the_tutorial_does_what_it_says(tmp_path: Path) -> None:
-    text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
-    gains = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
-    assert gains is not None
-    (tmp_path / "gains.toml").write_text(gains[1], encoding="utf-8")
-    codes = [
-        lyapcheck(*shlex.split(line)[1:], folder=tmp_path).returncode
-        for line in commands(ROOT / "docs" / "tutorial.md")
-    ]
-    assert codes == [1, 0, 0, 0, 0]
 
 
 @pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)

@@ -33,7 +33,7 @@ BESIDE_PROOF = {
     "answers/bounds/answer.py:_times": "degrees that the user gave, of simulated runs",
     "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
     "answers/robot/data.py:constant_data": "the gap of numeric ends, for programs",
-    "report/bench.py:_cell": "rounded down before",
+    "report/gain_map.py:_cell": "k_v as it was given, and simulated numbers",
     "report/page/gains.py:_cell": "one simulated run",
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
@@ -57,7 +57,6 @@ SEEN = {
     "answers/simulate/tracking.py:_headline": "times that the user gave or that were reached",
     "answers/simulate/tracking.py:_heads": "the band that the user gave",
     "answers/simulate/tracking.py:_rows": "simulated",
-    "answers/sweep/result.py:_cell": "a cell of a map",
     "answers/tune/effect.py:effect_section": "simulated",
     "answers/tune/effect.py:_six": "simulated",
     "answers/tune/response/answer.py:missed": "the time of a simulated motion",

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from lyapcheck import store
 from lyapcheck.compiled import compiler as compiler_module
 from lyapcheck.compiled import library as library_module
-from lyapcheck.compiled import store
 from lyapcheck.compiled.compiler import OFF, compile_library, compiler
 from lyapcheck.compiled.loop import compiled
 
@@ -60,20 +60,20 @@ def test_compiled_once_and_found_again(cache, compilations):
 
 
 def test_what_is_kept_is_private(cache):
-    path = store.keep("key", LIBRARY)
+    path = store.keep("kernels", "key.so", LIBRARY)
     assert path == cache / "key.so"
     assert stat.S_IMODE(cache.stat().st_mode) == 0o700
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
-    assert store.kept("key") == LIBRARY
-    assert store.kept("another") is None
+    assert store.kept("kernels", "key.so") == LIBRARY
+    assert store.kept("kernels", "another.so") is None
 
 
 @pytest.mark.parametrize("damage", [b"", b"x", LIBRARY, None])
 def test_a_damaged_library_is_not_loaded(cache, damage):
-    path = store.keep("key", LIBRARY)
+    path = store.keep("kernels", "key.so", LIBRARY)
     content = path.read_bytes()
     path.write_bytes(bytes([content[0] ^ 1]) + content[1:] if damage is None else damage)
-    assert store.kept("key") is None
+    assert store.kept("kernels", "key.so") is None
 
 
 def test_a_damaged_library_is_compiled_anew(cache, compilations):
@@ -87,17 +87,24 @@ def test_a_damaged_library_is_compiled_anew(cache, compilations):
 
 @pytest.mark.parametrize("mode", [0o770, 0o707])
 def test_a_directory_that_others_can_write_is_not_trusted(cache, mode, compilations):
-    store.keep("key", LIBRARY)
+    store.keep("kernels", "key.so", LIBRARY)
     cache.chmod(mode)
-    assert store.kept("key") is None
-    assert store.keep("key", LIBRARY) is None
+    assert store.kept("kernels", "key.so") is None
+    assert store.keep("kernels", "key.so", LIBRARY) is None
     assert works()
     assert [path.name for path in cache.glob("*")] == ["key.so"]
 
 
 def test_a_file_that_others_can_write_is_not_trusted(cache):
-    store.keep("key", LIBRARY).chmod(0o622)
-    assert store.kept("key") is None
+    store.keep("kernels", "key.so", LIBRARY).chmod(0o622)
+    assert store.kept("kernels", "key.so") is None
+
+
+def test_a_link_is_not_followed(cache):
+    path = store.keep("kernels", "key.so", LIBRARY)
+    (cache / "other.so").symlink_to(path)
+    assert store.kept("kernels", "other.so") is None
+    assert store.kept("kernels", "key.so") == LIBRARY
 
 
 def test_a_cache_that_cannot_be_made_is_done_without(cache, compilations):
@@ -120,7 +127,7 @@ def test_a_read_only_cache_is_done_without(cache, compilations, monkeypatch):
 @pytest.mark.parametrize("home", ["", "relative/path"])
 def test_an_unusable_cache_variable_is_ignored(home, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", home)
-    assert store.directory() == Path.home() / ".cache" / "lyapcheck" / "kernels"
+    assert store.home() == Path.home() / ".cache" / "lyapcheck"
 
 
 def test_a_broken_compiler_is_no_compiler(cache, tmp_path, monkeypatch):
@@ -158,12 +165,12 @@ def test_many_processes_at_once_leave_one_whole_library(cache):
     assert {process.communicate()[0].strip() for process in running} == {str(COMPILES)}
     kept = list(cache.glob("*"))
     assert len(kept) == COMPILES
-    assert all(store.kept(path.stem) for path in kept)
+    assert all(store.kept("kernels", path.name) for path in kept)
 
 
 def test_without_any_place_for_temporary_files_nothing_is_compiled(cache, monkeypatch):
     def refused(*args, **kwargs):
         raise FileNotFoundError("no usable temporary directory")
 
-    monkeypatch.setattr(store.tempfile, "TemporaryDirectory", refused)
+    monkeypatch.setattr(library_module.tempfile, "TemporaryDirectory", refused)
     assert library(SOURCE) is None

@@ -36,6 +36,8 @@ def test_accepted_over_ranges_is_accepted_at_a_member(
         alone = asked("gate", str(folder / "own.toml"), *condition_options(conditions))
         if over.exit_code == 0:
             assert alone.exit_code == 0, (arm, at, alone.stdout)
-        for wide, narrow in zip(results(over)[0]["checks"], results(alone)[0]["checks"], strict=False):
-            if wide["id"] == narrow["id"] and wide["limit"] and narrow["limit"]:
-                assert Fraction(wide["limit"]["lower"]) <= Fraction(narrow["limit"]["upper"]), wide
+        at_member = {(one["id"], one["joint"]): one["limit"] for one in results(alone)[0]["checks"]}
+        for wide in results(over)[0]["checks"]:
+            narrow = at_member.get((wide["id"], wide["joint"]))
+            if wide["limit"] and narrow:
+                assert Fraction(wide["limit"]["lower"]) <= Fraction(narrow["upper"]), wide

@@ -378,7 +378,7 @@ BROKEN = [
     (["--m", "1", "2", "-3"], "--m = -3: m must be at least 1"),
     (["--m", "1", "--members", "2"], "--members: is not an option here"),
     (["--format", "docx"], "is not a format"),
-    (["--compare", "nowhere"], "cannot be read as a report"),
+    (["--compare", "nowhere"], "cannot be read"),
     (["--robot", "nobody"], "nobody"),
     (["--robot", "reyes-kelly2"], "3 joints"),
     (["--gains", "missing.toml"], "missing.toml"),

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from lyapcheck.errors import InputError
-from lyapcheck.report.compare import compare, read_report
+from lyapcheck.report.compare import SCHEMAS, compare, read_report
 
 CHECK = {"id": "19", "joint": "base", "margin": "0.1"}
 OLD: dict[str, Any] = {
@@ -78,3 +78,16 @@ def test_what_is_no_report_is_refused(text: str, tmp_path: Path) -> None:
     path.write_text(text)
     with pytest.raises(InputError, match=r"--compare"):
         read_report(tmp_path)
+
+
+@pytest.mark.parametrize("rows", ["{}", "3", "[3]", '[{"name": "one"}]', '[{"name": ["one"], "checks": 3}]'])
+@pytest.mark.parametrize("key", ["claims", "others", "gate", "epsilon"])
+def test_a_report_with_other_rows_is_refused(key: str, rows: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    whole = {"claims": [], "others": [], "gate": [], "epsilon": [], "schema": SCHEMAS[0]}
+    path.write_text(json.dumps({**whole, key: json.loads(rows)}))
+    if rows == "{}":  # no rows at all
+        assert read_report(path)["schema"] == SCHEMAS[0]
+        return
+    with pytest.raises(InputError, match="has other rows than a report"):
+        read_report(path)

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import re
-from fractions import Fraction
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.sweep.page import files
 from lyapcheck.answers.sweep.result import SweepAnswer
 from lyapcheck.answers.sweep.tally import Tally
 from lyapcheck.answers.table import build_table
-from lyapcheck.files.decimals import at_least, at_most
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.model import Report
 from lyapcheck.report.notes import published_notes
@@ -55,10 +51,3 @@ def test_the_map_of_a_report_shows_an_eps0_as_it_is_proved() -> None:
     page = render(Report(notes=published_notes(), own=True, ms=(1,), **about, **empty), ("html",))  # type: ignore[arg-type]
     shown = str(page["index.html"]).split('class="map"')[1]
     assert re.findall(r"<b>(0\.\d+)</b>", shown) == list(PROVED.values())
-
-
-@given(st.fractions(-(10**6), 10**6, max_denominator=10**9), st.integers(1, 9))
-def test_what_is_printed_is_on_the_safe_side_and_near(value: Fraction, digits: int) -> None:
-    low, high = Fraction(at_least(value, digits)), Fraction(at_most(value, digits))
-    assert low <= value <= high
-    assert high - low <= abs(value) * Fraction(10) ** (1 - digits)

@@ -13,6 +13,7 @@ import numpy as np
 from lyapcheck import asked
 from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.control.resting import DEGREES
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
     Varied = tuple[RobotModel, Sequence[Vary]]
     """An arm with ranges, and which."""
 
-DEGREES = Fraction(5729577951309, 10**11)
-"""Degrees of a radian, from above."""
 PLACES = 6
 """Decimals of a degree."""
 JUST_INSIDE = 0.95

@@ -48,6 +48,7 @@ class ProofResult(Answer):
         assumptions: about the arm, where some claim looked at it.
         certificates: by file name those that the checker has accepted, also of what these rows use.
         script: the path of the script, as it was given.
+        about_gains: the ids of the claims that are about the gain set of their m.
         timings: whether to say how many seconds each claim took.
     """
 
@@ -62,6 +63,7 @@ class ProofResult(Answer):
     assumptions: tuple[str, ...] = ()
     certificates: Mapping[str, Certificate] = field(default_factory=dict)
     script: str = ""
+    about_gains: frozenset[str] = frozenset()
     timings: bool = False
 
     @property

@@ -113,6 +113,9 @@ class ProposedProof:
             self.model.assumptions if self.model is not None and about_arm else (),
             {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
             self.path,
+            frozenset(
+                claim.id for claim in claims if any("gains" in answer.read for answer in claim.answers)
+            ),
         )
 
 

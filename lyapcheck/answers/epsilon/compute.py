@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
-from time import monotonic
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Progress, part, silent
@@ -22,6 +21,7 @@ from lyapcheck.answers.epsilon.forms import by_forms, proof_of
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.computing import computing_time
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.registry import arm_of
@@ -70,7 +70,7 @@ def epsilon(
         max_boxes: budget of branch and bound.
         jobs: processes for the checker of its boxes.
         ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
-        seconds: time for branch and bound; without it the same input gives the same numbers anywhere.
+        seconds: computing time for branch and bound; without it numbers are the same anywhere.
         weights: look for weights Λ as well, joint by joint.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
@@ -151,7 +151,7 @@ class _Search:
         """The arm that the witness is about, the witness, and what was proved, in one way or the other."""
         if not self.options.max_boxes or not links_follow(self.controlled):
             return self.by_boxes()
-        kept, began = int(RESERVE * self.options.max_boxes), monotonic()
+        kept, began = int(RESERVE * self.options.max_boxes), computing_time()
         first = replace(
             self,
             options=replace(self.options, max_boxes=self.options.max_boxes - kept),
@@ -160,7 +160,7 @@ class _Search:
         at, witness, result = first.by_boxes()
         if witness is None:
             return at, witness, result
-        seconds = None if self.options.seconds is None else self.options.seconds - (monotonic() - began)
+        seconds = None if self.options.seconds is None else self.options.seconds - (computing_time() - began)
         progress = part(self.progress, 0.9, 1.0)
         return at, witness, linked_otherwise(self.controlled, witness.eps0, result, kept, seconds, progress)
 

@@ -36,7 +36,7 @@ def by_forms(controlled: ControlledArm) -> tuple[Fraction | None, ScalarResult, 
     if controlled.ranges and reason:
         reason = reason.replace("(19) fails,", "(19) fails in the ranges,")
     # over ranges only the checker's coarse form is at hand where h is bounded
-    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds), conic=False)
+    sharp = scalar_epsilon(sharp_form(gain_set, constants, bounds))
     scalar = _scalar(controlled, bounds) or sharp
     return published, scalar, {"published": reason, "scalar": scalar.reason}
 
@@ -72,9 +72,9 @@ def _scalar(controlled: ControlledArm, bounds: RobotBounds) -> ScalarResult | No
     if not controlled.family.bounded:
         return None
     if controlled.ranges:
-        return scalar_epsilon(controlled.loop(Fraction(1)).tail, conic=False)
+        return scalar_epsilon(controlled.loop(Fraction(1)).tail)
     form = scalar_form(controlled.gains, controlled.family.constants(), bounds)
-    return None if form is None else scalar_epsilon(form, conic=False)
+    return None if form is None else scalar_epsilon(form)
 
 
 def _published(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import Any
 
-from lyapcheck.answers.gate.friction import friction_lines, held
+from lyapcheck.answers.gate.friction import Fact, farthest, friction_lines, held
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.stability import remarks
 from lyapcheck.answers.gate.words import (
@@ -30,6 +31,8 @@ from lyapcheck.output.document import Bullets, Document, Section, Table
 from lyapcheck.verdicts import Exit
 
 HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
+NAMED = "!"
+"""Accepted, with a fact that no condition is about."""
 DIGITS, MARGIN_DIGITS = 20, 12
 """Significant digits of limits and of margins in data; people see fewer."""
 LEVELS = {ACCEPTED: Level.PASSED, REJECTED: Level.FAILED, UNDECIDED: Level.UNDECIDED}
@@ -78,15 +81,30 @@ class GateAnswer(tuple[GateResult, ...], Answer):
             for word, count in counts.items()
             if count
         )
-        return f"{SYMBOLS[worst]} {counted or 'no gain sets'}"
+        facts = [fact for result in self if (fact := _fact(result))]
+        symbol = NAMED if worst == ACCEPTED and facts else SYMBOLS[worst]
+        said = max(facts, key=_weight)[1] if facts else ""
+        return "; ".join(filter(None, (f"{symbol} {counted or 'no gain sets'}", said)))
 
     def _notes(self) -> Iterator[str]:
         """What the conditions say, and what the numbers rest on."""
         shown = dict.fromkeys(check.id for result in self for check in result.checks)
         yield from (f"({name}) {RULES[name]}" for name in shown)
-        if any(check.id not in result.deciding for result in self for check in result.checks):
+        if any(not result.decides(check) for result in self for check in result.checks):
             yield NO_DECISION
         yield from dict.fromkeys(_assumptions(self))
+
+
+def _fact(result: GateResult) -> Fact | None:
+    """What dry friction, which no condition is about, makes of a set that is accepted."""
+    model = result.limits.model
+    if model is None or not result.explained or result.verdict != ACCEPTED:
+        return None
+    return farthest(result.gains, model)
+
+
+def _weight(fact: Fact) -> Fraction:
+    return fact[0]
 
 
 def _assumptions(results: GateAnswer) -> Iterator[str]:
@@ -94,8 +112,10 @@ def _assumptions(results: GateAnswer) -> Iterator[str]:
 
 
 def _section(result: GateResult) -> Section:
-    symbol = SYMBOLS[result.verdict]
-    title = f"{symbol} {result.name}: {result.standing} ({about(result)}, {result.file.path})"
+    fact = _fact(result)
+    symbol = SYMBOLS[result.verdict] if fact is None else NAMED
+    standing = result.standing if fact is None else f"{result.standing}; {fact[1]}"
+    title = f"{symbol} {result.name}: {standing} ({about(result)}, {result.file.path})"
     rows = tuple([_row(result, check) for check in result.checks])
     said = [*advices(result), *remarks(result)]
     table = Table(HEADS, rows, align="lllrrrr", keys=3)
@@ -106,7 +126,7 @@ def _row(result: GateResult, check: Check) -> tuple[str, ...]:
     """One check; a star for one that does not decide."""
     return (
         SYMBOLS[check.verdict],
-        check.id if check.id in result.deciding else f"{check.id} *",
+        check.id if result.decides(check) else f"{check.id} *",
         joint_name(result, check),
         value_text(check),
         limit_text(check),

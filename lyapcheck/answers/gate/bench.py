@@ -14,56 +14,29 @@ from functools import lru_cache
 from math import degrees, exp, pi, sqrt
 from typing import TYPE_CHECKING
 
-from flint import arb
-
 from lyapcheck.answers.gate.otherwise import small
 from lyapcheck.check.numbers.harmonics import harmonics, largest
+from lyapcheck.control.resting import dry_friction, rest_error
 from lyapcheck.family.registry import named
 from lyapcheck.robots import trig
 
 if TYPE_CHECKING:
-    from lyapcheck.check.numbers.members import Member
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 SWINGS = 0.5
 """A damping ratio below which a joint overshoots by more than a sixth of its step."""
-HALVINGS = 30
-FARTHEST = 50.0
-"""rad: a joint held so far away is held anywhere."""
 
 
-def dry_friction(model: RobotModel) -> list[Fraction]:
-    """Coulomb torques in N·m; 0 where nothing is known."""
-    return [Fraction(0) if number is None else number.value for number in model.coulomb]
-
-
-def rest_errors(gains: GainSet, model: RobotModel) -> list[float | None]:
+def rest_errors(gains: GainSet, model: RobotModel) -> list[Fraction | None]:
     """Per joint the largest error in rad that dry friction holds, k_p |h(e)| ≤ f; ``None``: it holds any."""
-    unit = degrees(1.0) if gains.angle_unit == "deg" else 1.0
-    family = named(gains.family, gains.m)
-    ratios = [float(f) / (float(kp) * unit) for kp, f in zip(gains.kp, dry_friction(model), strict=True)]
-    return [_held(family.checked, ratio) for ratio in ratios] if family.bounded else [*ratios]
-
-
-@lru_cache(maxsize=4096)
-def _held(member: Member, ratio: float) -> float | None:
-    """The largest x with h(x) ≤ ratio before h stays above it; 0 without friction."""
-    if ratio <= 0:
-        return 0.0
-
-    def h(x: float) -> float:
-        return float(member.h(arb(x)).mid())
-
-    if h(FARTHEST) <= ratio:
-        return None
-    low, high = 0.0, 1.0
-    while h(high) <= ratio:
-        low, high = high, 2 * high
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if h(middle) <= ratio else (low, middle)
-    return high
+    unit = Fraction(degrees(1.0)) if gains.angle_unit == "deg" else Fraction(1)
+    ratios = [f / (kp * unit) for kp, f in zip(gains.kp, dry_friction(model), strict=True)]
+    known = named(gains.family, gains.m)
+    if not known.bounded:
+        return [*ratios]
+    _ = known.checked  # or say that the checker does not know the function
+    return [rest_error(gains.family, gains.m, ratio) for ratio in ratios]
 
 
 def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:

@@ -1,38 +1,31 @@
-"""What the gate decided, as certificates that ``lyapcheck recheck`` judges again: one for each check.
+"""What the gate decided, as certificates that ``lyapcheck recheck`` judges again.
 
-A check that is proved uses those of the bounds k_gi that enter it, |g_i(q)| ≤ k_gi for all q, where these are
-of an arm and not of the gain file.
+One has the verdict on a gain set: the arm with its ranges, its gravity and the gains in one statement. There
+is one for each check as well, which is about numbers alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.friction import held, resting
+from lyapcheck.answers.gate.whole import PROOF, whole
 from lyapcheck.answers.gate.words import RULES, joint_name
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
-from lyapcheck.check.kinds.gravity import GravityBelow
-from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
-from lyapcheck.control.judgement import judged_statement
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.names import file_stem
-from lyapcheck.robots import load
-from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from fractions import Fraction
 
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.control.conditions import Check
 
-PROOF = "gate"
 HELD = "k_p ≤ f/γ: dry friction f holds the joint wherever it stops"
 REST = "how far from the goal dry friction may leave the joints"
 
@@ -53,53 +46,35 @@ def certificates(results: Sequence[GateResult]) -> GateCertificates:
     """
     made = GateCertificates()
     for result in results:
-        limits = result.limits
-        gravity = _gravity_of(result)
-        if _of_the_arm(result):
-            missing = (f"|g_{i + 1}| ≤ {decimal_text(limits.gravity[i])} N·m" for i in _missing(gravity))
-            made.granted += (f"{limits.robot}: no certificate shows {one} for all q" for one in missing)
-        for check in (*result.checks, *(() if result.otherwise is None else (result.otherwise,))):
-            entering = gravity if check.id == "10" else gravity[check.joint or 0 :][:1]
-            used = [one for one in entering if one is not None and check.id in ("10", "10p", "10i")]
-            outcome = _certificate(result, check, used)
-            if outcome is None:
-                continue
-            for one in used if outcome.uses else []:
-                made.certificates[_file(one)] = one
-            if _file(outcome) in made.certificates:
+        verdict = whole(result)
+        checks = (*result.checks, *(() if result.otherwise is None else (result.otherwise,)))
+        own = [verdict, *(_certificate(result, check) for check in checks), *_of_friction(result)]
+        for one in own:
+            if one is not None and made.certificates.setdefault(_file(one), one) is not one:
                 raise argument_error(
                     "--certificates", result.name, "names gain sets of two files", "judge one file at a time"
                 )
-            made.certificates[_file(outcome)] = outcome
-        made.certificates |= {_file(one): one for one in _of_friction(result)}
+        made.granted += _premises(result, verdict)
     made.granted = list(dict.fromkeys(made.granted))
     return made
 
 
-def gravity_bounds_of(result: GateResult) -> tuple[Certificate, ...]:
-    """The certificates of |g_i| ≤ k_gi for the joints of an arm of which there is one."""
-    return tuple(one for one in _gravity_of(result) if one is not None)
+def _premises(result: GateResult, verdict: Certificate | None) -> Iterator[str]:
+    """The bounds of gravity that a verdict of an arm takes for granted."""
+    statement = None if verdict is None else verdict.statement
+    if result.limits.robot and isinstance(statement, GateAccepted) and not statement.gravity:
+        for i, k in enumerate(statement.k_g, 1):
+            yield f"{result.limits.robot}: no certificate shows |g_{i}| ≤ {decimal_text(k)} N·m for all q"
 
 
-def _of_the_arm(result: GateResult) -> bool:
-    """Whether the bounds of gravity are those of an arm, and not of the gain file."""
-    return bool(result.limits.robot) and result.file.bounds.gravity is None
-
-
-def _gravity_of(result: GateResult) -> tuple[Certificate | None, ...]:
-    limits = result.limits
-    return _gravity(limits.robot, limits.gravity) if _of_the_arm(result) else (None,) * limits.n
-
-
-def _certificate(result: GateResult, check: Check, used: Sequence[Certificate]) -> Certificate | None:
+def _certificate(result: GateResult, check: Check) -> Certificate | None:
     outcome = check.judgement
     if outcome is None or outcome.proof is None:
         return None
     parts = [result.name, check.id, *([] if check.joint is None else [joint_name(result, check)])]
     says = f"{result.name}, {joint_name(result, check)}: {RULES[check.id]}"
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
-    uses = {one.claim.id: one.digest for one in used} if outcome.shown == "proved" else {}
-    return Certificate(about, outcome.statement, outcome.shown, outcome.grade, outcome.proof, uses)
+    return Certificate(about, outcome.statement, outcome.shown, outcome.grade, outcome.proof)
 
 
 def _of_friction(result: GateResult) -> Iterator[Certificate]:
@@ -113,29 +88,6 @@ def _of_friction(result: GateResult) -> Iterator[Certificate]:
         if one.proof is not None:
             about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)
             yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
-
-
-@lru_cache(maxsize=16)
-def _gravity(robot: str, bounds: tuple[Fraction, ...]) -> tuple[Certificate | None, ...]:
-    """A certificate of |g_i| ≤ k_gi for each joint; ``None`` where the checker is not shown it."""
-    model = load(robot)
-    ranges = tuple(number.bounds for number in model.parameters.values())
-    result: list[Certificate | None] = []
-    for i, (torque, bound) in enumerate(zip(model.gravity, bounds, strict=True)):
-        statement = GravityBelow(model.n, (tuple(to_terms(torque)),), ranges, bound)
-        proofs = (HarmonicSizes(), *([Bisection()] if model.n <= FEW_JOINTS else []))
-        its = judged_statement(statement, proofs)
-        if its.proof is None or its.shown != "proved":
-            result.append(None)
-            continue
-        says = f"{model.name}: |g_{i + 1}(q)| ≤ k_g{i + 1} = {decimal_text(bound)} N·m"
-        about = About(f"{model.name}.k_g{i + 1}", says, None, model.n, PROOF)
-        result.append(Certificate(about, statement, its.shown, its.grade, its.proof))
-    return tuple(result)
-
-
-def _missing(gravity: Sequence[Certificate | None]) -> Iterator[int]:
-    return (i for i, one in enumerate(gravity) if one is None)
 
 
 def _file(certificate: Certificate) -> str:

@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil, degrees
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.bench import dry_friction, rest_errors
+from lyapcheck.answers.gate.bench import rest_errors
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.judgement import ACCEPTED, JudgedStatement, judged_statement
+from lyapcheck.control.resting import degrees_above, dry_friction
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text
@@ -26,10 +26,8 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
-TENTHS = 10
-"""Parts of a degree that are shown."""
-RADIANS = Fraction(314159265, 180 * 10**8)
-"""A little less than π/180."""
+
+ANYWHERE = Fraction(10**6)
 
 
 def held(gains: GainSet, model: RobotModel) -> dict[int, JudgedStatement]:
@@ -48,14 +46,14 @@ def _limit(friction: Fraction, gamma: Tree) -> Threshold:
 
 
 def resting(gains: GainSet, model: RobotModel) -> JudgedStatement | None:
-    """How far from the goal the joints may rest, to the next tenth of a degree, as the checker accepts it.
+    """How far from the goal the joints may rest, to six digits, as the checker accepts it.
 
     ``None`` where nothing is known of dry friction, or no joint has a bound.
     """
     friction = dry_friction(model)
     if not any(friction) or not named(gains.family, gains.m).bounded or gains.angle_unit == "deg":
         return None
-    errors = tuple(None if e is None else _above(e) for e in rest_errors(gains, model))
+    errors = tuple(rest_errors(gains, model))
     if all(e is None for e in errors):
         return None
     from lyapcheck.check.kinds.resting import AtBounds, Resting
@@ -65,24 +63,46 @@ def resting(gains: GainSet, model: RobotModel) -> JudgedStatement | None:
     )
 
 
-def _above(error: float) -> Fraction:
-    """rad, a tenth of a degree above what was found in floating point at most."""
-    return Fraction(ceil(degrees(error) * TENTHS + 1e-6), TENTHS) * RADIANS
+Fact = tuple[Fraction, str]
+"""How far from the goal, rad, and in words."""
+
+
+def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
+    """How far from the goal dry friction may leave the joints; ``None`` without any, or an h unknown here."""
+    if not any(dry_friction(model)):
+        return None
+    assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
+    result, stuck = resting(gains, model), held(gains, model)
+    if stuck:
+        joints = ", ".join(model.joints[i] for i in stuck)
+        return ANYWHERE, f"dry friction{assumed} may hold {joints} anywhere"
+    if result is None or result.verdict != ACCEPTED or None in _errors(result):
+        return ANYWHERE, f"dry friction{assumed} may leave it off its goal"
+    error = max(x for x in _errors(result) if x is not None)
+    return error, f"dry friction{assumed} leaves at most {degrees_above(error)}"
+
+
+def _errors(result: JudgedStatement) -> tuple[Fraction | None, ...]:
+    errors: tuple[Fraction | None, ...] = result.statement.errors  # type: ignore[attr-defined]
+    return errors
 
 
 def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> list[str]:
     """Where a joint rests anywhere, and how far from the goal the others may."""
     friction = dry_friction(model)
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
-    lines = [
-        f"γ k_p of {model.joints[i]} does not exceed its dry friction of {decimal_text(friction[i])} N·m"
-        f"{assumed}: the joint rests wherever it stops; k_p = {decimal_text(gains.kp[i])} is in N·m"
-        for i in stuck
-    ]
+    lines = []
+    for i in stuck:
+        number, most, k = model.coulomb[i], decimal_text(friction[i]), decimal_text(gains.kp[i])
+        upto, may = ("up to ", "may rest") if number is not None and number.ranged else ("", "rests")
+        lines.append(
+            f"γ k_p of {model.joints[i]} does not exceed its dry friction of {upto}{most} N·m{assumed}: "
+            f"the joint {may} wherever it stops; k_p = {k} is in N·m"
+        )
     result = resting(gains, model)
     if result is not None and result.verdict == ACCEPTED:
-        errors = zip(model.joints, result.statement.errors, friction, strict=True)  # type: ignore[attr-defined]
-        far = [f"{joint} {float(e / RADIANS):.1f}°" for joint, e, f in errors if f and e is not None]
+        errors = zip(model.joints, _errors(result), friction, strict=True)
+        far = [f"{joint} {degrees_above(e)}" for joint, e, f in errors if f and e is not None]
         if far:
             lines.append(f"dry friction{assumed} leaves at most {', '.join(far)}, at every state of rest")
     return lines

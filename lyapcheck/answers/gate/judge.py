@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
+GRAVITY = "gravity"
+"""A stated bound that the arm itself breaks: it is rejected, whatever else decides."""
 MOST_EXPLAINED = 300
 """Gain sets of a file of which more is found out than whether they pass."""
 
@@ -39,11 +41,13 @@ class GateResult:
         file: that the set is from.
         gains: the set.
         limits: of the arm.
-        checks: of (10), (10p) and (19), and of the certificates that decide.
+        checks: of (10), (10p) and (19), of the certificates that decide, and of stated bounds of gravity
+            that the arm breaks.
         deciding: the conditions that must hold.
         strict: whether what is undecided counts as a failure.
         otherwise: a proof of stability for gains that break (19), where one was looked for and found.
         explained: whether more is to be said of the set than its checks.
+        gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
     """
 
     file: GainFile
@@ -54,6 +58,7 @@ class GateResult:
     strict: bool = False
     otherwise: Check | None = None
     explained: bool = False
+    gamma: str = "true"
 
     @property
     def name(self) -> str:
@@ -68,13 +73,23 @@ class GateResult:
     @cached_property
     def verdict(self) -> str:
         """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
-        return self.verdict_of(self.deciding)
+        return self.verdict_of((*self.deciding, GRAVITY))
+
+    @property
+    def saturates(self) -> bool:
+        """Whether (10i) fails, so that nothing keeps a motor within its limit."""
+        return self.verdict_of(("10i",)) == REJECTED
 
     @property
     def standing(self) -> str:
         """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
-        if self.verdict != REJECTED or self.stable is None:
+        if (
+            self.verdict != REJECTED
+            or self.stable is None
+            or self.saturates
+            or self.verdict_of((GRAVITY,)) == REJECTED
+        ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
@@ -102,9 +117,11 @@ class GateResult:
     @property
     def failures(self) -> tuple[Check, ...]:
         """The deciding checks that were not accepted."""
-        return tuple(
-            [check for check in self.checks if check.verdict != ACCEPTED and check.id in self.deciding]
-        )
+        return tuple([check for check in self.checks if check.verdict != ACCEPTED and self.decides(check)])
+
+    def decides(self, check: Check) -> bool:
+        """Whether the verdict follows from a check."""
+        return check.id in self.deciding or check.id == GRAVITY
 
 
 def judged_sets(
@@ -129,15 +146,16 @@ def judged_sets(
     deciding = [deciding_for(gains, asked) for gains in gain_file.gains]
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
     if rests_on:
-        limits = limits.resting_on(rests_on)
+        limits = limits.resting_on((*limits.gravity_notes, *rests_on))
+    broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
     for gains, names, certificates in zip(gain_file.gains, deciding, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        checks = (*conditions[key].all(gains, names), *certificates)
+        checks = (*broken, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
-        result = GateResult(gain_file, gains, limits, checks, names, strict, explained=more)
+        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 

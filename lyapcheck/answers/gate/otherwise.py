@@ -46,7 +46,7 @@ def proved_otherwise(
     if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > FEW_JOINTS):
         return None
     arm = model if ranges else model.fixed()
-    result = _scalar(gains, arm, friction_of(model, viscous_min), ranges)
+    result = _scalar(gains, arm, friction_of(model, viscous_min, ranges), ranges)
     if result is None or result.verdict != ACCEPTED:
         result = lasalle(arm)
     return result if result.verdict == ACCEPTED else None
@@ -76,11 +76,12 @@ def small(fixed: RobotModel) -> bool:
         return False
 
 
-def friction_of(model: RobotModel, viscous_min: Fraction | None) -> tuple[Ends, ...] | None:
-    """Every B between a λmin(B) that replaces the arm's and the arm's own; ``None`` where none does."""
+def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -> tuple[Ends, ...] | None:
+    """Every B between a λmin(B) that replaces the arm's and the most of its own; ``None`` where none does."""
     if viscous_min is None:
         return None
-    return tuple((viscous_min, max(viscous_min, number.value)) for number in model.viscous)
+    most = (number.bounds[1] if ranges else number.value for number in model.viscous)
+    return tuple((viscous_min, max(viscous_min, own)) for own in most)
 
 
 def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, ranges: bool) -> Check | None:
@@ -95,7 +96,7 @@ def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, 
     loop = closed_loop_of(gains, arm, Fraction(1), ranges=ranges)
     if friction is not None:
         loop = replace(loop, viscous=friction)
-    proof, _ = norm_proof(loop, mass_proof(mass_of(arm)), conic=False)
+    proof, _ = norm_proof(loop, mass_proof(mass_of(arm)))
     if proof is None:
         return None
     result = judged_statement(proof.statement, [proof.certificate])

@@ -18,9 +18,9 @@ from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle, unkn
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged_statement
+from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.norms import REFUSED, norm_epsilon
 from lyapcheck.search.posture import unphysical
@@ -30,6 +30,10 @@ MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
 CEILINGS = (64, 16, 8, 4, 2)
 """Times the ε₀ of norms: where branch and bound begins, from above."""
+
+GLOBAL = "global"
+SEARCHES = ("numpy", "scipy", "casadi")
+"""What the search for it asks; the other certificates are found without."""
 
 _NOMINAL = "certificates are about the arm at its nominal numbers"
 _RANGED = "certificates are about the arm for all values of its ranges"
@@ -66,6 +70,9 @@ class Prover:
         """
         if self.model is None:
             return Check(name, reason=_NO_ARM)
+        lacking = next((one for one in SEARCHES if not installed(one)), None) if name == GLOBAL else None
+        if lacking is not None:
+            return Check(name, reason=f"needs {PACKAGES[lacking]}, which is not installed; {repair(lacking)}")
         progress(0.0, "")
         controlled = ControlledArm(gains, self.model, self.ranges)
         if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
@@ -75,7 +82,7 @@ class Prover:
         if not reason and name == LASALLE:
             return lasalle(self.model if self.ranges else self.model.fixed())
         if not reason:
-            friction = friction_of(self.model, self.viscous_min)
+            friction = friction_of(self.model, self.viscous_min, self.ranges)
             proof, reason = (
                 norm_epsilon(controlled, friction)
                 if name == "scalar"
@@ -114,6 +121,8 @@ class Prover:
 
 def _proofs(controlled: ControlledArm, coarse: DecreaseProof, progress: Progress) -> Iterator[DecreaseProof]:
     """Proofs that the checker has accepted, of the largest ε₀ that can be hoped for first."""
+    from lyapcheck.search.certified import certified_epsilon
+
     step = 1 / len(CEILINGS)
     for number, ceiling in enumerate(CEILINGS):
         advance = part(progress, number * step, (number + 1) * step, ", ")

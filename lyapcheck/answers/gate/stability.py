@@ -33,8 +33,8 @@ def remarks(result: GateResult) -> list[str]:
         outcome += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
     if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
         outcome.append(_SINGLE + _accepting(result))
-    elif joints == REJECTED and result.stable is not None:
-        outcome.append("(10p) fails: a motor may saturate, and stability is proved only while none does")
+    elif result.saturates and result.stable is not None:
+        outcome.append("(10i) fails: a motor may saturate, and stability is proved only while none does")
     model, gains = result.limits.model, result.gains
     if not result.explained or model is None:
         return outcome
@@ -45,7 +45,8 @@ def _without_19(result: GateResult) -> list[str]:
     known, frictionless = result.stable, result.limits.viscous_min == 0
     if known is not None:
         where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
-        outcome = f"(19) fails, yet the gains are proved stable without it: {_proof(known, where)}"
+        how = "proved stable while no motor saturates" if result.saturates else "proved stable without it"
+        outcome = f"(19) fails, yet the gains are {how}: {_proof(known, where)}"
         outcome += _accepting(result) if "19" in result.deciding else ""
         return [outcome, _NO_FRICTION] if frictionless else [outcome]
     if not result.limits.robot:

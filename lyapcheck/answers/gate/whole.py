@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.certificates import PROOF, gravity_bounds_of
+from lyapcheck.answers.gate.statement import verdict_statement
 from lyapcheck.answers.gate.words import joint_name
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
@@ -18,30 +18,35 @@ if TYPE_CHECKING:
     from lyapcheck.control.judgement import JudgedStatement
 
 
-def whole(result: GateResult) -> tuple[Certificate, ...]:
-    """The certificate of a gain set, and those of gravity that it uses; none where it is undecided.
+PROOF = "gate"
+
+
+def whole(result: GateResult) -> Certificate | None:
+    """The certificate of the verdict on a gain set; none where it is undecided.
+
+    One statement about the arm, its ranges and the gains where there is one, else one on numbers alone.
 
     Soundness: every part is a judgement of ``lyapcheck.check.verify``.
     """
-    checks = [check for check in result.checks if check.id in result.deciding]
+    checks = [check for check in result.checks if result.decides(check)]
     known = [(check, check.judgement) for check in checks if check.judgement is not None]
     if result.verdict not in (ACCEPTED, REJECTED) or len(known) < len(checks):
-        return ()  # without a limit there is no statement to certify
-    names = [f"{check.id} {joint_name(result, check)}" for check in checks]
-    parts = AllOf(tuple((name, outcome.statement) for name, (_, outcome) in zip(names, known, strict=True)))
+        return None  # without a limit there is no statement to certify
     about = About(
         result.name, f"{result.name}: {', '.join(result.deciding)}", result.m, result.limits.n, PROOF
     )
+    one = verdict_statement(result)
+    if one is not None:
+        return Certificate(about, one.statement, one.shown, one.grade, _proof(one))
+    names = [f"{check.id} {joint_name(result, check)}" for check in checks]
+    parts = AllOf(tuple((name, outcome.statement) for name, (_, outcome) in zip(names, known, strict=True)))
     if result.verdict == REJECTED:
         first = next(k for k, (check, _) in enumerate(known) if check.verdict == REJECTED)
         outcome = known[first][1]
         proof = OnePart(first, _proof(outcome))
-        return (Certificate(about, parts, "refuted", outcome.grade, proof),)
-    used = gravity_bounds_of(result) if {"10", "10p", "10i"} & set(result.deciding) else ()
+        return Certificate(about, parts, "refuted", outcome.grade, proof)
     every = EveryPart(tuple(_proof(outcome) for _, outcome in known))
-    grade = weakest(outcome.grade for _, outcome in known)
-    uses = {one.claim.id: one.digest for one in used}
-    return (Certificate(about, parts, "proved", grade, every, uses), *used)
+    return Certificate(about, parts, "proved", weakest(outcome.grade for _, outcome in known), every)
 
 
 def _proof(result: JudgedStatement) -> Proof:

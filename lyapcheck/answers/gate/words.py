@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import lru_cache
+from math import degrees
 
-from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.answers.gate.judge import GRAVITY, GateResult
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.control.conditions import ACCEPTED, Check
 from lyapcheck.files.decimals import decimal_text, scaled_text
@@ -22,8 +23,18 @@ RULES = {
     "global": "dV/dt < 0 with some ε₀ > 0 at every state, box by box; the value is the ε₀ proved",
     "lasalle": "M(q) ≻ 0, which with positive gains makes the origin globally asymptotically stable by "
     "LaSalle's theorem, with or without friction (Khalil 2002, corollary 4.2)",
+    GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }
-KEYS = {"10": "kp", "10p": "kp", "10i": "kp", "19": "kv", "scalar": "", "global": "", "lasalle": ""}
+KEYS = {
+    "10": "kp",
+    "10p": "kp",
+    "10i": "kp",
+    "19": "kv",
+    "scalar": "",
+    "global": "",
+    "lasalle": "",
+    GRAVITY: "",
+}
 """The gain to look at when a check fails."""
 _SUBJECTS = {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "10i": "k_p + k_v", "19": "k_v"}
 
@@ -47,6 +58,8 @@ def value_text(check: Check) -> str:
 
 def limit_text(check: Check) -> str:
     """The limit to six digits, all correct; ``none`` where there is no limit."""
+    if check.id == GRAVITY:
+        return ""
     if check.id not in _SUBJECTS:
         return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
     return "none" if check.limit is None else _digits(check.limit)
@@ -110,12 +123,25 @@ def advices(result: GateResult) -> list[str]:
 
 def _broken(result: GateResult, check: Check) -> str:
     if check.limit is None or check.verdict == "undecided":
-        return check.reason
+        return check.reason or _exceeded(result, check)
     broken = (
         f"{_SUBJECTS[check.id]} = {value_text(check)} breaks {RULES[check.id]} = {limit_text(check)}, "
         f"margin {margin_text(check)}"
     )
     return f"{broken}; {_repair(result, check)}"
+
+
+def _exceeded(result: GateResult, check: Check) -> str:
+    """The posture at which gravity exceeds a stated bound."""
+    for one in result.limits.refuted:
+        if check.id == GRAVITY and one.joint == check.joint:
+            q = one.refuted.proof.q  # type: ignore[union-attr]
+            place = ", ".join(f"{degrees(x):.6g}" for x in q)
+            return (
+                f"the stated bound of {decimal_text(one.bound)} N·m is false: by the arm's own model gravity "
+                f"exerts {float(one.reached):.6g} N·m at q = ({place})°; correct it, or remove it"
+            )
+    return ""
 
 
 def _repair(result: GateResult, check: Check) -> str:

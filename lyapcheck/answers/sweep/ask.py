@@ -10,6 +10,7 @@ from lyapcheck.answers.sweep.arms import arm
 from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.errors import InputError
 from lyapcheck.extensions import modules
+from lyapcheck.libraries import missing
 
 PACKAGE = "lyapcheck.answers.sweep.asks"
 ERROR = "error"
@@ -71,6 +72,11 @@ def _alone(name: str, question: Question, jobs: int) -> Answered:
     """One question for itself, whatever it raises: the others must not be lost with it."""
     try:
         return _asked(name, [question], jobs)[0]
+    except ImportError as error:
+        lack = missing(error)  # which all the others lack, too
+        if lack is not None:
+            raise lack from None
+        return failed(question, f"{type(error).__name__}: {error}")
     except InputError as error:
         return failed(question, "; ".join(map(str, error.problems)))
     except Exception as error:

@@ -9,6 +9,7 @@ from typing import Any
 
 from lyapcheck.answers.sweep.question import COLUMNS, Answered, line_of
 from lyapcheck.errors import InputError, argument_error
+from lyapcheck.files.reader import holds
 from lyapcheck.temporary import pending, try_writing
 
 ROWS, PART, TABLE, CERTIFICATES = "rows.jsonl", ".rows.jsonl", "rows.parquet", "certificates"
@@ -76,7 +77,7 @@ class Folder:
             self._recent.add(digest)
             path = self.path / CERTIFICATES / f"{digest}.json"
             content = text.encode()
-            if not path.exists() or path.read_bytes() != content:
+            if not holds(path, content):
                 _write(path, content)
 
     def _tabulate(self) -> None:

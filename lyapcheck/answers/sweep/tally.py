@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.answers.sweep.question import Row
-from lyapcheck.files.decimals import at_least, at_most
+from lyapcheck.output.digits import at_least, at_most
 
 MOST_CELLS = 3_000
 """Of one map; a larger one could not be read."""

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from lyapcheck.answers.tune.gain_range import GainRange
+from lyapcheck.convex import Ended, solved
 
 
 @dataclass(frozen=True)
@@ -51,14 +52,10 @@ def propose(gain_ranges: Sequence[GainRange]) -> GainProposal:
             stiff = 2 * ratio * sqrt(inertia * slope * torque[i])
             damped = friction + slope * torque[i] * kv[i]
             constraints.append(root[i] <= damped / stiff)
-    problem = cp.Problem(cp.Maximize(cp.sum(root)), constraints)
-    try:
-        problem.solve(solver=cp.CLARABEL)
-    except cp.SolverError:
-        return GainProposal("failed")
-    if problem.status != cp.OPTIMAL or root.value is None or kv.value is None:
-        return GainProposal(str(problem.status))
-    pairs = [(float(s), float(v), t) for s, v, t in zip(root.value, kv.value, torque, strict=True)]
+    solution = solved(cp.sum(root), constraints, [root, kv])
+    if solution.ended is not Ended.SOLVED:
+        return GainProposal(solution.reason)
+    pairs = [(float(s), float(v), t) for s, v, t in zip(*solution.values, torque, strict=True)]
     return GainProposal("optimal", tuple(s * s * t for s, _, t in pairs), tuple(v * t for _, v, t in pairs))
 
 

@@ -100,10 +100,13 @@ def _for_each_joint(targets: Targets, n: int) -> Targets:
 
 
 def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:
-    """The bounds that the gain file must repeat: all of them, where they are those of ranges."""
+    """The bounds that the gain file must repeat: all of them, where they are those of ranges.
+
+    Of gravity those that the arm keeps, whatever was given.
+    """
     known = tuple(limit for limit in limits.torque if limit is not None)
     if not varies:
-        return bounds
+        return replace(bounds, gravity=None if bounds.gravity is None else limits.gravity)
     return Bounds(limits.viscous_min or None, known if len(known) == limits.n else None, limits.gravity)
 
 

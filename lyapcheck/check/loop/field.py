@@ -97,13 +97,15 @@ def size_of(entry: Uncertain, parameters: Sequence[Ends]) -> Fraction:
     )
 
 
-def value_at(entry: Uncertain, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> arb:
-    """A polynomial in balls at one posture and one choice of the parameters."""
+def value_at(
+    entry: Uncertain, q: Sequence[Fraction], parameters: Sequence[Fraction], unit: arb | int = 1
+) -> arb:
+    """A polynomial in balls at one posture, in a unit of angles, and one choice of the parameters."""
     total = arb(0)
     for powers, terms in entry.items():
         scale = to_arb(prod((x**p for x, p in zip(parameters, powers, strict=True)), start=Fraction(1)))
         for k, (a, b) in terms.items():
-            angle = to_arb(sum((factor * x for factor, x in zip(k, q, strict=True)), Fraction(0)))
+            angle = unit * to_arb(sum((factor * x for factor, x in zip(k, q, strict=True)), Fraction(0)))
             total += scale * (to_arb(a) * angle.cos() + to_arb(b) * angle.sin())
     return total
 

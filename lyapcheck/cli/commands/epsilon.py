@@ -56,7 +56,7 @@ def arguments(parser: Parser) -> None:
     about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
     parser.add_number("--spread", float, about)
     add_vary(parser)
-    about = "Time for branch and bound; the answer then depends on the machine."
+    about = "Computing time for branch and bound, s; the answer then depends on the machine."
     parser.add_number("--seconds", float, about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
     parser.add_argument("--weights", action="store_true", help=about)

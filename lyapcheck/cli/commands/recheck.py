@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.limits import MOST, Limits
 from lyapcheck.check.recheck import Outcome
 from lyapcheck.cli.options import add_format
+from lyapcheck.libraries import installed, lacking
 from lyapcheck.rechecking import command
 from lyapcheck.rechecking.command import FORMATS, HELP
 
@@ -53,6 +54,8 @@ def run(
       lyapcheck recheck proof/16.6.json --trusted
       lyapcheck recheck proof/ --kernel
     """
+    if not installed("flint"):  # else it is the process that judges that does not start
+        raise lacking("flint")
     if kernel or kernel_files is not None:
         from lyapcheck.answers.kernel import writer
         from lyapcheck.cli.output import open_folder

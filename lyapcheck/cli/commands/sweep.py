@@ -25,7 +25,7 @@ MOST = 1_024
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan; see examples/sweep_plan.toml.")
+    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan (TOML).")
     about = "Write rows, certificates and a page with maps there."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
     parser.add_number("--jobs", int, "Processes; one a core if missing.", least=1, most=MOST)
@@ -53,8 +53,16 @@ def run(
     Exit code 0: all proved, accepted or observed, 1: something refuted or rejected, 2: unusable input,
     3: something undecided, 4: a question failed; its row says why.
 
+    A plan:
+      robots = ["reyes-kelly2"]
+      questions = ["gate"]
+      [grid]
+      m = [1, 2, 3]
+      kp = [[20, 5], [40, 8]]
+      kv = { from = 0.02, to = 0.1, step = 0.02 }
+
     Examples:
-      lyapcheck sweep examples/sweep_plan.toml --out sweep/
+      lyapcheck sweep plan.toml --out sweep/
       lyapcheck sweep plan.toml --out sweep/ --resume
       lyapcheck sweep plan.toml --out sweep/ --scheduler tcp://head:8786
     """

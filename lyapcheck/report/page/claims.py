@@ -143,7 +143,7 @@ def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str
 
 def _chip(row: ClaimRow) -> Markup:
     word = row.verdict
-    member = "" if row.m is None else f"m={row.m} "
+    member = " ".join([*filter(None, [row.gains]), *([] if row.m is None else [f"m={row.m}"]), ""])
     shown = [element("span", member, class_="m"), f"{SYMBOLS[word]} {word}"]
     return element("span", shown, class_=f"chip {word}", data_m=row.m)
 
@@ -163,7 +163,7 @@ def _details(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[s
 
 def _member(row: ClaimRow) -> Markup:
     """What was decided for one m, on what evidence."""
-    head = f"m = {row.m}: " if row.m is not None else ""
+    head = f"{row.about}: " if row.about else ""
     lines = [
         element("p", element("b", head, row.verdict), f" [{row.grade}: {GRADES.get(row.grade, '')}]"),
         element("p", row.statement, class_="decided"),

@@ -12,11 +12,10 @@ from pathlib import Path
 from xml.parsers import expat
 
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.reader import URDF, not_utf8, read_bytes
 from lyapcheck.files.rules import RETYPE, UNPRINTABLE
 from lyapcheck.output.escapes import printable
 
-LARGEST_URDF = 5_000_000
-"""Bytes; a humanoid with all its meshes named has about half a million."""
 _MOST_ELEMENTS = 100_000
 _MOST_DEPTH = 40
 _LONGEST = 10_000
@@ -47,7 +46,7 @@ def read_xml(path: Path, shown: str) -> Element:
         InputError: it cannot be read, is too large, not UTF-8, not XML, has a document type or entities, or
             more elements, deeper nesting or longer attributes than any robot needs.
     """
-    return parse_xml(_bytes(path, shown), shown)
+    return parse_xml(read_bytes(path, URDF, shown), shown)
 
 
 def parse_xml(data: bytes, shown: str) -> Element:
@@ -55,7 +54,7 @@ def parse_xml(data: bytes, shown: str) -> Element:
     try:
         data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise refused(shown, None, "is not UTF-8 text", "save it as UTF-8") from None
+        raise not_utf8(shown) from None
     try:
         return _Builder(shown).run(_DECLARATION.sub(lambda result: _NO_BREAK.sub(b" ", result[0]), data, 1))
     except expat.ExpatError as error:
@@ -119,17 +118,3 @@ class _Builder:
 def refused(shown: str, line: int | None, rule: str, repair: str) -> InputError:
     """The error for a file that is of no use as a whole."""
     return InputError(Problem(shown, line, "file", "", rule, repair))
-
-
-def _bytes(path: Path, shown: str) -> bytes:
-    try:
-        if path.is_dir():
-            raise refused(shown, None, "is a folder", "name a file in it")
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST_URDF + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise refused(shown, None, f"cannot be read ({reason})", "check the path") from None
-    if len(data) > LARGEST_URDF:
-        raise refused(shown, None, f"is larger than {LARGEST_URDF} bytes", "give a file of one robot")
-    return data

@@ -18,7 +18,7 @@ from lyapcheck.derive.plain import has_plain_forms
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt, total
-from lyapcheck.lyapunov.numeric import arm_digest, array_forms, forms_in
+from lyapcheck.lyapunov.numeric import array_forms, forms_in, question
 from lyapcheck.robots import RobotModel
 
 Columns = Sequence[Any]
@@ -63,8 +63,8 @@ class RightSide:
         n, sizes = self.model.n, (2 * self.model.n + 2, parameter_count(self.model))
         made = []
         for place, (name, outputs) in enumerate((("motion", sizes[0]), ("watched", n + 1))):
-            question = (name, arm_digest(self.model), self.family)
-            one = loop(question, sizes, outputs, partial(_written, self.model, self.family, place))
+            asked = question(name, self.model, self.family)
+            one = loop(asked, sizes, outputs, partial(_written, self.model, self.family, place))
             if one is None:
                 return None
             made.append(one)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 import re
 from dataclasses import dataclass, field
@@ -12,6 +13,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.reader import SAMPLES, read_text
 from lyapcheck.output.escapes import printable
 
 MOST_ROWS = 200_000
@@ -54,16 +56,11 @@ def read_samples(path: Path, least: int) -> tuple[Array, Array]:
         InputError: what is wrong with the file, each problem with its line.
     """
     table = _Table(str(path))
+    text = read_text(path, SAMPLES, newline="")
     try:
-        with path.open(encoding="utf-8-sig", newline="") as stream:
-            _read(table, csv.reader(stream, strict=True))
-    except UnicodeDecodeError:
-        table.fail(None, "file", "", "is not UTF-8 text", "save it as UTF-8")
+        _read(table, csv.reader(io.StringIO(text, newline=""), strict=True))
     except csv.Error as error:
         table.fail(None, "file", "", f"is not CSV ({error})", "write numbers separated by commas")
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        table.fail(None, "file", "", f"cannot be read ({reason})", "check the path")
     if not table.problems and len(table.rows) < least:
         rule = f"has {len(table.rows)} samples, but the spline needs {least}"
         table.fail(None, "file", "", rule, "record more samples")

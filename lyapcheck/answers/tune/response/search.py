@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck.answers.gate.bench import dry_friction
 from lyapcheck.answers.tune.response.one_joint import Joint, proposal
 from lyapcheck.answers.tune.response.trial import Trial, tried
 from lyapcheck.answers.tune.response.wishes import BY_19, Trials
 from lyapcheck.control.arm_limits import gravity_bounds
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
+from lyapcheck.control.resting import dry_friction
 from lyapcheck.control.threshold import scaled
 from lyapcheck.family import named
 from lyapcheck.robots.dynamics import FEW_JOINTS

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,10 +109,10 @@ def _rest(gains: GainSet, model: RobotModel) -> Array:
     return np.array([_degrees_above(e) for e in rest_errors(gains, model)])
 
 
-def _degrees_above(error: float | None) -> float:
+def _degrees_above(error: Fraction | None) -> float:
     if error is None:
         return math.inf
-    return math.nextafter(math.degrees(math.nextafter(error, math.inf)), math.inf) if error else 0.0
+    return math.nextafter(math.degrees(math.nextafter(float(error), math.inf)), math.inf) if error else 0.0
 
 
 def _one(

@@ -19,6 +19,8 @@ NAMES = {
 }
 """The wishes in words."""
 BY_19, BY_PROOF = "19", "proof"
+MOST = 1e6
+"""Per cent, s and degrees; who asks for more asks for nothing."""
 WAYS = (BY_19, BY_PROOF)
 """How stability is to be shown: by (19), or by a proof for the arm that does without."""
 
@@ -42,9 +44,9 @@ class Wishes:
     def __post_init__(self) -> None:
         problems = []
         for name, value in self.given.items():
-            top = 1.0 if name == "peak_share" else float("inf")
+            top = 1.0 if name == "peak_share" else MOST
             if not 0 < value <= top:
-                rule = "is a share, above 0 and at most 1" if name == "peak_share" else "must be positive"
+                rule = f"must be above 0, up to {top:g}"
                 option = "--" + name.replace("_", "-")
                 problems.append(
                     Problem("argument", None, option, at_most(value, 6), rule, "correct the value")

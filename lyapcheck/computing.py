@@ -1,0 +1,70 @@
+"""Computing time: of this process and those that it has started, whatever the clock on the wall says."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import time
+from multiprocessing import active_children
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+_SCHEDULED = 2
+"""Which of a process's clocks Linux is asked for: the time for which it was scheduled."""
+_LOOK = 0.2
+"""Seconds by the clock after which a process is looked at again."""
+
+
+class Spent(Exception):
+    """A process has computed for as long as it may."""
+
+
+def computing_time() -> float:
+    """The seconds that this process has computed so far, and those that it has started.
+
+    Of processes that still run this is known on Linux; elsewhere they count when they have ended.
+    """
+    times = os.times()
+    ended = times.children_user + times.children_system
+    running = (time_of(child.pid) for child in active_children() if child.pid is not None)
+    return time.process_time() + ended + sum(one or 0.0 for one in running)
+
+
+def time_of(pid: int) -> float | None:
+    """The seconds that another process has computed; none where the system does not say, or it has ended."""
+    try:
+        return time.clock_gettime((~pid << 3) | _SCHEDULED)
+    except (OSError, AttributeError, OverflowError):
+        return None
+
+
+def run_within(command: Sequence[str], seconds: float | None, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """Run a program to its end.
+
+    Args:
+        command: its words.
+        seconds: of computing time that it may take, by the clock where the system does not count them.
+        cwd: where it runs.
+
+    Raises:
+        Spent: it takes more.
+    """
+    begun = time.monotonic()
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd
+    ) as process:
+        try:
+            while True:
+                try:
+                    out, err = process.communicate(timeout=None if seconds is None else _LOOK)
+                except subprocess.TimeoutExpired:
+                    used = time_of(process.pid)
+                    if seconds is not None and seconds < (time.monotonic() - begun if used is None else used):
+                        raise Spent from None
+                else:
+                    return subprocess.CompletedProcess(command, process.returncode, out, err)
+        finally:
+            process.kill()

@@ -1,0 +1,242 @@
+"""Bounds k_gi of gravity torques: those that a source states, and whether the arm's own model keeps them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from itertools import product
+from typing import TYPE_CHECKING
+
+from flint import fmpq_mpoly
+
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, largest
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots.chain_bounds import chain_bounds
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.trig import to_terms
+
+if TYPE_CHECKING:
+    from lyapcheck.check.kinds.gravity import GravityBelow
+    from lyapcheck.control.judgement import JudgedStatement
+    from lyapcheck.robots import RobotModel
+
+Point = tuple[Fraction, ...]
+FEW_POSTURES = 4
+"""Up to so many joints all postures of quarter turns are looked at."""
+FINEST = 1e-7
+DIGITS = 10**9
+
+
+@dataclass(frozen=True)
+class RefutedBound:
+    """A stated bound that the arm itself breaks.
+
+    Args:
+        joint: from 0.
+        bound: N·m, as it is stated.
+        refuted: the checker's verdict on the bound, with the posture.
+        reached: N·m, what gravity exerts there at least.
+        own: whether the arm as its file gives it breaks it, and not only one in ranges supposed beside it.
+    """
+
+    joint: int
+    bound: Fraction
+    refuted: JudgedStatement
+    reached: Fraction
+    own: bool
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """The bounds to judge by, what there is to say of them, and the stated ones that are false."""
+
+    bounds: tuple[Fraction, ...]
+    notes: tuple[str, ...] = ()
+    refuted: tuple[RefutedBound, ...] = ()
+
+
+def computed_bounds(model: RobotModel) -> tuple[Fraction, ...]:
+    """The smaller of two bounds: coefficients of g_i in size, and for a chain masses and distances.
+
+    Raises:
+        TooManyTerms: no links are known, and g is too long to be written out.
+
+    Soundness: every monomial is a product of sines and cosines, at most 1 in size, and of parameters, at
+        most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other, which grows
+        with each mass.
+    """
+    along = model.chain_bounds
+    if along is None and model.heaviest is not None:
+        along = chain_bounds(model.heaviest)
+    chain = None if along is None else along.gravity
+    try:
+        sums = tuple(_coefficient_sum(model, torque) for torque in model.gravity)
+    except TooManyTerms:
+        if chain is None:
+            raise
+        return chain
+    return tuple(map(min, sums, chain or sums))
+
+
+@lru_cache(maxsize=64)
+def settled(model: RobotModel, stated: tuple[Fraction | None, ...], own: RobotModel) -> Gravity:
+    """The stated bounds where the model keeps them for all of its ranges, and computed ones elsewhere.
+
+    Args:
+        model: the arm, with ranges that may be supposed beside those of its file.
+        stated: bounds in N·m; ``None`` where nobody states one.
+        own: the arm as its file gives it.
+
+    Soundness: a stated bound counts where a computed one or the sizes of harmonics are not above it, or
+        ``lyapcheck.check.verify`` proves it.
+    """
+    bounds: list[Fraction] = []
+    notes: list[str] = []
+    refuted: list[RefutedBound] = []
+    for i, (bound, most) in enumerate(zip(stated, computed_bounds(model), strict=True)):
+        if bound is None or bound >= most or _kept_by_sizes(model, i, bound):
+            bounds.append(most if bound is None else bound)
+            continue
+        broken, why = _judged(model, i, bound, own)
+        if why == "":
+            bounds.append(bound)
+            continue
+        bounds.append(most)
+        refuted += [] if broken is None else [broken]
+        used = f"{decimal_text(most)} N·m from the model is used"
+        notes.append(f"gravity bound of {model.joints[i]} = {decimal_text(bound)} N·m {why}: {used}")
+    return Gravity(tuple(bounds), tuple(notes), tuple(refuted))
+
+
+def _coefficient_sum(model: RobotModel, poly: fmpq_mpoly) -> Fraction:
+    sizes = [Fraction(1)] * (2 * model.n)
+    sizes += [max(map(abs, number.bounds)) for number in model.parameters.values()]
+    total = Fraction(0)
+    for powers, coefficient in poly.terms():
+        size = abs(Fraction(int(coefficient.p), int(coefficient.q)))
+        for base, power in zip(sizes, powers, strict=True):
+            size *= base ** int(power)
+        total += size
+    return total
+
+
+@lru_cache(maxsize=64)
+def torque_of(model: RobotModel, i: int) -> Uncertain:
+    """g_i as harmonics, by the powers of the parameters."""
+    return by_parameters(to_terms(model.gravity[i]), model.n)
+
+
+def _kept_by_sizes(model: RobotModel, i: int, bound: Fraction) -> bool:
+    """Whether the harmonics of g_i are together not larger than a bound."""
+    sizes = [max(map(abs, number.bounds)) for number in model.parameters.values()]
+    try:
+        parts = torque_of(model, i).items()
+    except TooManyTerms:
+        return False
+    rows = (largest(part) * math.prod(map(pow, sizes, powers), start=Fraction(1)) for powers, part in parts)
+    return sum(rows, Fraction(0)) <= bound
+
+
+def _judged(model: RobotModel, i: int, bound: Fraction, own: RobotModel) -> tuple[RefutedBound | None, str]:
+    """What refutes a bound of an arm in the ranges, and why it does not count; ``""`` where it does."""
+    try:
+        at = _broken(model, i, bound)
+        its_own = at if own is model or at is None else _broken(own, i, bound)
+    except TooManyTerms:
+        return None, "is not shown to be kept by the arm"
+    if at is None:
+        shown = model.n <= FEW_JOINTS and _by_boxes(model, i, bound)
+        return None, "" if shown else "is not shown to be kept by the arm"
+    if its_own is not None:
+        return RefutedBound(i, bound, *its_own, True), "is refuted by the arm's own model"
+    return RefutedBound(i, bound, *at, False), "is kept by the arm of the file, not over its ranges"
+
+
+def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:
+    from lyapcheck.check.kinds.gravity import GravityBelow
+
+    ranges = tuple(number.bounds for number in model.parameters.values())
+    return GravityBelow(model.n, (tuple(to_terms(model.gravity[i])),), ranges, bound)
+
+
+def _by_boxes(model: RobotModel, i: int, bound: Fraction) -> bool:
+    from lyapcheck.check.kinds.inertia import Bisection
+    from lyapcheck.control.judgement import proves
+
+    return proves(_statement(model, i, bound), Bisection())
+
+
+def _broken(model: RobotModel, i: int, bound: Fraction) -> tuple[JudgedStatement, Fraction] | None:
+    """A posture at which the checker finds gravity above a bound, with what it exerts there at least."""
+    from lyapcheck.check.kinds.inertia import PostureWitness
+    from lyapcheck.check.numbers.enclosure import Enclosure
+    from lyapcheck.control.judgement import judged_statement
+
+    statement = _statement(model, i, bound)
+    for turns, parameters in steep_postures(model, i):
+        q = tuple(Fraction(round(float(x) * math.pi / 2 * DIGITS), DIGITS) for x in turns)
+        its = judged_statement(statement, [PostureWitness(q, parameters, ())])
+        if its.shown == "refuted":
+            return its, Enclosure.from_arb(abs(statement.at(q, parameters)[0])).lower
+    return None
+
+
+def steep_postures(model: RobotModel, i: int) -> Iterator[tuple[Point, Point]]:
+    """Postures in quarters of a turn, with parameters, at which |g_i| is about largest; only proposed."""
+    parts = [
+        (powers, [(k, float(a), float(b)) for k, (a, b) in terms.items()])
+        for powers, terms in torque_of(model, i).items()
+    ]
+    ends = [number.bounds for number in model.parameters.values()]
+
+    def size(place: Sequence[float]) -> float:
+        total = 0.0
+        for powers, terms in parts:
+            scale = math.prod(
+                float(pair[int(place[model.n + k])]) ** power
+                for k, (pair, power) in enumerate(zip(ends, powers, strict=True))
+            )
+            for k, a, b in terms:
+                angle = math.pi / 2 * sum(f * x for f, x in zip(k, place, strict=False))
+                total += scale * (a * math.cos(angle) + b * math.sin(angle))
+        return abs(total)
+
+    choices = [(0.0, 1.0, 2.0, 3.0)] * model.n + [(1.0, 0.0)] * len(ends)
+    start = [0.0] * model.n + [1.0] * len(ends)
+    if model.n <= FEW_POSTURES and len(ends) <= FEW_POSTURES:
+        start = max(map(list, product(*choices)), key=size)
+    quarter = _climbed(start, size, lambda x, k: choices[k])
+    best, step = quarter, 0.5
+    while step > FINEST:
+
+        def near(x: float, k: int, step: float = step) -> Sequence[float]:
+            return (x + step, x - step) if k < model.n else choices[k]
+
+        finer = _climbed(best, size, near)
+        step, best = (step / 2 if finer == best else step), finer
+    for place in (quarter, best):
+        turns = tuple(Fraction(round(x * DIGITS), DIGITS) for x in place[: model.n])
+        yield turns, tuple(pair[int(end)] for pair, end in zip(ends, place[model.n :], strict=True))
+
+
+def _climbed(
+    place: list[float],
+    size: Callable[[Sequence[float]], float],
+    choices: Callable[[float, int], Sequence[float]],
+) -> list[float]:
+    """One coordinate after the other at its best of some choices, until none is better."""
+    best, reached = place, size(place)
+    for _ in range(50):
+        before = reached
+        for k in range(len(best)):
+            for x in choices(best[k], k):
+                tried = [*best[:k], x, *best[k + 1 :]]
+                value = size(tried)
+                if value > reached * (1 + 1e-12):
+                    best, reached = tried, value
+        if reached == before:
+            break
+    return best
