@@ -236,7 +236,7 @@ def _falls(result: EpsilonResult, model: RobotModel) -> Promise | None:
     proof, gains = result.proof, result.gains
     if proof is None:
         return None
-    asked = decreasing(gains, model.fixed(), proof.loop.eps0)
+    asked = decreasing(gains, model, proof.loop.eps0, nominal=True)
     return promised(asked, judged_statement(proof.statement, [proof.certificate]))[0]
 
 
