@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from lyapcheck.answers.gate.otherwise import positive
-from lyapcheck.answers.gate.statement import shown_gravity
+from lyapcheck.answers.gate.shown import shown_gravity
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.promise import GUARDED, promises_as_seen
