@@ -59,7 +59,7 @@ SEEN = {
     "answers/simulate/tracking.py:_rows": "simulated",
     "answers/tune/effect.py:effect_section": "simulated",
     "answers/tune/effect.py:_six": "simulated",
-    "answers/tune/response/answer.py:missed": "the time of a simulated motion",
+    "answers/tune/response/answer.py:_missed_in_motions": "the time of a simulated motion",
     "answers/tune/response/answer.py:_angles": "angles that the user gave",
     "answers/tune/response/answer.py:_six": "simulated",
     "answers/tune/response/search.py:_score": "an order of candidates",

@@ -34,6 +34,7 @@ SAID = {
     "answers.epsilon.words": (3, "headings, and a sentence that promises alone may say"),
     "answers.gate.answer": (5, GATHERED),
     "answers.gate.judge": (2, GATHERED),
+    "answers.gate.words": (1, "the word of a check that is accepted, said by its promise"),
     "answers.gate.whole": (2, CERTIFICATE),
     "answers.recheck": (2, SORTING),
     "answers.robot.report": (1, HEADING),

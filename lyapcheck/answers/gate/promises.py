@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.otherwise import unknown_function
-from lyapcheck.answers.gate.statement import DIGITS, Numbers, numbers_of, shown_gravity
+from lyapcheck.answers.gate.shown import DIGITS, Numbers, numbers_of, shown_gravity
 from lyapcheck.asked import gate_accepted, gravity_kept
 from lyapcheck.check.kinds.gate_accepted import TORQUES, GateAccepted, GateParts
 from lyapcheck.check.limits import MAX_ARM
