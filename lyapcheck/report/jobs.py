@@ -10,19 +10,15 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.asked import decreasing
-from lyapcheck.control.judgement import judged_statement
 from lyapcheck.errors import InputError
 from lyapcheck.files.names import file_stem
 from lyapcheck.output.digits import at_least, at_most
-from lyapcheck.promise import Promise, promised
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import BOTH_ENDS, KINDS, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
@@ -197,7 +193,6 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
     from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.answers.epsilon.kept import kept_epsilon
     from lyapcheck.answers.epsilon.options import Options
-    from lyapcheck.check.verify import each_once
 
     if lacking := without_friction(gain_set, model):
         blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(EpsilonRow))
@@ -206,9 +201,7 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
         return EpsilonRow(
             **blank | {"assumptions": model.assumptions, "reasons": reasons, "certificates": {}}
         ), {}
-    with each_once():
-        result = kept_epsilon(gain_set, model, Options(max_boxes=BOXES, seed=seed))
-        promise = _falls(result, model)
+    result = kept_epsilon(gain_set, model, Options(max_boxes=BOXES, seed=seed))
     low, high = rounded(result.certified, up=False), rounded(result.falsified, up=True)
     files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
     row = EpsilonRow(
@@ -226,18 +219,9 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
         boxes=BOXES,
         reasons=dict(result.reasons),
         certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS},
-        promise=promise,
+        promise=result.promise,
     )
     return replace(row, reasons={k: text for k, text in row.reasons.items() if row.eps0(k) is None}), files
-
-
-def _falls(result: EpsilonResult, model: RobotModel) -> Promise | None:
-    """The promise that V falls at every state of the arm at its nominal numbers."""
-    proof, gains = result.proof, result.gains
-    if proof is None:
-        return None
-    asked = decreasing(gains, model, proof.loop.eps0, nominal=True)
-    return promised(asked, judged_statement(proof.statement, [proof.certificate]))[0]
 
 
 def without_friction(gain_set: GainSet, model: RobotModel) -> str:

@@ -50,7 +50,7 @@ def said(answer: Answer) -> Iterator[str]:
 def named(answer: Answer) -> set[str]:
     """Names of claims and of parts of a proof, and words of its author."""
     rows = answer.claims if isinstance(answer, ProofResult) else ()
-    return {name for row in rows for name in (row.id, row.section, row.comment, *row.uses)}
+    return {name for row in rows for name in (row.id, row.kind, row.section, row.comment, *row.uses)}
 
 
 def _said(answer: Answer) -> Iterator[str]:

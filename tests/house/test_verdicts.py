@@ -27,7 +27,7 @@ CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
     "answers.bounds.certificates": (1, CERTIFICATE),
-    "answers.check.proof": (3, SORTING),
+    "answers.check.proof": (4, "an order of verdicts, and a word that promises alone may say"),
     "answers.epsilon.annotations": (4, "the name of a rule"),
     "answers.epsilon.certificates": (3, CERTIFICATE),
     "answers.epsilon.kept": (2, "the name of a certificate, and what the checker said when it was taken"),
@@ -37,6 +37,7 @@ SAID = {
     "answers.gate.words": (1, "the word of a check that is accepted, said by its promise"),
     "answers.gate.whole": (2, CERTIFICATE),
     "answers.recheck": (2, SORTING),
+    "answers.robot.page": (2, "a word that promises alone may say"),
     "answers.robot.report": (1, HEADING),
     "answers.sweep.question": (2, "the words for the exit codes of answers"),
     "answers.sweep.result": (2, SORTING),

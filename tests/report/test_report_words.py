@@ -18,7 +18,7 @@ from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.model import Report
 from lyapcheck.report.write import render
 from tests.helpers.redrawn import other
-from tests.house.test_promises import said, words_of_proof
+from tests.helpers.words_of_proof import said, words_of_proof
 
 
 @pytest.mark.slow
