@@ -43,6 +43,7 @@ SEEN = {
     "answers/epsilon/words.py:remarks": "the size of a speed where no arm comes",
     "answers/robot/data.py:constant_data": "the gap of numeric ends",
     "answers/robot/page.py:_state_rows": "the angles of a witness, whole in the data",
+    "answers/tune/response/wishes.py:__post_init__": "the largest value that may be asked",
     "answers/simulate/numbers.py:plain": "simulated",
     "answers/simulate/numbers.py:row": "angles that the user gave",
     "answers/simulate/quantities.py:quantities": "simulated",

@@ -14,8 +14,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from lyapcheck import asked
 from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.asked import resting as asked_resting
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.judgement import ACCEPTED, JudgedStatement, judged_statement
 from lyapcheck.control.resting import DEGREES, dry_friction
@@ -80,7 +80,7 @@ def resting(gains: GainSet, model: RobotModel) -> Rest | None:
     )
     degrees = tuple(None if e is None else significant_up(e * DEGREES, 4) for e in errors)
     printed = [None if angle is None else angle / DEGREES for angle in degrees]
-    promise, _ = promised(asked.resting(gains, dry_friction(model), printed), judged)
+    promise, _ = promised(asked_resting(gains, dry_friction(model), printed), judged)
     return Rest(judged, promise, degrees)
 
 

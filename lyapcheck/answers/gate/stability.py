@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from lyapcheck.answers.gate.bench import damping_lines
 from lyapcheck.answers.gate.friction import friction_lines, held
-from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.answers.gate.judge import GRAVITY, GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.control.deciding import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
@@ -69,6 +69,8 @@ def _proof(known: Check, where: str) -> str:
 
 def _accepting(result: GateResult) -> str:
     """The options with which the gate would accept, by what this run has shown; empty where it has not."""
+    if result.verdict_of((GRAVITY,)) == REJECTED:
+        return ""  # a false bound of gravity is rejected whatever decides
     known = result.stable
     instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}
     if known is not None and result.verdict_of(("19",)) == REJECTED:
