@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import sys
-from dataclasses import replace
 from typing import Any
 
 from lyapcheck.errors import InputError, Problem
@@ -56,10 +55,15 @@ def _append_summary(path: str, document: Document) -> None:
     if len(text.encode()) > LARGEST_SUMMARY:
         sections = [block for block in document.blocks if isinstance(block, Section)]
         others = [section for section in sections if not section.title.startswith("✓")]
-        size = len(render(replace(document, blocks=tuple(others))).encode())
-        shown = others[: max(1, len(others) * LARGEST_SUMMARY // max(size, LARGEST_SUMMARY))]
-        title = f"{document.title}; {len(shown)} of {len(others)} that did not pass are shown"
-        text = render(Document(title, tuple(shown), document.notes))
+        count = len(others)
+        while True:
+            title = f"{document.title}; {count} of {len(others)} that did not pass are shown"
+            text = render(Document(title, tuple(others[:count]), document.notes))
+            size = len(text.encode())
+            if size <= LARGEST_SUMMARY or count <= 1:
+                break
+            # the first sections say more than those of sets that are not explained
+            count = max(1, min(count * LARGEST_SUMMARY // size, count - 1))
     try:
         with open(path, "a", encoding="utf-8") as stream:
             stream.write(text)

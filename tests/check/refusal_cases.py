@@ -32,6 +32,7 @@ GATE: list[tuple[str, Any, str]] = [
     ("k_g", ["-1"], "must not be negative"),
     ("viscous", [["3", "2"]], "must be ranges from 0 on"),
     ("conditions", ["19", "10"], "must be some, in order"),
+    ("limits", ["-1"], "must not be negative"),
     ("limits", [None], "must be known where a condition needs them"),
     ("gravity", [], "must be empty without gravity"),
     ("gravity", [[], []], "one a joint"),
