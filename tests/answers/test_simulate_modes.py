@@ -155,7 +155,7 @@ def test_a_motor_beyond_its_limit_is_a_broken_promise(lyapcheck, tmp_path):
     assert done.returncode == 1
     assert "|τ| of base within the motor's limit" in done.stderr
     text = lyapcheck(strong).stdout
-    assert text.startswith("✗ buap3: promises broken by 1 of 1 gain set\n")
+    assert text.startswith("✗ buap3: promises broken by 1 of 1 gain set, without the dry friction of the")
     assert "CUT SHORT at 0 s" in text
     assert lyapcheck(strong, "--experiment", "--time", 0.5).returncode == 0
 
