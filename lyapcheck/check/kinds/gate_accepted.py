@@ -178,7 +178,10 @@ class GateAccepted(Total):
         pairs = zip(names[2 * self.joints :], ranges[self.joints :], strict=True)
         over = [f"{name} in {text}" for name, text in pairs]
         entries = [f"g{i} = {polynomial_text(g, names)}" for i, g in enumerate(self.gravity, 1)]
-        over += [written_out(entries, "g(q)", self.gravity, ())] if self.gravity else []
+        if self.gravity:
+            slope = [f"U = {polynomial_text(self.potential, names)}"]
+            over += [written_out(entries, "g(q)", self.gravity, ())]
+            over += [written_out(slope, "potential U(q) of it", self.potential, ())]
         return (
             f"{'; '.join(words)}: for every arm with k_g = {list_text(self.k_g)}, τmax = ({limits}), "
             f"B = diag({', '.join(ranges[: self.joints])}), under h = {function}, "
