@@ -291,7 +291,11 @@ def test_an_altered_certificate_is_refused_and_the_claim_undecided(write, monkey
 
     class Altered:
         def __init__(self, certificate):
-            self.claim, self.statement, self.certificate = certificate.claim, certificate.statement, certificate
+            self.claim, self.statement, self.certificate = (
+                certificate.claim,
+                certificate.statement,
+                certificate,
+            )
 
         def text(self):
             return self.certificate.text().replace('"num","2"', '"num","3"')
