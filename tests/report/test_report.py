@@ -438,11 +438,13 @@ def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
 
 
 def test_members_stand_beside_each_other_with_their_runs(report: Report) -> None:
-    assert not [one for one in evidence(report) if one.title == "What m does"]
+    assert not [one for one in evidence(report) if one.title == "Simulated: what m does"]
     (first,) = report.runs
     slower = replace(first, name="another", m=2, L2=77.0, top_speed=0.125, rest=None)
     (section,) = (
-        one for one in evidence(replace(report, runs=(slower, first))) if one.title == "What m does"
+        one
+        for one in evidence(replace(report, runs=(slower, first)))
+        if one.title == "Simulated: what m does"
     )
     table, *_ = section.blocks
     assert isinstance(table, Table)
@@ -451,7 +453,7 @@ def test_members_stand_beside_each_other_with_their_runs(report: Report) -> None
     assert table.rows[0][4] == f"{first.top_speed:.2f}"
     assert table.rows[1][1::4] == ("77.00", "anywhere")
     twice = replace(report, runs=(slower, replace(first, m=2)))
-    assert not [one for one in evidence(twice) if one.title == "What m does"]
+    assert not [one for one in evidence(twice) if one.title == "Simulated: what m does"]
 
 
 @pytest.mark.parametrize(("broken", "certified"), [("19", "0.1"), ("19", None), ("10p", "0.1")])
