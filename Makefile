@@ -5,7 +5,7 @@ BIN := .venv/bin
 # As commands do: the matrices are small, and threads of BLAS only wait for each other.
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: report screenshots site study test test-slow test-robots test-sweep kernel kernel-slow fuzz lint types bench lock clean help
+.PHONY: report screenshots site study test test-slow test-robots test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
@@ -16,6 +16,7 @@ help:
 	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
 	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
+	@echo "make promises   what is promised over ranges, asked at 200 members a test; writes reports/promises.md"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make kernel-slow  both checkers on every committed certificate; writes reports/kernel.md and what check knows of Coq"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
@@ -54,6 +55,9 @@ test-robots: .venv/.ready
 test-sweep: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sweep]"
 	$(BIN)/pytest tests/sweep/on_a_cluster.py
+
+promises: .venv/.ready
+	$(BIN)/python -m tests.promises.record
 
 # Only this target needs Coq; it installs nothing by itself.
 kernel:

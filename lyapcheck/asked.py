@@ -6,18 +6,29 @@ a certificate or a nominal arm, unless the sentence is about the nominal arm and
 
 from __future__ import annotations
 
+from dataclasses import fields, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
+from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow
+from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
-    from lyapcheck.check.statement import Ends
-    from lyapcheck.control.gains import GainSet
+    from lyapcheck.check.statement import Ends, Statement
+    from lyapcheck.control.gains import Bounds, GainSet
+    from lyapcheck.robots import RobotModel
     from lyapcheck.robots.plant import Plant
 
 
@@ -66,3 +77,129 @@ def decreasing(
 def resting(gains: GainSet, dry: Sequence[Fraction], errors: Sequence[Fraction | None]) -> Resting:
     """Does each joint rest within its error under dry friction of this size, N·m? See `Resting`."""
     return Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), tuple(errors))
+
+
+def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -> Statement:
+    """Is a constant of the arm above this number (λmin(M)), or at most this number (all others)?
+
+    Args:
+        name: ``lambda_min``, ``lambda_max``, ``k_c``, ``k_g`` or ``k_g1`` and so on.
+        arm: for all values of its ranges.
+        end: the number that is printed.
+        along_links: ask about the links of the arm, whose numbers are exact, not about M(q) and g(q) in full.
+    """
+    if along_links:
+        return _of_links(name, arm, end)
+    ranges = tuple(number.bounds for number in arm.parameters.values())
+    if name == "lambda_min":
+        return MassAbove(mass_of(arm), ranges, end)
+    if name == "lambda_max":
+        return MassBelow(mass_of(arm), ranges, end)
+    if name == "k_c":
+        return CoriolisBelow(mass_of(arm), ranges, end)
+    gravity = tuple(tuple(to_terms(arm.gravity[i])) for i in _joints(name, arm))
+    return GravityBelow(arm.n, gravity, ranges, end)
+
+
+def _of_links(name: str, arm: Plant, end: Fraction) -> Statement:
+    chain = arm.chain
+    assert chain is not None
+    if name == "lambda_min":
+        return ChainAbove(chain.links, end)
+    if name == "lambda_max":
+        return ChainBelow(chain.links, end)
+    if name == "k_c":
+        return ChainCoriolisBelow(chain.links, end)
+    return ChainGravityBelow(chain.links, chain.fall, tuple(i + 1 for i in _joints(name, arm)), end)
+
+
+def _joints(name: str, arm: Plant) -> range:
+    """All joints for ``k_g``, one for ``k_g2``."""
+    if name == "k_g":
+        return range(arm.n)
+    joint = int(name.removeprefix("k_g")) - 1
+    return range(joint, joint + 1)
+
+
+def over_ranges(stated: Statement, arm: Plant) -> Statement | None:
+    """Does the same hold for all values of the ranges of M and g? ``None``: the kind knows no ranges."""
+    if isinstance(stated, AllOf):
+        parts = [(name, over_ranges(part, arm)) for name, part in stated.parts]
+        known = tuple((name, part) for name, part in parts if part is not None)
+        return AllOf(known) if len(known) == len(parts) else None
+    names = {one.name for one in fields(stated)}  # type: ignore[arg-type]
+    if "parameters" not in names:
+        return None
+    asked: dict[str, Any] = {"parameters": tuple(number.bounds for number in arm.parameters.values())}
+    if "mass" in names:
+        asked["mass"] = mass_of(arm)
+    return replace(stated, **asked)  # type: ignore[type-var]
+
+
+def gate_accepted(
+    gains: GainSet,
+    arm: RobotModel | None,
+    bounds: Bounds,
+    k_g: tuple[Fraction, ...],
+    conditions: Collection[str],
+) -> GateAccepted:
+    """Do the conditions on numbers hold for every arm in the ranges, where gravity keeps to k_g?
+
+    Args:
+        gains: the controller.
+        arm: as the user gave it, with all ranges; ``None`` where the gain file gives its limits alone.
+        bounds: limits of the gain file, which go before those of the arm.
+        k_g: a bound of each gravity torque, N·m; whether the arm keeps it asks `gravity_kept`.
+        conditions: those that decide; of them the ones on numbers.
+    """
+    parameters, viscous, limits = _of_motors(arm, bounds, len(k_g))
+    return GateAccepted(
+        joints=len(k_g),
+        gravity=(),
+        potential=(),
+        parameters=parameters,
+        k_g=k_g,
+        viscous=viscous,
+        limits=limits,
+        family=gains.family,
+        m=gains.m,
+        kp=tuple(gains.kp),
+        kv=tuple(gains.kv),
+        conditions=tuple(name for name in ("10", "10p", "10i", "19") if name in conditions),
+        stability=(),
+    )
+
+
+@lru_cache(maxsize=16)
+def _of_motors(
+    arm: RobotModel | None, bounds: Bounds, n: int
+) -> tuple[tuple[Ends, ...], tuple[Ends, ...], tuple[Fraction | None, ...]]:
+    """Ranges of parameters and friction, and the least torque limits."""
+    if arm is None:
+        least = bounds.viscous_min or Fraction(0)
+        return (), ((least, least),) * n, bounds.torque or (None,) * n
+    own = tuple(None if limit is None else limit.bounds[0] for limit in arm.torque_limit)
+    parameters = tuple(number.bounds for number in arm.parameters.values())
+    return parameters, viscous_of(arm, bounds.viscous_min), bounds.torque or own
+
+
+def viscous_of(arm: Plant, viscous_min: Fraction | None = None, *, nominal: bool = False) -> tuple[Ends, ...]:
+    """The range of each viscous friction; all from a λmin(B) on that replaces the arm's, N·m·s/rad."""
+    own = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)
+    if viscous_min in (None, min(low for low, _ in own)):
+        return own
+    return tuple((viscous_min, max(viscous_min, high)) for _, high in own)
+
+
+def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
+    """Is g the slope of the potential, and |g_i(q)| ≤ k_gi at every posture of every arm in the ranges?"""
+    ranges = tuple(number.bounds for number in arm.parameters.values())
+    gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
+    parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
+    slope = GravityOfPotential(gravity, tuple(to_terms(arm.potential)), ranges)
+    return AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(parts, 1))))
+
+
+def definite(arm: RobotModel) -> MassAbove:
+    """Is M(q) positive definite for every arm in the ranges?"""
+    return MassAbove(mass_of(arm), tuple(number.bounds for number in arm.parameters.values()), Fraction(0))

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from fractions import Fraction
 from functools import cache, cached_property
-from importlib.metadata import version
 from typing import Any
 
 from lyapcheck.check import certificate as read
@@ -18,6 +17,8 @@ from lyapcheck.check.codec import TAGS, name_of
 @cache
 def made_with() -> dict[str, str]:
     """What the certificates of this process are made with."""
+    from importlib.metadata import version  # loads what reads mail, which the gate can do without
+
     return {name: version(name) for name in ("lyapcheck", "python-flint")}
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from lyapcheck.check.covers import require_covered
 from lyapcheck.check.refusal import Refused, require
@@ -65,10 +65,29 @@ def promised(asked: Statement, shown: Judged) -> tuple[Promise | None, str]:
         return None, f"what is proved does not answer the question ({refused})"
 
 
-def all_say(promises: Iterable[Promise], words: str) -> str:
-    """Words of proof about several questions at once; each of them must allow them."""
-    for promise in promises:
-        words = promise.says(words)
+def told(promise: Promise | None, data: Any) -> Any:
+    """Plain data, with the promise's word for each text in it; as they are where there is no promise."""
+    if promise is None:
+        return data
+    if isinstance(data, str):
+        return promise.says(data)
+    if isinstance(data, Mapping):
+        return {name: told(promise, part) for name, part in data.items()}
+    return [told(promise, part) for part in data] if isinstance(data, (list, tuple)) else data
+
+
+def all_say(promises: Iterable[Promise | None], words: str) -> str:
+    """Words of proof that rest on several promises at once.
+
+    Raises:
+        Refused: one is missing, or there is none.
+    """
+    every = list(promises)
+    require(len(every) > 0, "promises", 0, "must be one or more")
+    for one in every:
+        require(one is not None, "promise", "", "is missing")
+        assert one is not None
+        words = one.says(words)
     return words
 
 

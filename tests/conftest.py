@@ -12,11 +12,12 @@ from hypothesis import HealthCheck, settings
 from lyapcheck import store
 from tests.helpers.one_process import one_process
 
-# The same properties in both; ``make test-slow`` looks at more examples. No deadlines: how long an example
-# takes says more of the machine than of the code.
+# The same properties in all: ``make test-slow`` looks at more examples, ``make promises`` writes what it has
+# looked at. No deadlines: how long an example takes says more of the machine than of the code.
 NO_CLOCK = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("fast", NO_CLOCK, max_examples=10)
 settings.register_profile("thorough", NO_CLOCK, max_examples=250)
+settings.register_profile("promises", NO_CLOCK, max_examples=200, derandomize=True)
 settings.load_profile("fast")
 
 # Each of the many processes that tests start would else compile the whole package for itself.

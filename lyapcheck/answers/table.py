@@ -17,7 +17,7 @@ from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Document, Paragraph
 from lyapcheck.output.document import Table as Cells
 
-TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x), certified"
+TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x)"
 LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, not rounded."
 CONSTANTS = ("gamma", "rho", "L", "gamma_at", "rho_at", "L_at")
 ENDS = ("lower", "upper")
@@ -38,9 +38,9 @@ LEADING = (
 )
 
 RESTS = (
-    "Proved by every_m.py: 3/32 < (γ − leading) m²/(√2 ln² 4m) < 1/6 for all m ≥ 2, −3/4 < (ρ − leading) m² "
-    "< 0 for all m ≥ 12; by asymptotics.py for each m: both, and 1/5 < (L − leading) asinh 1 m²/(√2 ln² 4m) "
-    "< 1/3."
+    "Claims that lyapcheck check decides: of every_m.py 3/32 < (γ − leading) m²/(√2 ln² 4m) < 1/6 for all m "
+    "≥ 2, −3/4 < (ρ − leading) m² < 0 for all m ≥ 12; of asymptotics.py for each m both, and 1/5 < (L − "
+    "leading) asinh 1 m²/(√2 ln² 4m) < 1/3."
 )
 
 _GUARD_DIGITS = 6

@@ -11,7 +11,7 @@ from dataclasses import fields
 from typing import Any
 
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.refusal import require
+from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Statement
 
 
@@ -44,6 +44,21 @@ def _each(shown: Any, asked: Any, holds: Callable[[Any, Any], bool]) -> bool:
     return asked is None or (shown is not None and holds(shown, asked))
 
 
+def _among(shown: Any, asked: Any) -> bool:
+    """Each condition that was asked about is among those that are shown, in the same order."""
+    return [one for one in shown if one in asked] == list(asked)
+
+
+def _each_covers(shown: Any, asked: Any) -> bool:
+    """Each statement that was asked for is covered by the one in its place."""
+    try:
+        for have, want in zip(shown, asked, strict=False):
+            require_covered(have, want)
+    except Refused:
+        return False
+    return len(shown) == len(asked)
+
+
 Row = Callable[[Any, Any], bool]
 _ARM: dict[str, Row] = {"mass": _same, "parameters": _wider}
 _LOOP: dict[str, Row] = _ARM | {"viscous": _wider, **dict.fromkeys(("family", "m", "kp", "kv"), _same)}
@@ -66,11 +81,13 @@ ROWS: dict[str, dict[str, Row]] = {
     "Decreasing": _LOOP | {"eps0": _same, "coupling": _same},
     # more friction than was asked about leaves larger errors
     "Resting": dict.fromkeys(("family", "m", "kp"), _same) | {"torque": _at_least, "errors": _at_most},
-    # k_g is bounded from below by gravity and from above by the gains
-    "GateAccepted": dict.fromkeys(
-        ("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv", "conditions", "stability"), _same
-    )
-    | {"parameters": _wider, "viscous": _wider, "limits": _at_most},
+    # A conjunction, so that fewer conditions follow. Of the ranges each part is *for all*: gravity for all
+    # parameters, and (19) by the least viscous end. (10), (10p) and (10i) grow with each τmax;
+    # no limit is asked as ``None``. But k_g is a
+    # bound in two directions, of gravity from above and of the gains from below, and so the same.
+    "GateAccepted": dict.fromkeys(("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv"), _same)
+    | {"parameters": _wider, "viscous": _wider, "limits": _at_most, "conditions": _among}
+    | {"stability": _each_covers},
     "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),
 }
 """For each kind, how a field that is shown must stand to the one that was asked for.

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.claims.search_result import SearchResult
+from lyapcheck.claims.statements import Missing
+from lyapcheck.promise import Promise, promised
 from lyapcheck.verdicts import Grade, Verdict
 
 
@@ -19,7 +21,7 @@ class Decision:
 
     ``evidence`` holds what else was found, as plain data (boxes used, samples without a counterexample, the
     value that would have made a printed number right). ``certificate`` is what the checker accepted, by
-    ``rules``, taking for granted what ``granted`` says.
+    ``rules``, taking for granted what ``granted`` says. ``promise`` is that of what is proved.
     """
 
     verdict: Verdict
@@ -31,6 +33,7 @@ class Decision:
     certificate: Proof | None = None
     rules: tuple[str, ...] = ()
     granted: tuple[str, ...] = ()
+    promise: Promise | None = None
 
     def __post_init__(self) -> None:
         decided = self.verdict in (Verdict.PROVED, Verdict.REFUTED)
@@ -42,16 +45,29 @@ class Decision:
             raise ValueError("an undecided claim says why, and what to try next")
         if decided and self.certificate is None:
             raise ValueError("a verdict carries the certificate that the checker accepted")
+        if (self.verdict is Verdict.PROVED) is (self.promise is None):
+            raise ValueError("what is proved carries a promise, and nothing else does")
+
+    @property
+    def word(self) -> str:
+        """The verdict as answers say it."""
+        return self.says(self.verdict.value)
+
+    def says(self, words: str) -> str:
+        """Words of proof, where something is proved."""
+        return words if self.promise is None else self.promise.says(words)
 
 
-def decided(finding: SearchResult, judged: Judged | None) -> Decision:
+def decided(finding: SearchResult, judged: Judged | None, asked: Statement | Missing) -> Decision:
     """The decision on a claim.
 
     Args:
         finding: what the search proposes; alone it decides nothing.
         judged: what a fresh checker says about its certificate, none if nothing could be certified.
+        asked: the claim's own statement.
 
-    Soundness: the only way to ``proved`` and ``refuted``, which are the checker's words.
+    Soundness: the only way to ``proved`` and ``refuted``, which are the checker's words; and it must have
+        judged what was asked, or for ``proved`` what covers it.
     """
     if finding.proof is None:
         verdict = Verdict.ERROR if finding.verdict is Verdict.ERROR else Verdict.UNDECIDED
@@ -60,6 +76,16 @@ def decided(finding: SearchResult, judged: Judged | None) -> Decision:
         return undecided("the checker has not judged its certificate", finding.method, **finding.evidence)
     if not judged.accepted or judged.verdict is None or judged.grade is None:
         reason = f"the checker refuses its certificate ({judged.reason})"
+        return undecided(reason, finding.method, **finding.evidence)
+    promise, reason = None, ""
+    if judged.shown == "proved":
+        if isinstance(asked, Statement):
+            promise, reason = promised(asked, judged)
+        else:
+            reason = "nothing was asked"
+    elif judged.statement != asked:
+        reason = "what is refuted is not what was asked"
+    if reason:
         return undecided(reason, finding.method, **finding.evidence)
     return Decision(
         Verdict(judged.verdict),
@@ -71,6 +97,7 @@ def decided(finding: SearchResult, judged: Judged | None) -> Decision:
         finding.proof,
         judged.rules,
         judged.granted,
+        promise,
     )
 
 

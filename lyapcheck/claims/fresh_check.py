@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.certificate import Certificate
-from lyapcheck.check.certificate import About
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.python_process import command, environment
 from lyapcheck.temporary import temporary_folder
@@ -20,16 +20,23 @@ from lyapcheck.temporary import temporary_folder
 class Judged:
     """What the checker says about one certificate; verdict and grade only where it is accepted.
 
-    ``grade`` is the weakest of the certificate's own and of those it rests on; ``rules`` are all that the
-    verdict trusts, ``granted`` is what its statements take for granted.
+    ``statement`` is what was written to its file. ``grade`` is the weakest of the certificate's own and of
+    those it rests on; ``rules`` are all that the verdict trusts, ``granted`` is what its statements take for
+    granted.
     """
 
+    statement: Statement
     accepted: bool
     reason: str
     verdict: str | None
     grade: str | None
     rules: tuple[str, ...] = ()
     granted: tuple[str, ...] = ()
+
+    @property
+    def shown(self) -> str:
+        """``proved``, ``refuted`` or ``undecided``."""
+        return self.verdict if self.accepted and self.verdict else "undecided"
 
 
 class ContradictionError(Exception):
@@ -61,7 +68,7 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
             [(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]]
         )
     rows = {row["file"]: row for row in answer["certificates"]}
-    return {key: _judged(rows[name], certificates[key].claim) for name, key in files.items()}
+    return {key: _judged(rows[name], certificates[key]) for name, key in files.items()}
 
 
 def answer_of(files: Mapping[str, str]) -> dict[str, Any]:
@@ -82,8 +89,11 @@ def answer_of(files: Mapping[str, str]) -> dict[str, Any]:
     return answer
 
 
-def _judged(row: dict[str, Any], claim: About) -> Judged:
+def _judged(row: dict[str, Any], certificate: Certificate) -> Judged:
+    claim = certificate.claim
     if row["accepted"] and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
         raise RuntimeError(f"the checker answers about {row['id']} where {claim.id} was asked")
     rests = (tuple(row["rules"]), tuple(row["granted"]))
-    return Judged(row["accepted"] is True, row["reason"], row["verdict"], row["grade"], *rests)
+    return Judged(
+        certificate.statement, row["accepted"] is True, row["reason"], row["verdict"], row["grade"], *rests
+    )

@@ -75,10 +75,15 @@ def still_open(reason: str, method: str, **evidence: Any) -> SearchResult:
     return SearchResult(Verdict.UNDECIDED, method, reason=reason, evidence=evidence)
 
 
+def proposed_word(verdict: Verdict) -> str:
+    """What a search thinks of one part, which no checker has judged by itself."""
+    return "proposed" if verdict is Verdict.PROVED else verdict.value
+
+
 def conjunction(parts: Iterable[tuple[str, SearchResult]]) -> SearchResult:
     """The finding on "all of these": one part refuted, or one open, or a proof of each."""
     named = list(parts)
-    rows = [{"part": name, "verdict": f.verdict.value, "method": f.method} for name, f in named]
+    rows = [{"part": name, "verdict": proposed_word(f.verdict), "method": f.method} for name, f in named]
     evidence = {"parts": rows}
     for wanted in (Verdict.REFUTED, Verdict.UNDECIDED):
         for index, (name, result) in enumerate(named):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from dataclasses import replace
+from typing import Any
 
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.answer import Answer
@@ -20,14 +22,30 @@ def show(answer: Answer, format: str) -> None:  # noqa: A002
     """An answer in a format; in colour where a terminal shows it and ``NO_COLOR`` is not set.
 
     Annotations for GitHub are not the whole answer: that goes to the job's summary, if there is one.
+    A fault in the wording does not cost what was computed: the data are written, and the fault is raised.
 
     Raises:
         InputError: the summary cannot be written.
     """
     colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-    sys.stdout.write(answer.written(format, colour))
+    try:
+        text = answer.written(format, colour)
+    except Exception:
+        sys.stdout.write(_bare(answer))
+        sys.stdout.flush()
+        raise
+    sys.stdout.write(text)
     if format == "github" and os.environ.get(SUMMARY):
         _append_summary(os.environ[SUMMARY], answer.document())
+
+
+def _bare(answer: Answer) -> str:
+    """The data of an answer as JSON, whatever is in them."""
+    try:
+        data: Any = answer.data()
+    except Exception:
+        data = getattr(answer, "__dict__", None) or list(answer)  # type: ignore[call-overload]
+    return json.dumps({"schema": answer.schema, "data": data}, indent=2, default=str, skipkeys=True) + "\n"
 
 
 def _append_summary(path: str, document: Document) -> None:

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import require
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, JudgedStatement
 from lyapcheck.control.paper import PRINTED_GAMMA
@@ -27,6 +28,7 @@ from lyapcheck.control.threshold import Threshold, norms, number, scaled
 from lyapcheck.errors import argument_error
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import places_of
+from lyapcheck.promise import Promise
 
 if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits
@@ -55,6 +57,8 @@ class Check:
         largest_admissible: the largest decimal that passes, with as many places as the user wrote, or more
             where only smaller values pass; ``None`` where no positive value does.
         reason: one sentence where ``limit`` is ``None`` or nothing was decided.
+        promise: of a proof about the arm, that it is about the arm as it was given.
+        admitted: that the largest value passes, where another was rejected.
     """
 
     id: str
@@ -64,11 +68,26 @@ class Check:
     limit: Enclosure | None = None
     largest_admissible: Written | None = None
     reason: str = ""
+    promise: Promise | None = None
+    admitted: JudgedStatement | None = None
 
     @property
     def verdict(self) -> str:
         """``accepted``, ``rejected`` or ``undecided``, as the checker says."""
         return UNDECIDED if self.judgement is None else self.judgement.verdict
+
+    @property
+    def own_promise(self) -> Promise:
+        """That a check holds which is accepted: of a proof about the arm, else of its own numbers.
+
+        Raises:
+            Refused: it is not accepted.
+        """
+        if self.promise is not None:
+            return self.promise
+        require(self.judgement is not None, "check", self.id, "has no statement")
+        assert self.judgement is not None
+        return Promise(self.judgement.statement, self.judgement)
 
     @property
     def margin(self) -> Fraction | None:
@@ -153,7 +172,9 @@ class Conditions:
             return Check(name, joint, result, value, reason=_UNBOUNDED)
         limit = threshold.apart(value, places)
         reason = _UNTOLD.format(result.reason) if result.proof is None else ""
-        return Check(name, joint, result, value, limit, threshold.largest(places), reason)
+        largest = threshold.largest(places)
+        passes = None if largest is None or result.shown == "proved" else threshold.judged(largest, places)
+        return Check(name, joint, result, value, limit, largest, reason, admitted=passes)
 
 
 def _fails(checks: Sequence[Check]) -> bool:

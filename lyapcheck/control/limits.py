@@ -76,9 +76,7 @@ def limits_for(
         if None in (bounds.torque, bounds.gravity, bounds.viscous_min):
             raise _without_arm(gain_file)
         told = ", ".join(map(decimal_text, bounds.gravity or ()))
-        premise = (
-            f"premise: gravity exerts at most ({told}) N·m, by [bounds] gravity; no model of the arm shows it"
-        )
+        premise = f"premise: gravity exerts up to ({told}) N·m, by [bounds] gravity; no arm shows it"
         numbers = bounds.torque or (), bounds.gravity or (), bounds.viscous_min, _numbered(n)
         return Limits(*numbers, (premise,), gravity_notes=(premise,))
     known = {} if arms is None else arms

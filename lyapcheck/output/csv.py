@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
@@ -15,7 +16,7 @@ def render(answer: Answer) -> str:
     """A line a record, under the names of all that any of them has; what is inside another gets both names.
 
     ``{"gamma": {"lower": 1}}`` is a column ``gamma_lower``, the parts of a list are counted from 1; cells
-    without a value are empty.
+    without a value are empty, and so are those whose number is none or infinite.
     """
     rows = [dict(_flat("", record)) for record in answer.records()]
     names = dict.fromkeys(name for row in rows for name in row)
@@ -49,6 +50,8 @@ def _cell(value: object) -> str:
         return ""
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, float) and not math.isfinite(value):
+        return ""
     text = str(value)
     return text if _is_number(text) else csv_text(text)
 

@@ -15,6 +15,9 @@ from lyapcheck.check.numbers.enclosure import Enclosure
 
 SHOWN = 4
 """Significant digits that people see, the same in every command."""
+NONE = "—"
+LARGE = 1e12
+"""From here on numbers of floating point are written with an exponent."""
 PLAIN = range(-6, 15)
 """Powers of ten whose numbers are written without an exponent."""
 Exact: TypeAlias = "Fraction | int | float | arb | Enclosure"
@@ -47,6 +50,20 @@ def at_least(x: Exact, digits: int = SHOWN) -> str:
         ('0.6666', '1e+20', '3.3e-10')
     """
     return _safe(x, digits, upward=False)
+
+
+def shown(value: float | None, form: str) -> str:
+    """A number of floating point in a form; a dash where there is none, or a sign of infinity.
+
+    Example:
+        >>> shown(2.5, ".2f"), shown(float("nan"), ".2f"), shown(float("-inf"), ".2f"), shown(1e300, ".2f")
+        ('2.50', '—', '-∞', '1e+300')
+    """
+    if value is None or math.isnan(value):
+        return NONE
+    if math.isinf(value):
+        return "∞" if value > 0 else "-∞"
+    return format(value, form if abs(value) < LARGE else ".4g")
 
 
 def decimals(number: Enclosure, digits: int) -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from functools import lru_cache
 from importlib.metadata import version
@@ -24,7 +25,21 @@ def render(answer: Answer) -> str:
     """The whole answer; the same answer gives the same bytes."""
     versions = {name: version(name) for name in BEHIND}
     head = {"schema": answer.schema, "version": versions["lyapcheck"], "versions": versions}
-    return f"{laid_out(head | answer.data())}\n"
+    data = head | answer.data()
+    try:
+        text = laid_out(data)
+    except ValueError:  # JSON has no infinity, and no name for what is no number
+        text = laid_out(finite(data))
+    return f"{text}\n"
+
+
+def finite(value: Any) -> Any:
+    """The same with ``None`` for each number that is none or infinite."""
+    if isinstance(value, dict):
+        return {key: finite(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def laid_out(value: Any) -> str:

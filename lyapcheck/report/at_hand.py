@@ -65,7 +65,7 @@ def as_the_gate_judges(
             kind=type(stated).__name__,
             uses=row.uses,
             broken=(),
-            decision=decided(found[key], judged.get(key)),
+            decision=decided(found[key], judged.get(key), stated),
             stated=stated,
             seconds=0.0,
         )

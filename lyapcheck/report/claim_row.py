@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.report.plain import read
+from lyapcheck.promise import Promise, told
+from lyapcheck.report.plain import plain, read
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ class ClaimRow:
         certificate: its path in the report; none where nothing was decided.
         rules: that accepted it.
         granted: what they take for granted.
+        promise: that of what is proved: asked is the claim's own statement.
     """
 
     id: str
@@ -51,6 +53,7 @@ class ClaimRow:
     digest: str | None
     rules: tuple[str, ...]
     granted: tuple[str, ...]
+    promise: Promise | None = None
 
     @classmethod
     def of(
@@ -73,7 +76,23 @@ class ClaimRow:
             "rules": claim.decision.rules,
             "granted": claim.decision.granted,
         }
-        return read(cls, claim.data() | own)
+        return replace(read(cls, claim.data() | own), promise=claim.decision.promise)
+
+    @property
+    def word(self) -> str:
+        """The verdict as reports say it."""
+        return self.says(self.verdict.value)
+
+    def says(self, words: str) -> str:
+        """Words of proof, where something is proved."""
+        return words if self.promise is None else self.promise.says(words)
+
+    def data(self) -> dict[str, Any]:
+        """All of it as plain data."""
+        data = plain(self)
+        said = ("statement", "method", "evidence")
+        data |= {key: told(self.promise, data[key]) for key in said} | {"verdict": self.word}
+        return data | {"details": [*self.details[:1], *map(self.says, self.details[1:])]}
 
     @property
     def about(self) -> str:

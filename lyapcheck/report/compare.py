@@ -65,7 +65,7 @@ class ReportComparison(Answer):
         blocks: list[Block] = [Section(f"Worse ({len(worse)})", (_table(worse),))] if worse else []
         blocks += [Section(f"Changed ({len(rest)})", (_table(rest),))] if rest else []
         if not blocks:
-            blocks.append(Paragraph("Every verdict, margin and ε₀ is what it was."))
+            blocks.append(Paragraph("No verdict, margin or ε₀ has changed."))
         sign = "✗" if worse else "✓"
         title = f"{sign} {len(worse)} worse, {len(rest)} other changes since {self.old}"
         return Document(title, tuple(blocks))

@@ -59,8 +59,8 @@ class ReportAnswer(Answer):
             "table": report.table.data()["rows"],
             "gate": report.gate.data()["results"],
             "epsilon": [plain(row) for row in report.epsilon],
-            "claims": [plain(row) for row in report.claims],
-            "others": [plain(row) for row in report.others],
+            "claims": [row.data() for row in report.claims],
+            "others": [row.data() for row in report.others],
             "runs": [plain(row) for row in report.runs],
             "sensitivity": report.sensitivity and plain(report.sensitivity),
             "figures": sorted(report.figures),
@@ -72,7 +72,8 @@ class ReportAnswer(Answer):
     def records(self) -> Sequence[dict[str, Any]]:
         """A row a claim."""
         keys = ("proof", "id", "m", "n", "verdict", "grade", "comment")
-        return [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
+        rows = [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
+        return [data | {"verdict": row.word} for data, row in zip(rows, self.report.every_claim, strict=True)]
 
 
 def _robot(model: RobotModel) -> dict[str, Any]:
@@ -152,12 +153,12 @@ def _claims(report: Report) -> Iterator[Section]:
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
             shown = ", ".join(
-                f"{SYMBOLS[row.verdict]} {row.verdict}" + (f" ({row.about})" if row.about else "")
+                f"{SYMBOLS[row.verdict]} {row.word}" + (f" ({row.about})" if row.about else "")
                 for row in result
             )
             if len({row.verdict for row in result}) == 1:
                 ms = [str(row.m) for row in result if row.m is not None]
-                shown = f"{SYMBOLS[result[0].verdict]} {result[0].verdict}" + (
+                shown = f"{SYMBOLS[result[0].verdict]} {result[0].word}" + (
                     f" (m = {', '.join(ms)})" if ms else ""
                 )
             grades = ", ".join(sorted({row.grade for row in result}))

@@ -6,17 +6,15 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from lyapcheck.answers.gate.answer import DIGITS, MARGIN_DIGITS
-from lyapcheck.answers.gate.words import joint_name, largest_text, limit_ends, margin_text, value_text
 from lyapcheck.answers.tune.effect import Effect, effect_section
 from lyapcheck.kernel.record import GRADE
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.gain_rows import KINDS, RunRow
-from lyapcheck.report.model import Report, applies
+from lyapcheck.report.model import Report
 from lyapcheck.report.study import StudyRow
-from lyapcheck.report.text import SYMBOLS, bracket, fixed, joined, number
+from lyapcheck.report.text import bracket, fixed, joined
 from lyapcheck.report.words import (
     answer_cell,
     at_once_words,
@@ -45,8 +43,8 @@ def four_epsilons(report: Report) -> Iterator[Block]:
     yield Table(
         heads,
         rows,
-        "Published: the end of (18). Scalar: from two norms. Certified: proved on this arm at every state. "
-        "Falsified: a state with dV/dt > 0 is known. Certified ≤ true ≤ falsified; rounded to the safe side.",
+        "Published: the end of (18). Scalar: from two norms. The next has a certificate for this arm; of the "
+        "last a state with dV/dt > 0 is known. Rounded to the safe side, at nominal numbers.",
     )
     missing = [(row.name, kind, text) for row in report.epsilon for kind, text in row.reasons.items()]
     if missing:
@@ -73,30 +71,17 @@ def _constants(report: Report) -> Iterator[Block]:
         )
         for row in report.table.rows
     )
-    caption = "γ = sup h, ρ = sup |h′|, L = sup h(x)/x: certified, digits cut off, all correct."
+    caption = "γ = sup h, ρ = sup |h′|, L = sup h(x)/x: digits cut off, all correct."
     yield Table(("m", "γ", "ρ", "L", "x of γ"), rows, caption)
     yield from figure(report, "family", "The bounded functions and their derivatives")
 
 
 def _gate(report: Report) -> Iterator[Block]:
-    for result in report.gate:
-        if not applies(result):
-            yield Paragraph(f"{result.name}: without a bound γ of h the conditions do not apply.")
-            continue
-        rows = tuple(
-            (
-                f"({check.id}){'' if check.id in result.deciding else ' does not decide'}",
-                joint_name(result, check),
-                f"{SYMBOLS[check.verdict]} {check.verdict}",
-                value_text(check),
-                bracket(None if check.limit is None else limit_ends(check.limit, DIGITS), 7),
-                number(margin_text(check, MARGIN_DIGITS) or None, 4),
-                largest_text(check),
-            )
-            for check in result.checks
-        )
-        heads = ("condition", "joint", "verdict", "value", "limit", "margin", "largest admissible")
-        yield Table(heads, rows, f"{result.name}: {result.verdict}", align="lllrrrr", keys=2)
+    """In the gate's own words."""
+    own = report.gate.document()
+    yield from own.blocks
+    if own.notes:
+        yield Bullets(own.notes)
 
 
 def _runs(report: Report) -> Iterator[Block]:
@@ -194,7 +179,7 @@ def _kernel(report: Report) -> Iterator[Block]:
     kernel = [row for row in rows if row.grade == GRADE]
     if kernel:
         yield Paragraph(
-            "Grade kernel: Coq's kernel has accepted it too, as a theorem printed from the claim's own data, "
+            "Grade kernel: a theorem of Coq's kernel too, printed from the claim's own data, "
             "on golden axioms; what its words mean stands on one page, formal/Definitions.v. So it is for "
             f"{len(kernel)} of {len(rows)} verdicts. With Coq installed, it judges them anew by"
         )

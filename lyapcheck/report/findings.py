@@ -150,7 +150,7 @@ def _rejected(gate: Sequence[GateResult], stable: Collection[str]) -> Iterator[F
             title = f"{result.name} breaks ({broken[0].id})"
             if result.name in stable and {check.id for check in broken} == {"19"}:
                 more += (
-                    ". (19) is only sufficient, and dV/dt < 0 is proved for these gains: "
+                    ". (19) is only sufficient, and dV/dt < 0 has a proof for these gains: "
                     "lyapcheck gate --condition 10p --condition global asks for that proof instead"
                 )
             yield Finding("B", f"gains {result.name}", (), _member(result.m), title, first + more)

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from lyapcheck.promise import Promise
+
 BOTH_ENDS = ("certified", "falsified")
 """The ε₀ that rest on certificates."""
 KINDS = ("published", "scalar", *BOTH_ENDS)
@@ -23,6 +25,7 @@ class EpsilonRow:
         boxes: the budget of branch and bound.
         reasons: why an ε₀ is missing, by its name.
         certificates: their paths in the report, by the names of ``BOTH_ENDS``.
+        promise: that V falls at every state of the arm at its nominal numbers, with the certified ε₀.
     """
 
     name: str
@@ -39,6 +42,7 @@ class EpsilonRow:
     boxes: int
     reasons: Mapping[str, str]
     certificates: Mapping[str, str]
+    promise: Promise | None = None
 
     def eps0(self, kind: str) -> str | None:
         """One of ``KINDS``."""

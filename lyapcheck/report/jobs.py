@@ -219,6 +219,7 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
         boxes=BOXES,
         reasons=dict(result.reasons),
         certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS},
+        promise=result.promise,
     )
     return replace(row, reasons={k: text for k, text in row.reasons.items() if row.eps0(k) is None}), files
 

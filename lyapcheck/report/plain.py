@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, is_dataclass
+from dataclasses import asdict, is_dataclass, replace
 from functools import cache
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -15,8 +15,12 @@ _hints: Any = cache(get_type_hints)
 
 
 def plain(row: Any) -> dict[str, Any]:
-    """The fields of a data class by their names; rows in it likewise."""
-    return asdict(row)
+    """The fields of a data class by their names, rows in it likewise; a promise is in words, not in data."""
+    if not hasattr(row, "promise"):
+        return asdict(row)
+    data = asdict(replace(row, promise=None))
+    del data["promise"]
+    return data
 
 
 def read(cls: type[T], data: Mapping[str, Any]) -> T:

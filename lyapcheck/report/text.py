@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
+from lyapcheck.output.digits import shown
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.model import WitnessRow
 
@@ -16,12 +18,12 @@ def number(value: Any, digits: int = 5) -> str:
     """A number to a few significant digits; a dash where there is none."""
     if value is None:
         return "–"
-    return f"{float(value):.{digits}g}"
+    return shown(float(value), f".{digits}g")
 
 
 def fixed(value: Any, places: int = 2) -> str:
     """A number to some decimal places; a dash where there is none."""
-    return "–" if value is None else f"{float(value):.{places}f}"
+    return "–" if value is None or math.isnan(float(value)) else shown(float(value), f".{places}f")
 
 
 def bracket(ends: tuple[str, str] | None, digits: int = 12) -> str:
@@ -82,8 +84,8 @@ def and_list(names: Sequence[str]) -> str:
 
 
 def member_words(ms: Sequence[int]) -> str:
-    """``m = 1, 2``; ``every m`` where it concerns all."""
-    return f"m = {', '.join(map(str, ms))}" if ms else "every m"
+    """``m = 1, 2``; ``all m`` where it concerns all."""
+    return f"m = {', '.join(map(str, ms))}" if ms else "all m"
 
 
 LETTERS = {

@@ -9,8 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
+from lyapcheck.promise import all_say
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import BOUNDS, CLASS
 from lyapcheck.report.model import Report, applies, behind, keeps_limits
@@ -49,10 +51,12 @@ def sentences(report: Report) -> tuple[str, ...]:
 def badges(report: Report) -> tuple[Badge, ...]:
     """Theorem, proof, tables and experiment; of an arm of one's own, its gain sets."""
     if report.own:
-        return tuple(_of_gains(row, report) for row in report.gate)
+        return tuple(map(_of_gains, report.gate))
     true, broken = _is_true(report), break_places(report)
     every = " for every n" if {row.n for row in _concluding(report)} == {None} else ""
-    theorem = Badge("theorem", f"proved{every}", "good") if true else Badge("theorem", "not decided", "open")
+    theorem = Badge("theorem", "not decided", "open")
+    if true:
+        theorem = Badge("theorem", _say(_concluding(report), f"proved{every}"), "good")
     if broken:
         proof = Badge("printed proof", f"breaks at {broken[0]}", "bad")
     else:
@@ -104,8 +108,13 @@ def _step(box: Box, report: Report, carrying: set[str]) -> VerdictBox:
     if refuted:
         return VerdictBox(box, "warn", "wrong, repairable")
     if rows and all(row.verdict == "proved" for row in rows):
-        return VerdictBox(box, "good", "proved")
+        return VerdictBox(box, "good", _say(rows, "proved"))
     return VerdictBox(box, "open", "not shown")
+
+
+def _say(rows: Sequence[ClaimRow], words: str) -> str:
+    """Words that rest on the promises of some claims."""
+    return all_say((row.promise for row in rows), words)
 
 
 def _is_true(report: Report) -> bool:
@@ -136,10 +145,12 @@ def _theorem(report: Report) -> str:
     arm = ""
     if set(report.verdicts((THIS_ARM,), "scalar")) == {"proved"}:
         name, n = report.robot.name, report.robot.n
+        rows += [r for r in report.every_claim if r.proof == "scalar" and r.id == THIS_ARM]
         arm = f"; on {name} (n = {n}) with the gains of Table 2, with an explicit ε₀"
-    return (
+    return _say(
+        rows,
         f"The proposition is true: proved with certificates for every arm with Properties 2.1 to 2.7, {size},"
-        f" all positive gains, and {members}{arm}. {report.notes.known[0]}"
+        f" all positive gains, and {members}{arm}. {report.notes.known[0]}",
     )
 
 
@@ -158,8 +169,11 @@ def _gains(report: Report) -> tuple[str, ...]:
     passed = [row for row in judged if row.verdict == ACCEPTED]
     failed = [row for row in judged if row.verdict == REJECTED]
     parts = []
-    if passed:
-        parts.append(f"{_named(passed)} meet{'s' if len(passed) == 1 else ''} (10p) and (19)")
+    met: dict[str, list[GateResult]] = {}
+    for result in passed:
+        met.setdefault(and_list([f"({name})" for name in result.deciding]), []).append(result)
+    for ids_words, rows in met.items():
+        parts.append(f"{_named(rows)} meet{'s' if len(rows) == 1 else ''} {ids_words}")
     broken: dict[str, list[GateResult]] = {}
     for result in failed:
         ids = dict.fromkeys(f"({check.id})" for check in result.failures if check.verdict == REJECTED)
@@ -168,20 +182,25 @@ def _gains(report: Report) -> tuple[str, ...]:
         parts.append(f"{_named(rows)} break{'s' if len(rows) == 1 else ''} {ids_words}")
     if not parts:
         return ()
-    certified = [row for row in judged if row.name in {one.name for one in report.epsilon if one.certified}]
+    promises = {one.name: one.promise for one in report.epsilon if one.promise is not None}
+    certified = [row for row in judged if row.name in promises]
     proved = [row.name for row in certified if keeps_limits(row)]
     limitless = [row.name for row in certified if not keeps_limits(row)]
+    where = " at nominal numbers" if any(one.ranged for one in report.robot.numbers.values()) else ""
     tail = ""
     if proved and len(proved) == len(judged):
         tail = "; dV/dt < 0 at every state is proved for " + ("it" if len(proved) == 1 else "all of them")
-        tail += " on this arm" if report.own else ", so all are stable all the same" if failed else ""
+        tail += " on this arm" if report.own else ""
+        tail += where + (", so all are stable all the same" if failed and not report.own else "")
     elif proved:
-        tail = f"; dV/dt < 0 at every state is proved for {and_list(proved)}"
+        tail = f"; dV/dt < 0 at every state is proved for {and_list(proved)}{where}"
     if limitless:
         what = "it is" if proved else "dV/dt < 0 at every state is"
         tail += (
             f"; of {and_list(limitless)} {what} proved for motors without a limit, and theirs may saturate"
         )
+    if tail:
+        tail = all_say((promises[row.name] for row in certified), tail)
     rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""
     subject = "" if report.own else "Gains of Table 2: "
     return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
@@ -195,11 +214,10 @@ def _named(rows: Sequence[GateResult]) -> str:
     return and_list([f"{row.name} (m = {row.m})" for row in rows])
 
 
-def _of_gains(row: GateResult, report: Report) -> Badge:
+def _of_gains(row: GateResult) -> Badge:
+    """A gain set in the gate's own words."""
     if not applies(row):
         return Badge(row.name, "conditions do not apply", "open")
-    eps0 = next((one.certified for one in report.epsilon if one.name == row.name), None)
-    proved = eps0 is not None and keeps_limits(row)
-    stable = ", proved stable" if proved else ""
-    tones = {ACCEPTED: "good", REJECTED: "warn" if proved else "bad"}
-    return Badge(row.name, f"{row.verdict}{stable}", tones.get(row.verdict, "open"))
+    (said,) = GateAnswer((row,)).data()["results"]
+    tones = {ACCEPTED: "good", REJECTED: "bad" if row.stable is None or not keeps_limits(row) else "warn"}
+    return Badge(row.name, said["standing"], tones.get(row.verdict, "open"))

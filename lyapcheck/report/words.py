@@ -50,7 +50,7 @@ def answer_words(number: NumberRow) -> str:
     if answer == "yes":
         return "some arm in range does it"
     if answer == "no part":
-        return f"no assumption has a part in it: {nearest} for every arm"
+        return f"no assumption has a part in it: {nearest} for all arms seen"
     if answer == "between":
         return f"arms in range do more and less, none seen does it: nearest {nearest}"
     if number.nearest is None:

@@ -13,13 +13,16 @@ from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.answers.epsilon.consistency import Contradiction, findings, require_consistent
 from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
+from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import Format, JudgedFormat
+from lyapcheck.promise import Promise
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, corners
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -87,7 +90,7 @@ def test_seconds_are_there_where_they_were_asked_for(case: tuple[GainSet, Epsilo
 
 def test_the_first_line_says_what_is_certified(case: tuple[GainSet, EpsilonResult]) -> None:
     _, result = case
-    none = replace(result, certified=None, proof=None, reasons={"certified": "budget spent"})
+    none = replace(result, promise=None, proof=None, reasons={"certified": "budget spent"})
     title, shown = result.document().title, result.data()["results"][0]["certified"]
     assert title == f"✓ ε₀ = {shown} is certified for {result.name} on {ARM.name}"
     assert none.document().title.startswith("? no ε₀ is certified")
@@ -101,7 +104,7 @@ def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(
 ) -> None:
     _, result = case
     file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
-    none = replace(result, certified=None, reasons={"certified": "budget spent"})
+    none = replace(result, promise=None, reasons={"certified": "budget spent"})
     passed, witness = EpsilonResults((result,), file).annotations()
     undecided, *_ = EpsilonResults((none,), file).annotations()
     assert (passed.level, passed.rule, passed.message) == (Level.PASSED, "certified", "")
@@ -146,7 +149,7 @@ def test_json_numbers_are_exact_strings(case: tuple[GainSet, EpsilonResult]) -> 
 def test_missing_numbers_are_shown_with_their_reason(case: tuple[GainSet, EpsilonResult]) -> None:
     _, result = case
     nothing = replace(
-        result, certified=None, falsified=None, witness=None, reasons={"certified": "budget spent"}
+        result, promise=None, falsified=None, witness=None, reasons={"certified": "budget spent"}
     )
     assert nothing.ratio is None
     row = nothing.data()["results"][0]
@@ -234,9 +237,12 @@ def test_words_about_what_ranges_cost(
     case: tuple[GainSet, EpsilonResult], share: Fraction, said: str
 ) -> None:
     _, result = case
-    assert result.certified is not None
+    assert result.promise is not None
+    assert isinstance(result.promise.asked, Decreasing)
     assert "the ranges" not in str(result)
-    assert f"the ranges {said}" in str(replace(result, unvaried=result.certified * share))
+    nominal = replace(result.promise.asked, eps0=result.promise.asked.eps0 * share)
+    unvaried = Promise(nominal, JudgedStatement(nominal, None, "proved"))
+    assert f"the ranges {said}" in str(replace(result, unvaried=unvaried))
 
 
 @pytest.mark.parametrize(

@@ -115,7 +115,7 @@ def test_without_a_model_the_bound_is_a_premise(tmp_path: Path) -> None:
         "[bounds]\nviscous_min = 2\ntorque = [60]\ngravity = [49]\n"
     )
     done = invoke("gate", str(path), "--certificates", str(tmp_path / "made"))
-    assert "premise: gravity exerts at most (49) N·m" in said(done)
+    assert "premise: gravity exerts up to (49) N·m" in said(done)
     outcome = invoke("recheck", str(tmp_path / "made"))
     assert (outcome.exit_code, "for which no g is given" in said(outcome)) == (0, True)
 

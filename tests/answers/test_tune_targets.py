@@ -80,9 +80,9 @@ def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
     ranges = {arm: varied_limits(arm, varies)}
-    assert accepted(gains, BY_PROOF, arm, None, None).condition == ("10p", "scalar")
-    assert accepted(gains, BY_PROOF, arm, None, ranges).condition == ("10p", "lasalle")
-    assert accepted(gains, BY_19, arm, None, ranges).condition == ()
+    assert accepted(gains, BY_PROOF, arm, None, None).deciding == ("10p", "scalar")
+    assert accepted(gains, BY_PROOF, arm, None, ranges).deciding == ("10p", "lasalle")
+    assert accepted(gains, BY_19, arm, None, ranges) is None
 
 
 @pytest.mark.slow

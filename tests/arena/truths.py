@@ -489,7 +489,7 @@ GATE = GateAccepted(
     kp=(F(5),),
     kv=(F(1),),
     conditions=("10", "10p", "10i", "19"),
-    stability=(MassAbove(((UNIT,),), (), F(0)),),
+    stability=(MassAbove((((((0, 0, 0), F(1)),),),), ((F(1), F(2)),), F(0)),),
 )
 """g = p sin q, p in [1, 2]."""
 PASSED = GateParts((HarmonicSizes(),), 30, (Bisection(),))

@@ -15,9 +15,9 @@ from lyapcheck.check import kinds
 from lyapcheck.check.covers import ROWS, require_covered
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.decreasing import Decreasing
-from lyapcheck.check.kinds.gate_accepted import GateAccepted
+from lyapcheck.check.kinds.gate_accepted import GateAccepted, GateParts
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
-from lyapcheck.check.kinds.inertia import Bisection, MassAbove, MassBelow
+from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
@@ -48,8 +48,8 @@ SHOWN: dict[str, Statement] = {
         1,
         (F(5),),
         (F(1),),
-        ("10i",),
-        (),
+        ("10i", "19"),
+        (MassAbove(MASS, RANGE, F(1)),),
     ),
     "Decreasing": Decreasing(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), F(1, 10), ()),
     "Resting": Resting("hyperbolic", 1, (F(5),), (F(1),), (F(1, 3),)),
@@ -61,6 +61,8 @@ EASIER: dict[str, Any] = {
     "MassBelow.high": F(5),
     "GravityBelow.high": F(7),
     "GateAccepted.limits": (F(21),),
+    "GateAccepted.conditions": ("10i",),
+    "GateAccepted.stability": (MassAbove(MASS, RANGE, F(1, 2)),),
     "Resting.torque": (F(1, 2),),
     "Resting.errors": (F(1, 2),),
 }
@@ -73,8 +75,8 @@ HARDER: dict[str, Any] = {
     "GravityBelow.high": F(5),
     "GateAccepted.limits": (F(19),),
     "k_g": (F(4),),
-    "conditions": ("10p",),
-    "stability": (MassAbove(MASS, RANGE, F(0)),),
+    "conditions": ("10p", "10i", "19"),
+    "stability": (MassAbove(MASS, RANGE, F(2)),),
     "Resting.torque": (F(2),),
     "Resting.errors": (F(1, 4),),
     "mass": (((((0, 0, 1), F(1)),),),),
@@ -147,6 +149,57 @@ def test_an_error_without_a_bound_answers_no_bound() -> None:
     require_covered(SHOWN["Resting"], shown)
     with pytest.raises(Refused, match=r"Resting\.errors"):
         require_covered(shown, SHOWN["Resting"])
+
+
+def test_a_motor_without_a_limit_is_asked_less_and_shows_nothing() -> None:
+    shown = SHOWN["GateAccepted"]
+    unlimited = replace(shown, limits=(None,))  # type: ignore[type-var]
+    require_covered(shown, unlimited)
+    with pytest.raises(Refused, match=r"GateAccepted\.limits"):
+        require_covered(unlimited, shown)
+
+
+@pytest.mark.parametrize(
+    "others",
+    [
+        {"conditions": ("19", "10i")},
+        {"stability": ()},
+        {"stability": (MassAbove(MASS, RANGE, F(1)),) * 2},
+        {"stability": (MassAbove(MASS, RANGE, F(1)), MassBelow(MASS, RANGE, F(4)))},
+        {"stability": (MassBelow(MASS, RANGE, F(4)),)},
+    ],
+)
+def test_a_verdict_answers_its_conditions_in_order_and_each_part_in_its_place(others: dict[str, Any]) -> None:
+    with pytest.raises(Refused):
+        require_covered(SHOWN["GateAccepted"], replace(SHOWN["GateAccepted"], **others))  # type: ignore[type-var]
+
+
+@pytest.mark.parametrize("field", ["parameters", "viscous", "GateAccepted.limits", "GateAccepted.conditions"])
+def test_the_directions_of_the_gate_are_those_of_its_proofs(field: str) -> None:
+    """At the border: what is shown is proved, so is each easier question, and a harder one is refused."""
+    shown = replace(  # type: ignore[type-var]
+        SHOWN["GateAccepted"],
+        gravity=((((1, 0, 1), F(5, 3)),),),
+        potential=(((0, 1, 1), F(-5, 3)),),
+        limits=(F(11),),
+        kv=(F(199, 100),),
+        kp=(F(4),),
+        stability=(),
+    )
+    name = field.rpartition(".")[2]
+    border = GateParts((HarmonicSizes(),), 30, ())
+    easier = {"GateAccepted.limits": (F(12),), "GateAccepted.conditions": ("19",)} | {
+        key: EASIER[key] for key in ("parameters", "viscous")
+    }
+    harder = {"GateAccepted.limits": (F(21, 2),), "GateAccepted.conditions": ("10p", "10i", "19")} | {
+        key: HARDER[key] for key in ("parameters", "viscous")
+    }
+    assert verify(shown, border).verdict == "proved"
+    assert verify(replace(shown, **{name: easier[field]}), border).verdict == "proved"
+    if field == "GateAccepted.conditions":  # of one joint (10p) and (10i) differ at equality alone
+        shown = replace(shown, limits=(F(5) + F(599, 100),))
+    with pytest.raises(Refused):
+        verify(replace(shown, **{name: harder[field]}), border)
 
 
 def test_each_part_of_a_conjunction_answers_the_part_of_its_name() -> None:

@@ -289,10 +289,24 @@ def test_numeric_evidence_decides_nothing():
 def test_what_a_search_proposes_is_no_verdict():
     result = propose(for_all(tanh(x) <= x, 0))
     assert result.verdict is Verdict.PROVED
-    refusal = Judged(False, "the digest is another one", None, None)
-    assert decided(result, None).verdict is decided(result, refusal).verdict is Verdict.UNDECIDED
-    assert "the digest is another one" in decided(result, refusal).reason
-    assert decided(result, Judged(True, "", "proved", "enclosure")).grade is Grade.ENCLOSURE
+    asked = for_all(tanh(x) <= x, 0)
+    refusal = Judged(asked, False, "the digest is another one", None, None)
+    for judged in (None, refusal):
+        assert decided(result, judged, asked).verdict is Verdict.UNDECIDED
+    assert "the digest is another one" in decided(result, refusal, asked).reason
+    accepted = Judged(asked, True, "", "proved", "enclosure")
+    assert decided(result, accepted, asked).grade is Grade.ENCLOSURE
+    assert decided(result, accepted, asked).word == "proved"
+
+
+def test_what_was_not_asked_decides_nothing():
+    asked, other = for_all(tanh(x) <= x, 0), for_all(tanh(x) <= x, 1)
+    for verdict in ("proved", "refuted"):
+        decision = decided(propose(asked), Judged(other, True, "", verdict, "exact"), asked)
+        assert decision.verdict is Verdict.UNDECIDED
+        assert "asked" in decision.reason or "answer the question" in decision.reason
+    with pytest.raises(ValueError, match="promise"):
+        Decision(Verdict.PROVED, Grade.EXACT, "by thought", certificate=propose(asked).proof)
 
 
 def test_a_conjunction_is_as_good_as_its_weakest_part():

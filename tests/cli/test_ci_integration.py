@@ -128,7 +128,12 @@ def action(folder, environment, **inputs):
 @pytest.mark.parametrize(
     ("gains", "robot", "code", "words"),
     [
-        (GOOD, "", 0, "::notice title=lyapcheck gate::! 1 accepted; dry friction"),
+        (
+            GOOD,
+            "",
+            0,
+            "::notice title=lyapcheck gate::! 1 accepted; dry friction (assumed) leaves at",
+        ),
         (GOOD, "buap3-small", 1, "::error file=gains.toml,line=6"),
         (BAD, "", 1, "::error file=gains.toml,line=6,col=11"),
         ("robot = 1\n", "", 2, ""),

@@ -12,8 +12,10 @@ from lyapcheck.answers.check.claim import ClaimResult
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.claims.decision import Decision
+from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.kernel import coq, record
 from lyapcheck.kernel.coq import Kernel
+from lyapcheck.promise import Promise
 from lyapcheck.verdicts import Grade, Verdict
 from tests.kernel.test_statements import GOOD
 
@@ -26,7 +28,8 @@ def result(one: object, decision: Decision) -> ClaimResult:
 
 def test_check_shows_the_grade_of_what_the_record_has(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(coq.shutil, "which", lambda name: None)
-    decision = Decision(Verdict.PROVED, Grade.EXACT, "", certificate=ONE.proof)
+    promise = Promise(ONE.statement, JudgedStatement(ONE.statement, ONE.proof, "proved"))
+    decision = Decision(Verdict.PROVED, Grade.EXACT, "", certificate=ONE.proof, promise=promise)
     assert result(ONE.statement, decision).grade == "kernel"
     assert isinstance(ONE.statement, Property)
     argument = ONE.statement.argument

@@ -7,19 +7,41 @@ options ``--vary``. A member of the ranges is the same arm in a file without ran
 from __future__ import annotations
 
 import json
+import os
+from collections import Counter
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from hypothesis import settings
 from hypothesis import strategies as st
 
 from lyapcheck.files.decimals import decimal_text
-from tests.helpers.command import Done, invoke
+from tests.helpers import command
+from tests.helpers.command import Done
 
 FAMILIES = ("m = 1", "m = 2", "m = 3", 'family = "tanh"', 'family = "arctan"', 'family = "algebraic"')
 MOTOR = ("viscous", "coulomb", "torque_limit")
 """Numbers of a joint that neither form of an arm keeps in the file of its links."""
+
+
+ASKED: Counter[tuple[str, str, int]] = Counter()
+"""How often a test has run a command with which exit code, for the record of ``make promises``."""
+
+
+def drawn(fast: int, thorough: int) -> settings:
+    """So many examples in the fast and in the slow set, as they cost; as many as all in ``make promises``."""
+    known = {"fast": fast, "thorough": thorough}
+    return settings(max_examples=known.get(settings.get_current_profile_name(), settings().max_examples))
+
+
+def invoke(*words: str) -> Done:
+    """Run ``lyapcheck`` with some words, and count it."""
+    done = command.invoke(*words)
+    test = os.environ.get("PYTEST_CURRENT_TEST", "").partition("::")[2].partition(" ")[0].partition("[")[0]
+    ASKED[test, words[0], done.exit_code] += 1
+    return done
 
 
 @dataclass(frozen=True)
@@ -210,19 +232,21 @@ shares = st.lists(st.sampled_from([Fraction(0), Fraction(3, 8), Fraction(1)]), m
 """Where a member lies: at an end of each range, or inside."""
 
 
-def gain_file(folder: Path, arm: str, family: str, kp: list[str], kv: list[str], name: str = "gains") -> Path:
-    """A gain file of one set."""
+def gain_file(
+    folder: Path, arm: str, family: str, kp: list[str], kv: list[str], name: str = "gains", more: str = ""
+) -> Path:
+    """A gain file of one set; ``more`` are further keys of the set, and tables."""
     path = folder / f"{name}.toml"
-    lists = f"kp = [{', '.join(kp)}]\nkv = [{', '.join(kv)}]\n"
+    lists = f"kp = [{', '.join(kp)}]\nkv = [{', '.join(kv)}]\n{more}"
     path.write_text(f'robot = "{arm}"\n[[gains]]\nname = "drawn"\n{family}\n{lists}', encoding="utf-8")
     return path
 
 
 def near_the_border(
-    folder: Path, arm: str, n: int, family: str, options: tuple[str, ...], share: Fraction
+    folder: Path, arm: str, n: int, family: str, options: tuple[str, ...], share: Fraction, more: str = ""
 ) -> Path:
     """Gains at a share of the largest that the gate names over the ranges, where it names some."""
-    tiny = gain_file(folder, arm, family, ["0.001"] * n, ["0.001"] * n, "tiny")
+    tiny = gain_file(folder, arm, family, ["0.001"] * n, ["0.001"] * n, "tiny", more)
     largest: dict[str, list[Fraction]] = {"10p": [], "19": []}
     for check in results(asked("gate", str(tiny), *options))[0]["checks"]:
         if check["id"] in largest:
@@ -230,7 +254,7 @@ def near_the_border(
             largest[check["id"]].append(Fraction(most) if most not in (None, "none") else Fraction(1, 10))
     kv = [share * most for most in largest["19"]]
     kp = [max(share * most - k, Fraction(1, 100)) for most, k in zip(largest["10p"], kv, strict=True)]
-    return gain_file(folder, arm, family, *([decimal_text(x) for x in row] for row in (kp, kv)))
+    return gain_file(folder, arm, family, *([decimal_text(x) for x in row] for row in (kp, kv)), more=more)
 
 
 def asked(*words: str, plain: bool = False) -> Done:

@@ -39,7 +39,7 @@ def test_nothing_changed() -> None:
     result = compare(OLD, OLD, "old")
     assert result.changes == ()
     assert result.exit_code == 0
-    assert "what it was" in str(result)
+    assert "No verdict, margin or ε₀ has changed" in str(result)
 
 
 @pytest.mark.parametrize(

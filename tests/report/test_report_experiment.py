@@ -161,7 +161,7 @@ def test_indices_near_the_print_are_no_finding(found: StudyRow, nominal: float, 
         ({"answer": "no"}, "no: nearest 1.2 s", "no arm in range among 10 does it: nearest 1.2 s"),
         ({"answer": "no", "nearest": None}, "no: nearest not settled", "no arm in range among 10 settles"),
         ({"answer": "between"}, "more and less: nearest 1.2 s", "arms in range do more and less"),
-        ({"answer": "no part"}, "no part in it", "no assumption has a part in it: 1.2 s for every arm"),
+        ({"answer": "no part"}, "no part in it", "no assumption has a part in it: 1.2 s for all arms seen"),
     ],
 )
 def test_answers_in_words(changed: dict[str, Any], cell: str, sentence: str) -> None:

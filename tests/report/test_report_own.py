@@ -20,9 +20,10 @@ from lyapcheck.report.model import Report
 from lyapcheck.report.subject import Subject
 from lyapcheck.report.verdict import badges, sentences
 from lyapcheck.report.write import render
+from lyapcheck.robots import load
 from tests.helpers.one_process import one_process
 from tests.report.conftest import AtOnce
-from tests.report.test_report import claim_row, epsilon_row
+from tests.report.test_report import KEPT, claim_row, epsilon_row
 
 PENDULUM = """
 robot = "pendulum1"
@@ -118,9 +119,16 @@ def on_the_gate(sets: dict[str, tuple[str, str]], robot: str = "buap3") -> list[
 
 def words_of(gate: list[GateResult], certified: dict[str, str]) -> tuple[str, dict[str, str]]:
     """The sentence and the badges of a report that has nothing but a gate and ε₀."""
-    rows = tuple(epsilon_row(name=name, m=1, certified=eps0) for name, eps0 in certified.items())
+    rows = tuple(
+        epsilon_row(name=name, m=1, certified=eps0, promise=KEPT) for name, eps0 in certified.items()
+    )
     blank: dict[str, Any] = dict.fromkeys(Report.__dataclass_fields__)
-    report = Report(**(blank | {"gate": gate, "epsilon": rows, "own": True, "claims": (), "others": ()}))
+    report = Report(
+        **(
+            blank
+            | {"gate": gate, "epsilon": rows, "own": True, "claims": (), "others": (), "robot": load("buap3")}
+        )
+    )
     return " ".join(sentences(report)), {one.subject: one.word for one in badges(report)}
 
 
@@ -135,7 +143,8 @@ def test_each_gain_set_breaks_what_it_breaks() -> None:
 def test_stable_is_said_only_where_no_motor_saturates() -> None:
     gate = on_the_gate({"strong": ("100", "0.1"), "damped": ("1", "0.9")})
     sentence, words = words_of(gate, {"strong": "0.1", "damped": "0.1"})
-    assert words == {"strong": "rejected", "damped": "rejected, proved stable"}
+    assert words == {one.name: one.standing for one in gate}
+    assert "stab" not in words["strong"]
     assert "dV/dt < 0 at every state is proved for damped" in sentence
     assert "of strong it is proved for motors without a limit" in sentence
     sentence, words = words_of(gate, {"strong": "0.1"})

@@ -288,7 +288,7 @@ def test_no_share_takes_what_a_smaller_one_needs(monkeypatch: pytest.MonkeyPatch
         return CoverOutcome(needed <= most, min(needed, most), "" if needed <= most else EXHAUSTED, tree=".")
 
     monkeypatch.setattr(certified, "certify", dear)
-    monkeypatch.setattr(DecreaseProof, "accepted", lambda self, jobs: True)
+    monkeypatch.setattr(DecreaseProof, "accepted", lambda self, jobs: self)
     result = certified_epsilon(controlled("reyes-kelly2", 0), ceiling, 1000)
     assert tried == pytest.approx([0.9992, 0.5, 0.8, 0.65], rel=1e-6)
     assert result.eps0 == F(65, 100)

@@ -333,7 +333,7 @@ def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path: Pa
     command("sweep", path, "--out", tmp_path / "out")
     rows = rows_of(tmp_path / "out")
     told = [(row["verdict"], row["reason"]) for row in rows if row["ask"] == "robot"]
-    assert told == [("proved", ""), ("undecided", "proved at nominal numbers only: 2.7"), ("proved", "")]
+    assert told == [("proved", ""), ("undecided", "shown at nominal numbers only: 2.7"), ("proved", "")]
     arms = [row["answer"]["arms"] for row in rows if row["ask"] == "simulate"]
     assert arms == [
         None,

@@ -14,6 +14,7 @@ from lyapcheck.answers.gain_place import gain_place
 from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Bullets, Document, Section, Table
 from lyapcheck.promise import all_say
 
@@ -145,12 +146,12 @@ def _time(result: BoundsComparison) -> str:
     """When the run came to stay within δ."""
     if result.simulated_time is None:
         return f"not within {result.task.T:g} s"
-    return f"{result.simulated_time:.3g} s"
+    return f"{shown(result.simulated_time, '.3g')} s"
 
 
 def _angle(value: float) -> str:
     """A simulated angle in degrees, rounded."""
-    return f"{math.degrees(value):.3g}°"
+    return f"{shown(math.degrees(value), '.3g')}°"
 
 
 def angle_up(value: Fraction | None) -> str:

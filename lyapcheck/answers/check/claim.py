@@ -12,6 +12,7 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.record import GRADE, accepted_before
+from lyapcheck.promise import told
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -58,7 +59,8 @@ class ClaimResult:
     @cached_property
     def statement(self) -> str:
         """What was decided, rendered by the checker from its data; cut where it is long, with a digest."""
-        return statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
+        text = statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
+        return self.decision.says(text)
 
     @property
     def verdict(self) -> Verdict:
@@ -73,6 +75,11 @@ class ClaimResult:
             known = accepted_before(stated, proof, decision.verdict.value)
             return GRADE if known else decision.grade.label
         return decision.grade.label
+
+    @property
+    def method(self) -> str:
+        """How it was decided."""
+        return self.decision.says(self.decision.method)
 
     @property
     def words(self) -> str:
@@ -95,14 +102,14 @@ class ClaimResult:
             "place": self.place,
             "section": self.section,
             "kind": self.kind,
-            "verdict": self.verdict.value,
+            "verdict": self.decision.word,
             "grade": self.grade,
             "uses": list(self.uses),
             "broken": list(self.broken),
             "witness": self.decision.witness,
             "reason": self.decision.reason,
-            "method": self.decision.method,
-            "evidence": self.decision.evidence,
+            "method": self.method,
+            "evidence": told(self.decision.promise, self.decision.evidence),
         }
         return {**row, "seconds": round(self.seconds, 3)} if timings else row
 

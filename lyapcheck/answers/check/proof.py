@@ -12,6 +12,7 @@ from lyapcheck.kernel.record import GRADE as KERNEL
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit, Grade, Verdict, exit_code
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ LEVELS = {
     Verdict.UNDECIDED: Level.UNDECIDED,
 }
 GRADES = {
-    KERNEL: "kernel: Coq's kernel has accepted it as a theorem as well; recheck --kernel asks it anew.",
+    KERNEL: "kernel: a theorem of Coq's kernel as well; recheck --kernel asks it anew.",
     Grade.EXACT.label: "exact: rational numbers and symbolic normal forms.",
     Grade.ENCLOSURE.label: "enclosure: balls that enclose the exact numbers.",
     Grade.NUMERIC.label: "numeric: nothing that could decide the claim.",
@@ -110,7 +111,7 @@ class ProofResult(Answer):
 
     def _annotation(self, row: ClaimResult, level: Level) -> Annotation:
         said = filter(None, (row.statement, *row.support, row.words))
-        message = "" if level is Level.PASSED else f"{row.id} {row.verdict}: {'; '.join(said)}"
+        message = "" if level is Level.PASSED else f"{row.id} {row.decision.word}: {'; '.join(said)}"
         case = "" if row.m is None else f"m = {row.m}"
         return Annotation(level, row.id, row.words, self.title or self.name, case, message, self.script)
 
@@ -118,8 +119,14 @@ class ProofResult(Answer):
         """The sign of the worst verdict, and how many claims have which."""
         result = {verdict: self.counts()[verdict] for verdict in ORDER}
         worst = next((verdict for verdict in ORDER if result[verdict]), Verdict.UNDECIDED)
-        tally = ", ".join(f"{count} {verdict}" for verdict, count in result.items() if count)
+        tally = ", ".join(f"{count} {self._word(verdict)}" for verdict, count in result.items() if count)
         return f"{worst.sign} {tally or 'no claims'}: {self.title or self.name}"
+
+    def _word(self, verdict: Verdict) -> str:
+        """A verdict that some claims have."""
+        if verdict is not Verdict.PROVED:
+            return verdict.value
+        return all_say((row.decision.promise for row in self._with(verdict)), verdict.value)
 
     def _run(self) -> str:
         arm = f", robot {self.robot}" if self.robot else ""
@@ -138,7 +145,8 @@ class ProofResult(Answer):
     def _of_nothing(self) -> Iterator[Paragraph]:
         """Before all else: which of the proved claims may say nothing."""
         if rows := self._remarked():
-            yield Paragraph(f"Proved, but perhaps of nothing; see the remark at each: {_ids(rows)}.")
+            word = all_say((row.decision.promise for row in rows), "Proved")
+            yield Paragraph(f"{word}, but perhaps of nothing; see the remark at each: {_ids(rows)}.")
 
     def _remarked(self) -> list[ClaimResult]:
         return [row for row in self.claims if row.verdict is Verdict.PROVED and row.decision.reason]
@@ -148,7 +156,7 @@ class ProofResult(Answer):
         for verdict in ORDER:
             rows = self._with(verdict)
             if rows:
-                yield Section(f"{verdict.value.capitalize()} ({len(rows)})", tuple(self._parts(rows)))
+                yield Section(f"{self._word(verdict).capitalize()} ({len(rows)})", tuple(self._parts(rows)))
 
     def _assumed(self) -> Iterator[Section]:
         if self.assumptions:
@@ -197,7 +205,7 @@ def _table(rows: Sequence[ClaimResult], timings: bool) -> Table:
 def _lines(rows: Sequence[ClaimResult]) -> Iterator[dict[str, str]]:
     """The cells of one claim by their heads, line by line."""
     support = [row.support for row in rows]
-    methods = [f"method: {row.decision.method}" for row in rows]
+    methods = [f"method: {row.method}" for row in rows]
     same = len(set(methods)) == 1
     common = [text for text in support[0] if all(text in result for result in support)]
     for row, result, method in zip(rows, support, methods, strict=True):

@@ -242,7 +242,7 @@ def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) ->
     """What the checker says about each row; what the row uses can only take from that."""
     result: dict[Key, ClaimResult] = {}
     for key, row in proposals.items():
-        claim, decision = row.claim, decided(row.finding, judged.get(key))
+        claim, decision = row.claim, decided(row.finding, judged.get(key), row.stated)
         broken = tuple(used for used, m in row.used if result[used, m].verdict is not Verdict.PROVED)
         if decision.verdict is Verdict.PROVED and broken:
             decision = undecided(rests_on(broken), decision.method, **decision.evidence)

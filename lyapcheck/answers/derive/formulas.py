@@ -38,7 +38,7 @@ class Formula:
         """What it is, and the formula."""
         shown = PrettyPrinter({"use_unicode": True})._print(self.value)
         whole = prettyForm(*prettyForm(f"{self.name} = ").right(shown))
-        text = whole.render(num_columns=COLUMNS, wrap_line=True)
+        text = whole.render(num_columns=COLUMNS, wrap_line=True, use_unicode=True)
         lines = "\n".join(line.rstrip() for line in text.splitlines())
         equation = Equation(lines, f"{self.head} = {latex(self.value)}")
         return (Paragraph(self.says), equation) if self.says else (equation,)

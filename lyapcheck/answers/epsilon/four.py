@@ -121,6 +121,6 @@ class FourEpsilons:
     @property
     def ratio(self) -> Fraction | None:
         """certified / falsified: 1 would leave nothing open."""
-        if self.certified is None or self.falsified is None:
+        if self.certified is None or not self.falsified:
             return None
         return self.certified / self.falsified

@@ -21,6 +21,7 @@ from lyapcheck.answers.gate.words import (
     limit_ends,
     limit_text,
     margin_text,
+    spoken_verdict,
     value_text,
 )
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
@@ -28,6 +29,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
 HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
@@ -76,15 +78,21 @@ class GateAnswer(tuple[GateResult, ...], Answer):
         verdicts, words = ([getattr(result, name) for result in self] for name in ("verdict", "standing"))
         worst = next((v for v in (REJECTED, UNDECIDED) if v in verdicts), ACCEPTED)
         counts = {word: words.count(word) for word in (REJECTED, BREAKS_19, UNDECIDED, ACCEPTED)}
-        counted = "; ".join(
-            f"{count} {word.replace('breaks', 'break') if count > 1 else word}"
-            for word, count in counts.items()
-            if count
-        )
+        counted = "; ".join(self._counted(word, count) for word, count in counts.items() if count)
         facts = [fact for result in self if (fact := _fact(result))]
         symbol = NAMED if worst == ACCEPTED and facts else SYMBOLS[worst]
         said = max(facts, key=_weight)[1] if facts else ""
         return "; ".join(filter(None, (f"{symbol} {counted or 'no gain sets'}", said)))
+
+    def _counted(self, standing: str, count: int) -> str:
+        """So many sets of a standing, as the promises on each of them allow to say it."""
+        words = f"{count} {standing.replace('breaks', 'break') if count > 1 else standing}"
+        known = [result for result in self if result.standing == standing]
+        if standing == ACCEPTED:
+            return all_say((one for result in known for one in result.grounds.promises), words)
+        if standing == BREAKS_19:
+            return all_say((result.stable.own_promise for result in known if result.stable), words)
+        return words
 
     def _notes(self) -> Iterator[str]:
         """What the conditions say, and what the numbers rest on."""
@@ -108,13 +116,17 @@ def _weight(fact: Fact) -> Fraction:
 
 
 def _assumptions(results: GateAnswer) -> Iterator[str]:
-    return (text for result in results for text in result.limits.assumptions)
+    return (text for result in results for text in _rests_on(result))
+
+
+def _rests_on(result: GateResult) -> tuple[str, ...]:
+    return (*result.grounds.premises, *result.limits.assumptions)
 
 
 def _section(result: GateResult) -> Section:
     fact = _fact(result)
     symbol = SYMBOLS[result.verdict] if fact is None else NAMED
-    standing = result.standing if fact is None else f"{result.standing}; {fact[1]}"
+    standing = "; ".join((result.spoken_standing, *(() if fact is None else (fact[1],))))
     title = f"{symbol} {result.name}: {standing} ({about(result)}, {result.file.path})"
     rows = tuple([_row(result, check) for check in result.checks])
     said = [*advices(result), *remarks(result)]
@@ -142,13 +154,13 @@ def _data(result: GateResult) -> dict[str, Any]:
         "file": result.file.path,
         "family": result.gains.family,
         "m": result.m,
-        "verdict": result.verdict,
-        "standing": result.standing,
+        "verdict": result.spoken,
+        "standing": result.spoken_standing,
         "deciding": list(result.deciding),
         "strict": result.strict,
         "stable_otherwise": None if stable is None else {"condition": stable.id, "eps0": _exact(stable)},
         "remarks": remarks(result),
-        "assumptions": list(result.limits.assumptions),
+        "assumptions": list(_rests_on(result)),
         "checks": [_check_data(result, check) for check in result.checks],
     }
 
@@ -163,7 +175,7 @@ def _check_data(result: GateResult, check: Check) -> dict[str, Any]:
     return {
         "id": check.id,
         "joint": None if check.joint is None else joint_name(result, check),
-        "verdict": check.verdict,
+        "verdict": spoken_verdict(check),
         "value": _exact(check),
         "limit": None if limit is None else {"lower": limit[0], "upper": limit[1]},
         "margin": None if limit is None else margin_text(check, MARGIN_DIGITS),
@@ -181,7 +193,7 @@ def _annotations(result: GateResult) -> Iterator[Annotation]:
     level = LEVELS[result.verdict]
     if result.strict and level is Level.UNDECIDED:
         level = Level.FAILED
-    head = [] if result.standing in LEVELS else [result.standing]
+    head = [] if result.standing in LEVELS else [result.spoken_standing]
     known = [*head, *advices(result), *(() if result.stable is None else remarks(result)[:1])]
 
     def said(level: Level, rule: str, text: str, message: str) -> Annotation:

@@ -51,7 +51,7 @@ def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
         over = 100 * exp(-pi * least / sqrt(1 - least**2))
         end = f": without dry friction it swings, by about {over:.0f} % of a step"
     soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
-    return [f"damping ratio{soft}, at the posture of most inertia: {text}{end}"]
+    return [f"estimated damping ratio{soft}, at the posture of most inertia: {text}{end}"]
 
 
 def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:

@@ -84,7 +84,7 @@ def _of_friction(result: GateResult) -> Iterator[Certificate]:
         return
     rows = [(f"held.{model.joints[i]}", HELD, one) for i, one in held(gains, model).items()]
     rest = resting(gains, model)
-    for name, says, one in [*rows, *([] if rest is None else [("rest", REST, rest)])]:
+    for name, says, one in [*rows, *([] if rest is None else [("rest", REST, rest.judged)])]:
         if one.proof is not None:
             about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)
             yield Certificate(about, one.statement, one.shown, one.grade, one.proof)

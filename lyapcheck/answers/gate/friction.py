@@ -9,21 +9,25 @@ References: (6), (11) of reyes2019family.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.asked import resting as asked_resting
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.judgement import ACCEPTED, JudgedStatement, judged_statement
-from lyapcheck.control.resting import degrees_above, dry_friction
+from lyapcheck.control.resting import DEGREES, dry_friction
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.family.registry import named
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.promise import promised
 
 if TYPE_CHECKING:
     from lyapcheck.check.expressions.expression import Tree
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.promise import Promise
     from lyapcheck.robots import RobotModel
 
 
@@ -45,11 +49,24 @@ def _limit(friction: Fraction, gamma: Tree) -> Threshold:
     return scaled(friction, 1, gamma, "<=")
 
 
-def resting(gains: GainSet, model: RobotModel) -> JudgedStatement | None:
-    """How far from the goal the joints may rest, to six digits, as the checker accepts it.
+@dataclass(frozen=True)
+class Rest:
+    """How far from the goal the joints may rest.
 
-    ``None`` where nothing is known of dry friction, or no joint has a bound.
+    Args:
+        judged: as the checker accepts it, to six digits.
+        promise: with the angles that are printed and the largest dry friction in the ranges.
+        degrees: these angles; ``None`` for a joint without a bound.
     """
+
+    judged: JudgedStatement
+    promise: Promise | None
+    degrees: tuple[Fraction | None, ...]
+
+
+@lru_cache(maxsize=64)
+def resting(gains: GainSet, model: RobotModel) -> Rest | None:
+    """``None`` where nothing is known of dry friction, or no joint has a bound."""
     friction = dry_friction(model)
     if not any(friction) or not named(gains.family, gains.m).bounded or gains.angle_unit == "deg":
         return None
@@ -58,13 +75,17 @@ def resting(gains: GainSet, model: RobotModel) -> JudgedStatement | None:
         return None
     from lyapcheck.check.kinds.resting import AtBounds, Resting
 
-    return judged_statement(
+    judged = judged_statement(
         Resting(gains.family, gains.m, tuple(gains.kp), tuple(friction), errors), [AtBounds()]
     )
+    degrees = tuple(None if e is None else significant_up(e * DEGREES, 4) for e in errors)
+    printed = [None if angle is None else angle / DEGREES for angle in degrees]
+    promise, _ = promised(asked_resting(gains, dry_friction(model), printed), judged)
+    return Rest(judged, promise, degrees)
 
 
 Fact = tuple[Fraction, str]
-"""How far from the goal, rad, and in words."""
+"""How far from the goal, in degrees, and in words."""
 
 
 def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
@@ -72,19 +93,15 @@ def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
     if not any(dry_friction(model)):
         return None
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
-    result, stuck = resting(gains, model), held(gains, model)
+    rest, stuck = resting(gains, model), held(gains, model)
     if stuck:
         joints = ", ".join(model.joints[i] for i in stuck)
         return ANYWHERE, f"dry friction{assumed} may hold {joints} anywhere"
-    if result is None or result.verdict != ACCEPTED or None in _errors(result):
+    known = () if rest is None else tuple(angle for angle in rest.degrees if angle is not None)
+    if rest is None or rest.promise is None or len(known) < len(rest.degrees):
         return ANYWHERE, f"dry friction{assumed} may leave it off its goal"
-    error = max(x for x in _errors(result) if x is not None)
-    return error, f"dry friction{assumed} leaves at most {degrees_above(error)}"
-
-
-def _errors(result: JudgedStatement) -> tuple[Fraction | None, ...]:
-    errors: tuple[Fraction | None, ...] = result.statement.errors  # type: ignore[attr-defined]
-    return errors
+    most = max(known)
+    return most, rest.promise.says(f"dry friction{assumed} leaves at most {decimal_text(most)}°")
 
 
 def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> list[str]:
@@ -99,10 +116,11 @@ def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> l
             f"γ k_p of {model.joints[i]} does not exceed its dry friction of {upto}{most} N·m{assumed}: "
             f"the joint {may} wherever it stops; k_p = {k} is in N·m"
         )
-    result = resting(gains, model)
-    if result is not None and result.verdict == ACCEPTED:
-        errors = zip(model.joints, _errors(result), friction, strict=True)
-        far = [f"{joint} {degrees_above(e)}" for joint, e, f in errors if f and e is not None]
+    rest = resting(gains, model)
+    if rest is not None and rest.promise is not None:
+        angles = zip(model.joints, rest.degrees, friction, strict=True)
+        far = [f"{joint} {decimal_text(angle)}°" for joint, angle, f in angles if f and angle is not None]
         if far:
-            lines.append(f"dry friction{assumed} leaves at most {', '.join(far)}, at every state of rest")
+            leaves = f"dry friction{assumed} leaves at most {', '.join(far)}, at every state of rest"
+            lines.append(rest.promise.says(leaves))
     return lines

@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
 from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
     ACCEPTED,
@@ -21,6 +22,7 @@ from lyapcheck.control.deciding import CERTIFICATES, DECIDING, KNOWN, deciding_f
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.errors import argument_error
+from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
@@ -48,6 +50,7 @@ class GateResult:
         otherwise: a proof of stability for gains that break (19), where one was looked for and found.
         explained: whether more is to be said of the set than its checks.
         gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
+        grounds: the promises on which the set is accepted, or why it is not.
     """
 
     file: GainFile
@@ -59,6 +62,7 @@ class GateResult:
     otherwise: Check | None = None
     explained: bool = False
     gamma: str = "true"
+    grounds: Grounds = NO_GROUNDS
 
     @property
     def name(self) -> str:
@@ -72,8 +76,12 @@ class GateResult:
 
     @cached_property
     def verdict(self) -> str:
-        """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``."""
-        return self.verdict_of((*self.deciding, GRAVITY))
+        """``rejected`` if a deciding check is, else ``undecided`` if one is, else ``accepted``.
+
+        Without a promise about the arm as it was given, checks that all pass are ``undecided``.
+        """
+        result = self.verdict_of((*self.deciding, GRAVITY))
+        return UNDECIDED if result == ACCEPTED and not self.grounds.promises else result
 
     @property
     def saturates(self) -> bool:
@@ -92,6 +100,26 @@ class GateResult:
         ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
+
+    def says(self, words: str) -> str:
+        """Words of proof about a set that is accepted.
+
+        Raises:
+            Refused: it is not.
+        """
+        return all_say(self.grounds.promises, words)
+
+    @property
+    def spoken(self) -> str:
+        """The verdict as it may be said."""
+        return self.says(self.verdict) if self.verdict == ACCEPTED else self.verdict
+
+    @property
+    def spoken_standing(self) -> str:
+        """The standing as it may be said."""
+        if self.standing == BREAKS_19 and self.stable is not None:
+            return self.stable.own_promise.says(BREAKS_19)
+        return self.spoken
 
     @cached_property
     def stable(self) -> Check | None:
@@ -149,13 +177,16 @@ def judged_sets(
         limits = limits.resting_on((*limits.gravity_notes, *rests_on))
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
+    questions = GateQuestions(gain_file, limits, gamma)
     for gains, names, certificates in zip(gain_file.gains, deciding, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
         checks = (*broken, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
-        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma)
+        passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
+        grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
+        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 

@@ -15,9 +15,11 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from lyapcheck.asked import decreasing, definite, viscous_of
 from lyapcheck.control.conditions import ACCEPTED, Check
-from lyapcheck.control.judgement import judged_statement
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.errors import InputError
+from lyapcheck.promise import promised
 from lyapcheck.robots.dynamics import FEW_JOINTS
 
 if TYPE_CHECKING:
@@ -46,9 +48,9 @@ def proved_otherwise(
     if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > FEW_JOINTS):
         return None
     arm = model if ranges else model.fixed()
-    result = _scalar(gains, arm, friction_of(model, viscous_min, ranges), ranges)
+    result = _scalar(gains, arm, viscous_min, ranges)
     if result is None or result.verdict != ACCEPTED:
-        result = lasalle(arm)
+        result = lasalle(model, ranges)
     return result if result.verdict == ACCEPTED else None
 
 
@@ -84,7 +86,7 @@ def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -
     return tuple((viscous_min, max(viscous_min, own)) for own in most)
 
 
-def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, ranges: bool) -> Check | None:
+def _scalar(gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, ranges: bool) -> Check | None:
     from lyapcheck.family.registry import named
     from lyapcheck.search.closed_loop import closed_loop_of
     from lyapcheck.search.inertia import mass_of, mass_proof, remember
@@ -94,22 +96,52 @@ def _scalar(gains: GainSet, arm: RobotModel, friction: tuple[Ends, ...] | None, 
         return None
     remember(arm)
     loop = closed_loop_of(gains, arm, Fraction(1), ranges=ranges)
+    friction = friction_of(arm, viscous_min, ranges)
     if friction is not None:
         loop = replace(loop, viscous=friction)
     proof, _ = norm_proof(loop, mass_proof(mass_of(arm)))
     if proof is None:
         return None
-    result = judged_statement(proof.statement, [proof.certificate])
-    return Check(SCALAR, judgement=result, value=proof.loop.eps0, reason=result.reason)
+    judged = judged_statement(proof.statement, [proof.certificate])
+    return decided(SCALAR, gains, arm, proof.loop.eps0, judged, viscous_min, ranges)
+
+
+def decided(
+    name: str,
+    gains: GainSet,
+    arm: RobotModel,
+    eps0: Fraction,
+    judged: JudgedStatement,
+    viscous_min: Fraction | None,
+    ranges: bool,
+) -> Check:
+    """The check of a proof that V falls: accepted where it is about the arm that was asked about."""
+    asked = replace(
+        decreasing(gains, arm, eps0, nominal=not ranges),
+        viscous=viscous_of(arm, viscous_min, nominal=not ranges),
+    )
+    promise, reason = promised(asked, judged)
+    if promise is None:
+        return Check(name, reason=judged.reason or reason)
+    return Check(name, judgement=judged, value=eps0, promise=promise)
+
+
+def lasalle(model: RobotModel, ranges: bool) -> Check:
+    """Whether M(q) ≻ 0 is proved of an arm, for all values of its parameters or for the nominal ones."""
+    asked = definite(model if ranges else model.fixed())
+    judged = positive(model if ranges else model.fixed())
+    promise, reason = promised(asked, judged)
+    if promise is None:
+        return Check(LASALLE, reason=judged.reason or reason)
+    return Check(LASALLE, judgement=judged, promise=promise)
 
 
 @lru_cache(maxsize=8)
-def lasalle(arm: RobotModel) -> Check:
-    """Whether M(q) ≻ 0 is proved of an arm, for all values of its parameters."""
+def positive(arm: RobotModel) -> JudgedStatement:
+    """What the checker says of M(q) ≻ 0."""
     from lyapcheck.check.kinds.inertia import MassAbove
     from lyapcheck.search.inertia import mass_of, mass_proof, remember
 
     remember(arm)
     mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
-    result = judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])
-    return Check(LASALLE, judgement=result, reason=result.reason)
+    return judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])

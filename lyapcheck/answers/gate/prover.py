@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from lyapcheck._types import Progress, part, silent
-from lyapcheck.answers.gate.otherwise import LASALLE, friction_of, lasalle, unknown_function
+from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged_statement
@@ -80,7 +80,7 @@ class Prover:
         reason = unknown_function(gains) or self._unphysical(controlled)
         proof = None
         if not reason and name == LASALLE:
-            return lasalle(self.model if self.ranges else self.model.fixed())
+            return lasalle(self.model, self.ranges)
         if not reason:
             friction = friction_of(self.model, self.viscous_min, self.ranges)
             proof, reason = (
@@ -90,8 +90,8 @@ class Prover:
             )
         if proof is None:
             return Check(name, reason=reason)
-        result = judged_statement(proof.statement, [proof.certificate])
-        return Check(name, judgement=result, value=proof.loop.eps0, reason=result.reason)
+        judged = judged_statement(proof.statement, [proof.certificate])
+        return decided(name, gains, self.model, proof.loop.eps0, judged, self.viscous_min, self.ranges)
 
     @property
     def assumptions(self) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from lyapcheck.answers.gate.bench import damping_lines
 from lyapcheck.answers.gate.friction import friction_lines, held
-from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.answers.gate.judge import GRAVITY, GateResult
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.control.deciding import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
@@ -16,7 +16,7 @@ from lyapcheck.files.decimals import decimal_text
 _NO_ARM = (
     "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
 )
-_SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps every joint within its limit"
+_SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps each joint within its limit"
 _NO_FRICTION = (
     "no viscous friction is known of a joint (λmin(B) = 0), so (19) admits no k_v. Without it the origin "
     "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
@@ -34,7 +34,8 @@ def remarks(result: GateResult) -> list[str]:
     if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
         outcome.append(_SINGLE + _accepting(result))
     elif result.saturates and result.stable is not None:
-        outcome.append("(10i) fails: a motor may saturate, and stability is proved only while none does")
+        words = "(10i) fails: a motor may saturate, and stability is proved only while none does"
+        outcome.append(result.stable.own_promise.says(words))
     model, gains = result.limits.model, result.gains
     if not result.explained or model is None:
         return outcome
@@ -48,7 +49,8 @@ def _without_19(result: GateResult) -> list[str]:
         how = "proved stable while no motor saturates" if result.saturates else "proved stable without it"
         outcome = f"(19) fails, yet the gains are {how}: {_proof(known, where)}"
         outcome += _accepting(result) if "19" in result.deciding else ""
-        return [outcome, _NO_FRICTION] if frictionless else [outcome]
+        said = [outcome, _NO_FRICTION] if frictionless else [outcome]
+        return [known.own_promise.says(words) for words in said]
     if not result.limits.robot:
         return [_NO_ARM]
     if frictionless:
@@ -67,6 +69,8 @@ def _proof(known: Check, where: str) -> str:
 
 def _accepting(result: GateResult) -> str:
     """The options with which the gate would accept, by what this run has shown; empty where it has not."""
+    if result.verdict_of((GRAVITY,)) == REJECTED:
+        return ""  # a false bound of gravity is rejected whatever decides
     known = result.stable
     instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}
     if known is not None and result.verdict_of(("19",)) == REJECTED:

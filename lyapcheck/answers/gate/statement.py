@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.otherwise import friction_of, unknown_function
+from lyapcheck.answers.gate.otherwise import unknown_function
+from lyapcheck.answers.gate.shown import DIGITS, numbers_of, shown_gravity
 from lyapcheck.check.kinds.gate_accepted import (
     TORQUES,
     BrokenCondition,
@@ -20,25 +20,16 @@ from lyapcheck.check.kinds.gate_accepted import (
     GateParts,
     SaturatingState,
 )
-from lyapcheck.check.kinds.gravity import GravityBelow
-from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
 from lyapcheck.check.limits import LARGEST, MAX_ARM
-from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.statement import Ends, Monomials, Proof, Statement
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED
 from lyapcheck.control.gravity import steep_postures
-from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.family.registry import named
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
-from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.robots import RobotModel
-
-DIGITS = (30, 120, 1000)
-"""Of γ, in turn."""
 
 
 def verdict_statement(result: GateResult) -> JudgedStatement | None:
@@ -56,6 +47,10 @@ def verdict_statement(result: GateResult) -> JudgedStatement | None:
     for known, proofs in _with_gravity(result, statement):
         stability = tuple(proof for _, proof in _stability(result))
         its = judged_statement(known, (GateParts(proofs, digits, stability) for digits in DIGITS))
+        if its.shown != "proved" and stability and known.conditions:
+            # stability at nominal numbers is no part of a statement over ranges; its check has a certificate
+            alone = replace(known, stability=())
+            its = judged_statement(alone, (GateParts(proofs, digits, ()) for digits in DIGITS))
         if its.shown == "proved":
             return its
     return None
@@ -63,24 +58,20 @@ def verdict_statement(result: GateResult) -> JudgedStatement | None:
 
 def _statement(result: GateResult) -> GateAccepted | None:
     """The statement, so far without gravity; ``None`` for another γ, or an h unknown to the checker."""
-    limits, gains, model = result.limits, result.gains, result.limits.model
+    limits, gains = result.limits, result.gains
     torques = {"10", *TORQUES} & set(result.deciding)
     known = result.gamma == "true" and named(gains.family, gains.m).bounded and not unknown_function(gains)
     if not known or limits.n > MAX_ARM or (torques and None in limits.torque):
         return None
-    least = limits.viscous_min or Fraction(0)
-    friction: tuple[Ends, ...] = ((least, least),) * limits.n
-    if model is not None:
-        own = friction_of(model, result.file.bounds.viscous_min, True)
-        friction = own or tuple(number.bounds for number in model.viscous)
+    parameters, friction, torque = numbers_of(limits, result.file.bounds.viscous_min)
     return GateAccepted(
         joints=limits.n,
         gravity=(),
         potential=(),
-        parameters=() if model is None else tuple(number.bounds for number in model.parameters.values()),
+        parameters=parameters,
         k_g=tuple(map(Fraction, limits.gravity)),
         viscous=friction,
-        limits=tuple(None if limit is None else Fraction(limit) for limit in limits.torque),
+        limits=tuple(None if limit is None else Fraction(limit) for limit in torque),
         family=gains.family,
         m=gains.m,
         kp=tuple(map(Fraction, gains.kp)),
@@ -103,35 +94,11 @@ def _with_gravity(
 ) -> Iterator[tuple[GateAccepted, tuple[Proof, ...]]]:
     """With the gravity of the model and k_g that it keeps; where none serves, with k_g as a premise."""
     if result.limits.model is not None:
-        shown = _shown(result.limits.model, statement.k_g)
+        shown = shown_gravity(result.limits.model, statement.k_g)
         if shown is not None:
-            gravity, potential, k_g, proofs = shown
-            yield replace(statement, gravity=gravity, potential=potential, k_g=k_g), proofs
+            known = replace(statement, gravity=shown.gravity, potential=shown.potential, k_g=shown.k_g)
+            yield known, shown.proofs
     yield statement, ()
-
-
-Shown = tuple[tuple[Monomials, ...], Monomials, tuple[Fraction, ...], tuple[Proof, ...]]
-
-
-@lru_cache(maxsize=16)
-def _shown(model: RobotModel, k_g: tuple[Fraction, ...]) -> Shown | None:
-    """g and the potential, and for each joint k_gi, or a larger bound that is shown; with the proofs."""
-    try:
-        gravity = tuple(tuple(to_terms(torque)) for torque in model.gravity)
-        potential = tuple(to_terms(model.potential))
-    except TooManyTerms:
-        return None
-    ranges = tuple(number.bounds for number in model.parameters.values())
-    bounds: list[Fraction] = []
-    proofs: list[Proof] = []
-    for entry, k in zip(gravity, k_g, strict=True):
-        own = GravityBelow(model.n, (entry,), ranges, k)
-        ways: list[Proof] = [HarmonicSizes(), *([Bisection()] if model.n <= FEW_JOINTS else [])]
-        proof = next((way for way in ways if proves(own, way)), None)
-        sizes = (size_of(part, ranges) for part in own.entries)
-        bounds.append(max(k, *sizes) if proof is None else k)
-        proofs.append(proof or HarmonicSizes())
-    return gravity, potential, tuple(bounds), tuple(proofs)
 
 
 def _refutations(result: GateResult, statement: GateAccepted) -> Iterator[Proof]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.statement import verdict_statement
@@ -9,6 +10,7 @@ from lyapcheck.answers.gate.words import joint_name
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import weakest
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
@@ -37,6 +39,9 @@ def whole(result: GateResult) -> Certificate | None:
     )
     one = verdict_statement(result)
     if one is not None:
+        kept = one.statement
+        if isinstance(kept, GateAccepted) and not kept.stability and one.shown == "proved":
+            about = replace(about, says=f"{result.name}: {', '.join(kept.conditions)}")
         return Certificate(about, one.statement, one.shown, one.grade, _proof(one))
     names = [f"{check.id} {joint_name(result, check)}" for check in checks]
     parts = AllOf(tuple((name, outcome.statement) for name, (_, outcome) in zip(names, known, strict=True)))

@@ -8,9 +8,10 @@ from math import degrees
 
 from lyapcheck.answers.gate.judge import GRAVITY, GateResult
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.conditions import ACCEPTED, Check
+from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
 from lyapcheck.files.decimals import decimal_text, scaled_text
 from lyapcheck.output.digits import correct_digits, decimals
+from lyapcheck.promise import Promise
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
@@ -19,10 +20,10 @@ RULES = {
     "10p": "k_p + k_v < (τmax − k_g)/(√n γ)",
     "10i": "k_p + k_v ≤ (τmax − k_g)/γ",
     "19": "k_v < λmin(B)/(√n γ)",
-    "scalar": "dV/dt < 0 with some ε₀ > 0 at every state, from norms alone; the value is the ε₀ proved",
-    "global": "dV/dt < 0 with some ε₀ > 0 at every state, box by box; the value is the ε₀ proved",
-    "lasalle": "M(q) ≻ 0, which with positive gains makes the origin globally asymptotically stable by "
-    "LaSalle's theorem, with or without friction (Khalil 2002, corollary 4.2)",
+    "scalar": "dV/dt < 0 at each state but the goal with the ε₀ shown, from norms alone",
+    "global": "dV/dt < 0 at each state but the goal with the ε₀ shown, box by box",
+    "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
+    "with or without friction (Khalil 2002, corollary 4.2)",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }
 KEYS = {
@@ -42,6 +43,11 @@ _SUBJECTS = {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "10i": "k_p + 
 def joint_name(result: GateResult, check: Check) -> str:
     """The joint's name, or ``all``."""
     return "all" if check.joint is None else result.limits.joints[check.joint]
+
+
+def spoken_verdict(check: Check) -> str:
+    """The verdict on a check as it may be said."""
+    return check.own_promise.says(ACCEPTED) if check.verdict == ACCEPTED else check.verdict
 
 
 def about(result: GateResult) -> str:
@@ -118,7 +124,10 @@ def advices(result: GateResult) -> list[str]:
     said: dict[tuple[str, str], list[str]] = {}
     for check in result.failures:
         said.setdefault((check.id, _broken(result, check)), []).append(joint_name(result, check))
-    return [f"({name}) {', '.join(joints)}: {text}" for (name, text), joints in said.items()]
+    lines = [f"({name}) {', '.join(joints)}: {text}" for (name, text), joints in said.items()]
+    if result.verdict == UNDECIDED and not result.failures:
+        lines.append(result.grounds.missing)
+    return lines
 
 
 def _broken(result: GateResult, check: Check) -> str:
@@ -149,11 +158,19 @@ def _repair(result: GateResult, check: Check) -> str:
         return "no k_v > 0 meets it without friction" if check.id == "19" else "gravity alone needs the motor"
     most = largest_text(check)
     if check.id not in ("10p", "10i") or check.joint is None:
-        return f"lower it to at most {most}"
+        return _passes(check, f"lower it to at most {most}")
     kv = result.gains.kv[check.joint]
     largest_kp = check.largest_admissible - kv
-    return (
+    return _passes(
+        check,
         f"lower k_p to at most {decimal_text(largest_kp)}"
         if largest_kp > 0
-        else f"lower k_p + k_v to at most {most}"
+        else f"lower k_p + k_v to at most {most}",
     )
+
+
+def _passes(check: Check, words: str) -> str:
+    """Words about the largest value that passes, which the checker has judged; else none of them."""
+    if check.admitted is None:
+        return "lower it"
+    return Promise(check.admitted.statement, check.admitted).says(words)

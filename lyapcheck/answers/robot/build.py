@@ -44,7 +44,7 @@ def build(
     judged = judge_afresh({**proposed.certificates, **made})
     decided, of_properties = properties(model, proposed.result(judged))
     positive = decided[0].verdict is Verdict.PROVED
-    about_prints, about_bounds = answered(prints, made, judged), answered(bounds, made, judged)
+    about_prints, about_bounds = answered(model, prints, made, judged), answered(model, bounds, made, judged)
     own = {
         file_name(row.question.id, None): row.certificate
         for row in [*about_prints, *about_bounds]

@@ -15,7 +15,8 @@ import numpy as np
 
 from lyapcheck._types import SEED
 from lyapcheck.answers.robot.judged import DecidedProperty, PropertyQuestion
-from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque
+from lyapcheck.asked import bound_of_constant
+from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, OfLinks
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
@@ -95,10 +96,11 @@ class _Bound:
 
 def questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterator[PropertyQuestion]:
     """Bounds of the constants of an arm at nominal parameters, two a constant at most."""
-    arm, chain = ArmBounds(model), model.fixed().chain if model.n <= FEW_JOINTS else None
+    arm, nominal = ArmBounds(model), model.fixed()
+    chain = nominal.chain if model.n <= FEW_JOINTS else None
     for constant in constants:
         if constant.shown is not None:
-            yield from _along_links(constant, constant.shown)
+            yield from _along_links(constant, constant.shown, nominal)
             continue
         try:
             with precision(BITS):
@@ -109,19 +111,21 @@ def questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterato
         sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
         outer = _outer(arm.robot.n, constant.name, bound, sign, chain)
         if outer is not None:
-            yield _question(constant.name, sides[0], sign, *outer)
+            yield _question(nominal, constant.name, sides[0], sign, *outer)
         inner = _inner(bound.seen, sign)
         if inner > 0 or sign < 0:
             result = _at_posture(bound.witness, bound.seen, inner, sign)
-            yield _question(constant.name, sides[1], sign, bound.state(inner), inner, result)
+            yield _question(nominal, constant.name, sides[1], sign, bound.state(inner), inner, result)
 
 
-def _along_links(constant: ConstantResult, outside: BoundWithProof) -> Iterator[PropertyQuestion]:
+def _along_links(
+    constant: ConstantResult, outside: BoundWithProof, nominal: RobotModel
+) -> Iterator[PropertyQuestion]:
     """Both ends of a constant of a chain: its storage forms, and the posture."""
     sign = -1 if constant.name == "lambda_min" else 1
     sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
     result = shown(outside.proof, outside.proof.rule)
-    yield _question(constant.name, sides[0], sign, outside.statement, outside.bound, result)
+    yield _question(nominal, constant.name, sides[0], sign, outside.statement, outside.bound, result)
     seen = constant.enclosure.lower if sign > 0 else constant.enclosure.upper
     inner, n = _inner(seen, sign), len(outside.statement.links)
     if inner > 0 or sign < 0:
@@ -130,7 +134,7 @@ def _along_links(constant: ConstantResult, outside: BoundWithProof) -> Iterator[
             for part in (constant.state[:n], constant.state[n:])
         )
         witness = _at_posture(PostureWitness(q, (), x), seen, inner, sign)
-        yield _question(constant.name, sides[1], sign, outside.at_end(inner), inner, witness)
+        yield _question(nominal, constant.name, sides[1], sign, outside.at_end(inner), inner, witness)
 
 
 def _inner(seen: Fraction, sign: int) -> Fraction:
@@ -171,11 +175,20 @@ def _value(statement: Statement) -> Fraction:
 
 
 def _question(
-    name: str, side: str, sign: int, statement: Statement, value: Fraction, finding: SearchResult
+    nominal: RobotModel,
+    name: str,
+    side: str,
+    sign: int,
+    statement: Statement,
+    value: Fraction,
+    finding: SearchResult,
 ) -> PropertyQuestion:
+    """A bound; what is asked is about the arm and the number as it is printed."""
     grade = Grade.EXACT if isinstance(finding.proof, (HarmonicSizes, NoTorque)) else Grade.ENCLOSURE
-    words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {decimal_text(value)}"
-    return PropertyQuestion(f"{name}.{side}", words, statement, replace(finding, grade=grade))
+    printed = decimal_text(value)
+    words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {printed}"
+    asked = bound_of_constant(name, nominal, Fraction(printed), isinstance(statement, OfLinks))
+    return PropertyQuestion(f"{name}.{side}", words, statement, replace(finding, grade=grade), asked)
 
 
 def _outer(n: int, name: str, bound: _Bound, sign: int, chain: Chain | None) -> _Outer | None:

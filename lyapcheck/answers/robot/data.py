@@ -10,6 +10,7 @@ from lyapcheck.answers.robot.extent import extent
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
+from lyapcheck.promise import told
 
 if TYPE_CHECKING:
     from lyapcheck.answers.robot.facts import ArmFacts
@@ -28,8 +29,8 @@ def report_data(report: ArmFacts) -> dict[str, Any]:
         "title": model.title,
         "n": model.n,
         "seed": SEED,
-        "properties": [property_data(row, extent(report, row.id)) for row in report.properties],
-        "prints": [property_data(row, extent(report, f"printed {row.id}")) for row in report.prints],
+        "properties": [property_data(row, extent(row, model)) for row in report.properties],
+        "prints": [property_data(row, extent(row, model)) for row in report.prints],
         "constants": [constant_data(report, constant) for constant in report.constants],
         "joints": [
             {
@@ -53,14 +54,14 @@ def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
     finding = row.finding
     return {
         "id": row.id,
-        "statement": row.statement,
-        "verdict": row.verdict.value,
+        "statement": finding.says(row.statement),
+        "verdict": row.word,
         "for": about or None,
         "grade": finding.grade.label,
-        "method": finding.method,
+        "method": finding.says(finding.method),
         "reason": finding.reason,
         "witness": finding.witness,
-        "evidence": finding.evidence,
+        "evidence": told(finding.promise, finding.evidence),
     }
 
 

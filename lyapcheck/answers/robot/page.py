@@ -12,6 +12,7 @@ from lyapcheck.answers.robot.extent import NOMINAL, RANGES, extent, together, un
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_most, decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.promise import Promise, all_say
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.number import with_unit
 from lyapcheck.verdicts import Verdict
@@ -38,8 +39,8 @@ CONSTANT_HEADS = (
 )
 JOINT_HEADS = ("joint", "viscous [N·m·s/rad]", "Coulomb [N·m]", "torque limit [N·m]", "encoder [counts/turn]")
 AT_NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
-GAPS = "The gap is that of the certified ends, relative to the larger one."
-NUMERIC = "Marked *: that of the numeric ends, as one of the certified ones is missing."
+GAPS = "The gap is that of the ends by certificates, relative to the larger one."
+NUMERIC = "Marked *: that of the numeric ends, as a certificate is missing."
 WIDE = 0.25
 """The gap from which a word is said about it."""
 PRINT = "As the source prints it"
@@ -51,9 +52,7 @@ def page(report: ArmFacts) -> Document:
     judged = [(f"property {row.id}", row) for row in report.properties]
     judged += [(row.statement, row) for row in report.prints]
     wrong = tuple(
-        f"{what}: {row.verdict.value}; {evidence(row)}"
-        for what, row in judged
-        if row.verdict is not Verdict.PROVED
+        f"{what}: {row.word}; {evidence(row)}" for what, row in judged if row.verdict is not Verdict.PROVED
     )
     about = Paragraph(f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}.")
     return Document(_title(report), (about, *([Bullets(wrong)] if wrong else []), *_sections(report)))
@@ -62,7 +61,7 @@ def page(report: ArmFacts) -> Document:
 def evidence(row: PropertyResult) -> str:
     """What supports the verdict."""
     finding = row.finding
-    parts = [finding.method, finding.reason]
+    parts = [finding.says(finding.method), finding.reason]
     if finding.witness is not None:
         point = ", ".join(f"{name} = {value}" for name, value in finding.witness["point"].items())
         left, right = (finding.witness[side][0] for side in ("left", "right"))
@@ -80,20 +79,27 @@ def _title(report: ArmFacts) -> str:
             return f"{mark} {name}: propert{ending} {', '.join(result)} {verdict.value}"
     every = [row.id for row in report.properties]
     if not uncertain(report.model):
-        return f"✓ {name}: properties {together(every, every)} proved"
-    extents = {row.id: extent(report, row.id) for row in report.properties}
+        said = all_say(_promises(report), "proved")
+        return f"✓ {name}: properties {together(every, every)} {said}"
+    extents = {row.id: extent(row, report.model) for row in report.properties}
     ranged, nominal = ([key for key in every if extents[key] == kind] for kind in (RANGES, NOMINAL))
     parts = [
         f"{together(ids, every)} for {kind}" if kind == RANGES else f"{together(ids, every)} at {kind} only"
         for kind, ids in ((RANGES, ranged), (NOMINAL, nominal))
         if ids
     ]
-    return f"{'!' if nominal else '✓'} {name}: properties proved: {'; '.join(parts)}"
+    said = all_say(_promises(report), "proved")
+    return f"{'!' if nominal else '✓'} {name}: properties {said}: {'; '.join(parts)}"
+
+
+def _promises(report: ArmFacts) -> list[Promise | None]:
+    """One a property: about all ranges where that is shown, else about the nominal numbers."""
+    return [row.over or row.finding.promise for row in report.properties]
 
 
 def _sections(report: ArmFacts) -> list[Section]:
     model = report.model
-    prints = [_judged(PRINT, "claim", report.prints, report, "printed ")] if report.prints else []
+    prints = [_judged(PRINT, "claim", report.prints, report)] if report.prints else []
     joints = [Section("Joints", (Table(JOINT_HEADS, tuple(_joint_rows(model))),))]
     assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
     numbers = [Section("Numbers", (_numbers(model),))] if model.numbers else []
@@ -101,18 +107,16 @@ def _sections(report: ArmFacts) -> list[Section]:
     return [properties, *prints, _constants(report), *joints, *numbers, *assumed, *inertia_sections(model)]
 
 
-def _judged(
-    title: str, head: str, rows: Sequence[PropertyResult], report: ArmFacts, prefix: str = ""
-) -> Section:
+def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: ArmFacts) -> Section:
     """Verdicts with the arms that they are about, then what supports them."""
     ranged = uncertain(report.model)
     cells = tuple(
         (
             row.id,
-            row.verdict.value,
-            *([extent(report, prefix + row.id) or NONE] if ranged else []),
+            row.word,
+            *([extent(row, report.model) or NONE] if ranged else []),
             row.finding.grade.label,
-            row.statement,
+            row.finding.says(row.statement),
         )
         for row in rows
     )

@@ -34,13 +34,15 @@ def print_claims(model: RobotModel) -> tuple[PropertyResult, ...]:
 def as_property(answer: DecidedProperty) -> PropertyResult:
     """A claim about the print with its decision."""
     name = answer.question.id.removeprefix("printed ")
-    return PropertyResult(name, answer.question.says, answer.decision)
+    return PropertyResult(name, answer.question.says, answer.decision, answer.over)
 
 
 def questions(model: RobotModel) -> list[PropertyQuestion]:
     """The claims as statements, with what the search proposes."""
     return [
-        PropertyQuestion(f"printed {name}", SAYS[name], statement, _named(model, propose(statement)))
+        PropertyQuestion(
+            f"printed {name}", SAYS[name], statement, _named(model, propose(statement)), statement
+        )
         for name, statement in _statements(model).items()
     ]
 

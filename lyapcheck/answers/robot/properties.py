@@ -5,29 +5,43 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from lyapcheck.answers.check import ProofResult
+from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.answers.check.run import ProposedProof, proposed_proof
+from lyapcheck.answers.robot.judged import about_ranges
 from lyapcheck.certificate import Certificate
 from lyapcheck.claims.decision import Decision, undecided
+from lyapcheck.promise import Promise
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
+FRICTION = "2.7"
+"""The property of B, whose statement has no ranges; the others are about M, C and g."""
 _STATE_IT = "state it in an arm file that names this URDF"
 
 
 @dataclass(frozen=True)
 class PropertyResult:
-    """One property with what was found out about it."""
+    """One property with what was found out about it.
+
+    Args:
+        over: the promise that it holds for all values of the ranges; none where that is not shown.
+    """
 
     id: str
     statement: str
     finding: Decision
+    over: Promise | None = None
 
     @property
     def verdict(self) -> Verdict:
         """The verdict."""
         return self.finding.verdict
+
+    @property
+    def word(self) -> str:
+        """The verdict as answers say it."""
+        return self.finding.word
 
 
 def proposed_properties(model: RobotModel) -> ProposedProof:
@@ -42,17 +56,25 @@ def properties(
 
     Friction that nobody has stated is not 0: then 2.7 is open, whatever follows for 0.
     """
-    rows = {row.id: PropertyResult(row.id, row.statement, row.decision) for row in result.claims}
+    rows = {
+        row.id: PropertyResult(row.id, row.statement, row.decision, _over(row, model))
+        for row in result.claims
+    }
     made = dict(result.certificates)
     missing = _without_friction(model, assumed=True)
     if missing:
         finding = undecided(f"no viscous friction is known of {missing}; {_STATE_IT}", "reading of the file")
-        rows["2.7"] = PropertyResult("2.7", rows["2.7"].statement, finding)
+        rows[FRICTION] = PropertyResult(FRICTION, rows[FRICTION].statement, finding)
         made.pop("2.7.json", None)
     elif none := _without_friction(model, assumed=False):
         reason = f"the viscous friction of {none} is 0 in the file; where that means unknown, {_STATE_IT}"
-        rows["2.7"] = replace(rows["2.7"], finding=replace(rows["2.7"].finding, reason=reason))
+        rows[FRICTION] = replace(rows[FRICTION], finding=replace(rows[FRICTION].finding, reason=reason))
     return tuple(rows[name] for name in IDS), made
+
+
+def _over(row: ClaimResult, model: RobotModel) -> Promise | None:
+    numbers = model.viscous if row.id == FRICTION else model.parameters.values()
+    return about_ranges(row.stated, row.decision, numbers, model)
 
 
 def _without_friction(model: RobotModel, assumed: bool) -> str:

@@ -55,6 +55,6 @@ class RobotReport(ArmFacts, Answer):
         return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
 
     def _annotation(self, row: PropertyResult, level: Level) -> Annotation:
-        said = "" if level is Level.PASSED else f"{row.verdict.value}: {row.statement}; {evidence(row)}"
+        said = "" if level is Level.PASSED else f"{row.word}: {row.statement}; {evidence(row)}"
         rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
-        return Annotation(level, rule, row.statement, self.model.name, "", said, self.path)
+        return Annotation(level, rule, row.finding.says(row.statement), self.model.name, "", said, self.path)

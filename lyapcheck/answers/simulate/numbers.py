@@ -6,19 +6,17 @@ import math
 from collections.abc import Iterable
 from fractions import Fraction
 
-from lyapcheck.output.digits import at_least, at_most
-
-NONE = "—"
+from lyapcheck.output.digits import NONE, at_least, at_most, shown
 
 
 def cell(value: float | None, form: str) -> str:
     """A number in a form, a dash where there is none."""
-    return NONE if value is None or math.isnan(value) else format(value, form)
+    return shown(value, form)
 
 
 def lower(value: float | Fraction | None) -> str:
     """A limit or an ε₀, rounded down; a dash where there is none."""
-    return NONE if value is None else at_least(value)
+    return NONE if value is None or math.isnan(value) else at_least(value)
 
 
 def upper(value: float | None) -> str:
@@ -43,4 +41,4 @@ def plains(values: Iterable[float]) -> list[float | None]:
 
 def row(values: Iterable[float]) -> str:
     """Numbers in parentheses."""
-    return f"({', '.join(f'{value:g}' for value in values)})"
+    return f"({', '.join(shown(value, 'g') for value in values)})"

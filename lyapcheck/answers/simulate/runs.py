@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import NONE, cell, lower, plain, plains, row, sized, upper
+from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row, sized, upper
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.output.digits import NONE
 from lyapcheck.output.document import Block, Bullets, Section, Table
 from lyapcheck.simulate.indices import SETTLING_BAND
 from lyapcheck.simulate.printed import printed_for
@@ -70,10 +71,12 @@ class SetPointRuns(Simulation[Run]):
         rows = []
         for one in self.results:
             seen = one.promises
-            fall = "never rose" if seen.V_rises_at is None else f"ROSE at {seen.V_rises_at:.4g} s"
+            fall = "never rose" if seen.V_rises_at is None else f"ROSE at {cell(seen.V_rises_at, '.4g')} s"
             norms = upper(seen.torque_norm), upper(seen.torque_bound)
             mark = self.mark(one.name) or NONE
-            rows.append((one.name, f"{one.L2:.4f}", lower(one.eps0), f"{one.V[0]:.5g}", fall, *norms, mark))
+            rows.append(
+                (one.name, cell(one.L2, ".4f"), lower(one.eps0), cell(one.V[0], ".5g"), fall, *norms, mark)
+            )
         return Table(OVERVIEW, tuple(rows), align="lrrrlrrl")
 
     def section(self, one: Run) -> Section:
@@ -146,7 +149,7 @@ class SetPointRuns(Simulation[Run]):
 def _headline(one: Run) -> str:
     member = "" if one.m is None else f" (m = {one.m})"
     start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
-    cut = "" if one.complete else f", CUT SHORT at {one.t[-1]:.4g} s"
+    cut = "" if one.complete else f", CUT SHORT at {cell(one.t[-1], '.4g')} s"
     return f"{one.name}{member}: {start}° to {goal}° in {one.task.T:g} s{cut}"
 
 

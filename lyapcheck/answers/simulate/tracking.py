@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import NONE, cell, lower, plain, plains, row, sized
+from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row, sized
 from lyapcheck.answers.simulate.simulation import Simulation, breach_record
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.digits import at_most
+from lyapcheck.output.digits import NONE, at_most
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.tracking.run import TrackingRun
 

@@ -34,8 +34,8 @@ NONE_FOUND = {
 LIMITS = ("(10p): k_p + k_v < (τmax − k_g)/(√n γ), N·m.", "(19): k_v < λmin(B)/(√n γ), N·m.")
 ENDS = "One unit more in the last place of a gain breaks what it ends at."
 DAMPED = (
-    "ζ: the least damping ratio of the joint alone over all ranges of the arm, with the steepest secant of h "
-    "in its place."
+    "ζ: estimated: the least damping ratio of the joint alone over all ranges of the arm, with the steepest "
+    "secant of h in its place."
 )
 LIMIT_DIGITS = 6
 """Significant digits of limits, as the gate shows them."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.output.digits import at_most, shown
 from lyapcheck.output.document import Block, Paragraph, Section, Table
 
 if TYPE_CHECKING:
@@ -70,25 +71,27 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
     rows = tuple(
         (
             str(one.m),
-            f"{one.L2:.2f}",
-            f"{one.final:.2f}",
-            "—" if math.isnan(one.share) else f"{one.share:.2f}",
-            f"{one.speed:.2f}",
-            "anywhere" if math.isinf(one.rest) else f"{one.rest:.1f}" if one.rest else "—",
+            shown(one.L2, ".2f"),
+            shown(one.final, ".2f"),
+            shown(one.share, ".2f"),
+            shown(one.speed, ".2f"),
+            "anywhere" if math.isinf(one.rest) else at_most(one.rest, 3) if one.rest > 0 else "—",
         )
         for one in result
     )
-    goal = ", ".join(f"{x:g}" for x in target)
+    goal = ", ".join(shown(x, "g") for x in target)
     first, last = result[0], result[-1]
+    L2, final, speed = (
+        f"from {shown(getattr(first, name), '.1f')}{unit} to {shown(getattr(last, name), '.1f')}{unit}"
+        for name, unit in (("L2", "°"), ("final", "°"), ("speed", ""))
+    )
     says = (
-        f"Simulated by (11), without dry friction: in {time:g} s from rest to ({goal})°, from "
-        f"m = {first.m} to m = {last.m}: "
-        f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°, the error at the end from {first.final:.1f}° to "
-        f"{last.final:.1f}°, the top speed from {first.speed:.1f} to {last.speed:.1f} rad/s. For m ≥ 2 h is "
-        "flat at the goal."
+        f"Simulated by (11), without dry friction: in {shown(time, 'g')} s from rest to ({goal})°, from "
+        f"m = {first.m} to m = {last.m}: L2 goes {L2}, the error at the end {final}, the top speed {speed} "
+        "rad/s. For m ≥ 2 h is flat at the goal."
     )
     blocks: tuple[Block, ...] = (Table(HEADS, rows), Paragraph(says))
-    return Section("What m does", blocks)
+    return Section("Simulated: what m does", blocks)
 
 
 def _six(value: float) -> float | None:

@@ -70,7 +70,7 @@ def obstacle(gain_range: GainRange, joint: int, limits: Limits, targets: Targets
         return f"{name}: {targets.digits} decimal places are too few for gains this small; raise --digits"
     if gain_range.least_kv > gain_range.most_kv:
         return (
-            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} breaks (19), which admits at most "
+            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} breaks (19), which admits k_v ≤ "
             f"{decimal_text(gain_range.most_kv * unit)}; lower --kv-min"
         )
     if gain_range.least_kv >= gain_range.most_sum:

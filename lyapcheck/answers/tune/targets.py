@@ -78,10 +78,10 @@ class Targets:
         """What is asked for, in one line."""
         parts = [f"{self.digits} decimal places"]
         for words, values in (
-            ("at most {} of each torque limit", self.peak_share),
-            ("k_v at least {} of what (19) admits", self.kv_share),
-            ("k_v at least {} N·m", self.kv_min),
-            ("damping ratio at least {}", self.damping),
+            ("no more than {} of each torque limit", self.peak_share),
+            ("k_v ≥ {} of what (19) admits", self.kv_share),
+            ("k_v ≥ {} N·m", self.kv_min),
+            ("damping ratio ≥ {}", self.damping),
         ):
             if values is not None and (values is not self.peak_share or min(values) < 1):
                 parts.append(words.format(_each(values)))

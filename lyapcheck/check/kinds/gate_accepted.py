@@ -77,6 +77,7 @@ class GateAccepted(Total):
         require(
             all(0 <= low <= high for low, high in self.viscous), "viscous", "", "must be ranges from 0 on"
         )
+        require(all(x is None or x >= 0 for x in self.limits), "limits", "", "must not be negative")
         known = [name for name in ("10", "10p", "10i", "19") if name in self.conditions]
         require(list(self.conditions) == known, "conditions", self.conditions, "must be some, in order")
         limited = known in ([], ["19"]) or None not in self.limits
@@ -91,16 +92,30 @@ class GateAccepted(Total):
             part.require_well_formed()
 
     def _is_about(self, part: Statement) -> bool:
-        """Whether a statement is about as many joints in these ranges, or one arm, and about this loop."""
+        """Whether a statement is about as many joints in these ranges, and about this loop."""
         if not isinstance(part, OfArm | OfLoop) or len(part.mass) != self.joints:
             return False
-        same = part.parameters in ((), self.parameters)
+        same = self._has_ranges_of(part)
         if isinstance(part, OfLoop):
             pairs = zip(part.viscous, self.viscous, strict=False)
-            same = same and all(low <= a and b <= high for (a, b), (low, high) in pairs)
+            same = same and all(a <= low and high <= b for (a, b), (low, high) in pairs)
             loop = "family", "m", "kp", "kv"
             same = same and all(getattr(part, name) == getattr(self, name) for name in loop)
         return same
+
+    def _has_ranges_of(self, part: OfArm | OfLoop) -> bool:
+        """Whether a statement has these ranges; of what its M does not depend on any number serves.
+
+        A statement about an exact arm says nothing of the others in ranges.
+        """
+        if not part.parameters:
+            return all(low == high for low, high in self.parameters)
+        powers = [powers for row in part.mass for entry in row for powers, _ in entry]
+        pairs = zip(part.parameters, self.parameters, strict=False)
+        return len(part.parameters) == len(self.parameters) and all(
+            own == asked or not any(power[2 * self.joints + k] for power in powers)
+            for k, (own, asked) in enumerate(pairs)
+        )
 
     @property
     def gradient(self) -> GravityOfPotential:
@@ -120,15 +135,15 @@ class GateAccepted(Total):
 
     def holds(self, name: str, i: int, gamma: Fraction) -> bool:
         """Whether a condition holds at one joint with this number for γ; if so, also with a smaller one."""
-        n, limits = self.joints, [Fraction(0) if limit is None else limit for limit in self.limits]
-        reach, room = (self.kp[i] + self.kv[i]) * gamma, limits[i] - self.k_g[i]
-        if name == "10i":
-            return reach <= room
-        if name == "10p":
-            return room > 0 and n * reach**2 < room**2
+        n = self.joints
         if name == "19":
-            least = min(low for low, _ in self.viscous)
-            return least > 0 and n * (self.kv[i] * gamma) ** 2 < least**2
+            return _root_below(n, self.kv[i], gamma, min(low for low, _ in self.viscous))
+        limits = [Fraction(0) if limit is None else limit for limit in self.limits]
+        reach, room = self.kp[i] + self.kv[i], limits[i] - self.k_g[i]
+        if name == "10i":
+            return reach * gamma <= room
+        if name == "10p":
+            return _root_below(n, reach, gamma, room)
         # √a + √G ≤ √T, as a + G ≤ T and 4aG ≤ (T − a − G)²
         T, G = (sum((x * x for x in values), Fraction(0)) for values in (limits, self.k_g))
         a = n * ((max(self.kp) + max(self.kv)) * gamma) ** 2
@@ -169,6 +184,12 @@ class GateAccepted(Total):
             f"B = diag({', '.join(ranges[: self.joints])}), under h = {function}, "
             f"{', '.join([f'K_p = {diagonal_text(self.kp)}', f'K_v = {diagonal_text(self.kv)}', *over])}"
         )
+
+
+def _root_below(n: int, gain: Fraction, gamma: Fraction, room: Fraction) -> bool:
+    """√n·gain·γ < room, all but room positive; in integers, as squares of fractions take longer."""
+    (a, b), (c, d), (e, f) = (x.as_integer_ratio() for x in (gain, gamma, room))
+    return e > 0 and n * (a * c * f) ** 2 < (e * b * d) ** 2
 
 
 def gamma_between(family: str, m: int | None, digits: int) -> Enclosure:

@@ -9,7 +9,7 @@ from lyapcheck.check.systems.conditions import never_met
 from lyapcheck.claims.procedures.implication import counterexample
 from lyapcheck.claims.procedures.search import witness_of
 from lyapcheck.claims.registry import find, procedure
-from lyapcheck.claims.search_result import SearchResult, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, proposed_word, shown, still_open
 
 METHOD = "obligations of a theorem"
 SHORT = 60
@@ -26,7 +26,7 @@ def find_stable(statement: Stable | StableArm | Property) -> SearchResult:
     proofs, rows = [], []
     for name, obligation in statement.obligations():
         one = find(obligation)
-        rows.append({"part": name, "verdict": one.verdict.value, "method": one.method})
+        rows.append({"part": name, "verdict": proposed_word(one.verdict), "method": one.method})
         if not one.is_proof or one.proof is None:
             text = obligation.text()
             what = text if len(text) <= SHORT else "it"

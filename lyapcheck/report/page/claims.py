@@ -16,7 +16,7 @@ from lyapcheck.report.text import SYMBOLS, plural
 from lyapcheck.verdicts import Verdict
 
 GRADES = {
-    "kernel": "accepted by Coq's kernel",
+    "kernel": "a theorem of Coq's kernel",
     "exact": "rational numbers and symbolic normal forms",
     "enclosure": "balls that enclose the exact numbers",
     "numeric": "floating point, which decides nothing",
@@ -142,10 +142,10 @@ def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str
 
 
 def _chip(row: ClaimRow) -> Markup:
-    word = row.verdict
+    word, verdict = row.word, row.verdict
     member = " ".join([*filter(None, [row.gains]), *([] if row.m is None else [f"m={row.m}"]), ""])
-    shown = [element("span", member, class_="m"), f"{SYMBOLS[word]} {word}"]
-    return element("span", shown, class_=f"chip {word}", data_m=row.m)
+    shown = [element("span", member, class_="m"), f"{SYMBOLS[verdict]} {word}"]
+    return element("span", shown, class_=f"chip {verdict}", data_m=row.m)
 
 
 def _details(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> list[Markup | None]:
@@ -165,9 +165,9 @@ def _member(row: ClaimRow) -> Markup:
     """What was decided for one m, on what evidence."""
     head = f"{row.about}: " if row.about else ""
     lines = [
-        element("p", element("b", head, row.verdict), f" [{row.grade}: {GRADES.get(row.grade, '')}]"),
-        element("p", row.statement, class_="decided"),
-        [element("p", text) for text in row.details[1:]],
+        element("p", element("b", head, row.word), f" [{row.grade}: {GRADES.get(row.grade, '')}]"),
+        element("p", row.says(row.statement), class_="decided"),
+        [element("p", row.says(text)) for text in row.details[1:]],
     ]
     if row.certificate and row.digest:
         link = element("a", "certificate", href=row.certificate)

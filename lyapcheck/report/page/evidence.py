@@ -18,7 +18,7 @@ def evidence_section(report: Report) -> Markup:
     return element(
         "section",
         element("h2", "Evidence"),
-        element("h3", "ε₀ between what is proved and what a state refutes"),
+        element("h3", "ε₀ from both sides"),
         shown(report, four_epsilons(report)),
         _certificates(report),
         [

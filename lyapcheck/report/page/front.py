@@ -10,7 +10,7 @@ from lyapcheck.report.model import Report, anchor
 from lyapcheck.report.verdict import VerdictBox, badges, chain, route, sentences
 
 LEGEND = (
-    "Green: proved. Red: refuted, and the proof rests on it. Amber: wrong, but can be mended. "
+    "Green: shown. Red: refuted, and the proof rests on it. Amber: wrong, but can be mended. "
     "Grey: not shown this way."
 )
 SIGNS = {"good": "✓", "bad": "✗", "warn": "!", "open": "?"}
@@ -53,7 +53,7 @@ def _picture(report: Report) -> Markup:
     rows = [element("p", "The printed proof", class_="row-title"), printed]
     if around:
         rows += [
-            element("p", "The way round, proved", class_="row-title"),
+            element("p", "The way round", class_="row-title"),
             element("ol", _boxes(around, start + 2), class_="chain around", aria_label="The way round"),
         ]
     caption = element("figcaption", LEGEND)

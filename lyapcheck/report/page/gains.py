@@ -53,8 +53,8 @@ def _map(report: Report) -> Markup | None:
         for m in ms
     ]
     caption = (
-        "Certified ε₀ over m and k_v (N·m, the same in every joint, k_p as in the gain set of each m) on "
-        f"{report.robot.name}, each a link to its certificate, found with {BOXES:,} boxes, so a little "
+        "The ε₀ of certificates over m and k_v (N·m, the same in all joints, k_p as in the set of each m) "
+        f"on {report.robot.name}, each a link to its certificate, found with {BOXES:,} boxes, so a little "
         "below what more boxes give; below it the settling time of the slowest joint and the largest share "
         "of a motor's torque in the reference simulation, in floating point. A frame: (19) holds."
     )

@@ -56,7 +56,7 @@ def _line(start: Place, end: Place, used: str, row: ClaimRow) -> Markup:
 def _box(place: Place, row: ClaimRow, short: str) -> Markup:
     x, y = place
     rests = f"Rests on {', '.join(row.uses)}." if row.uses else "Rests on no other claim."
-    title = element("title", f"{row.id}, {row.verdict} [{row.grade}]: {row.comment} {rests}")
+    title = element("title", f"{row.id}, {row.word} [{row.grade}]: {row.comment} {rests}")
     shape = element("rect", x=f"{x:g}", y=f"{y - HIGH / 2:g}", width=WIDE, height=HIGH, rx=4)
     middle = f"{x + WIDE / 2:g}"
     words = [

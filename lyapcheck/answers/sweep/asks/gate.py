@@ -39,10 +39,10 @@ def ask(questions: Sequence[Question], known: UncertainArm, options: Mapping[str
 
 def _answered(question: Question, result: GateResult, data: dict[str, object]) -> Answered:
     undecided = [check.reason for check in result.failures if check.verdict == UNDECIDED]
-    reason = undecided[0] if result.verdict == UNDECIDED and undecided else ""
+    reason = next(iter([*undecided, result.grounds.missing]), "") if result.verdict == UNDECIDED else ""
     certificate = whole(result)
     made = () if certificate is None else (certificate,)
-    return answered(question, result.verdict, data, made, reason, margin=_margin(result))
+    return answered(question, result.spoken, data, made, reason, margin=_margin(result))
 
 
 def _margin(result: GateResult) -> float | None:

@@ -17,13 +17,13 @@ OPTIONS = {"max_boxes": 20_000}
 def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
     """Properties 2.1–2.8 and the constants of each arm: the worst verdict counts.
 
-    Over a variation a property that is proved at nominal numbers only is undecided.
+    Over a variation a property that is shown at nominal numbers only is undecided.
     """
     report = build(known.model, options["max_boxes"])
     verdict = VERDICTS[report.exit_code]
-    nominal = [row.id for row in report.properties if known.ranges and extent(report, row.id) == NOMINAL]
+    nominal = [row.id for row in report.properties if known.ranges and extent(row, known.model) == NOMINAL]
     if verdict == Verdict.PROVED.value and nominal:
-        reason = f"proved at {NOMINAL} only: {', '.join(nominal)}"
+        reason = f"shown at {NOMINAL} only: {', '.join(nominal)}"
         return answered(
             question,
             Verdict.UNDECIDED.value,

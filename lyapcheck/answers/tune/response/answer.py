@@ -15,9 +15,11 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.gate import GateResult
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
 
@@ -62,6 +64,7 @@ class Candidate:
         way: how it was asked to be stable; empty for a set from elsewhere.
         held: per joint the conditions that keep its gains from being larger.
         source: where a set from elsewhere is from.
+        result: the gate's, which accepts it; ``None`` where it does not.
     """
 
     gains: GainSet
@@ -69,11 +72,19 @@ class Candidate:
     way: str = ""
     held: tuple[str, ...] = ()
     source: str = ""
+    result: GateResult | None = None
 
     @property
     def stable(self) -> str:
         """What shows stability; empty where the gate does not accept the set."""
-        return STABLE_BY[self.gains.condition[-1]] if self.gains.condition else ""
+        return STABLE_BY[self.gains.condition[-1]] if self.result is not None else ""
+
+    @property
+    def shown(self) -> str:
+        """How stability is shown, in words."""
+        if self.result is None:
+            return "no proof of stability was found"
+        return self.result.says(f"stable by {self.stable}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +163,9 @@ class BenchTuning(Answer):
         said = (Bullets(tuple(lines)),) if lines else ()
         blocks = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
-        inside = [INSIDE] if self.own and all(one.stable for one in self.own) else []
+        found = [one.result for one in self.own]
+        promises = [one for result in found if result is not None for one in result.grounds.promises]
+        inside = [all_say(promises, INSIDE)] if found and all(found) else []
         return Document(self._title(), blocks, (*NOTES, *inside, *flat, *self.assumptions))
 
     def data(self) -> dict[str, Any]:
@@ -201,6 +214,9 @@ class BenchTuning(Answer):
 
     def missed(self, one: Candidate) -> list[str]:
         """The targets that a set misses, with the joints and by which factor; or what else it lacks."""
+        return [*self._missed_in_motions(one), *([] if one.stable else [one.shown])]
+
+    def _missed_in_motions(self, one: Candidate) -> list[str]:
         result = []
         for name, ratios in one.trial.ratios(self.bench.wishes).items():
             rows = zip(self.joints, ratios, strict=True)
@@ -211,8 +227,6 @@ class BenchTuning(Answer):
             result.append(
                 f"after {one.trial.T:g} s the energy left does not exclude that a joint leaves its band"
             )
-        if not one.stable:
-            result.append("no proof of stability was found")
         return result
 
     def _overview(self) -> Table:
@@ -249,13 +263,15 @@ class BenchTuning(Answer):
             )
             for i, joint in enumerate(self.joints)
         ]
-        title = f"{one.gains.name} (m = {one.gains.m}, stable by {one.stable or 'nothing that was found'})"
+        title = f"{one.gains.name} (m = {one.gains.m}, {one.shown})"
         lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
         return Section(title, (Table(HEADS, tuple(rows), align="lrrrrrrl"), Bullets(lines)))
 
     def _behind(self, one: Candidate) -> Iterator[str]:
         """What a set misses, and what stands in the way."""
-        yield from self.missed(one)
+        yield from (f"simulated: {text}" for text in self._missed_in_motions(one))
+        if not one.stable:
+            yield one.shown
         held = {rule: [j for j, h in zip(self.joints, one.held, strict=True) if rule in h] for rule in RULES}
         if one.trial.worst(self.bench.wishes) > 1:
             for rule, joints in held.items():
@@ -273,7 +289,7 @@ class BenchTuning(Answer):
                 if b < 0.95 * a:
                     ratios = f"worst ratio {_times(a)} with (19), {_times(b)} by proof"
                     factor = f" ({_times(a / b)} times as much)" if b else ""
-                    yield f"m = {m}: {ratios}{factor}"
+                    yield f"simulated: m = {m}: {ratios}{factor}"
 
     def _data(self, one: Candidate) -> dict[str, Any]:
         trial = one.trial

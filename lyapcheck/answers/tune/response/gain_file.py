@@ -41,7 +41,7 @@ def _set(one: Candidate, tuning: BenchTuning) -> str:
         met = f"BEST FOUND, MISSES THE TARGETS: {'; '.join(tuning.missed(one))}"
     return "\n".join(
         [
-            f"# {met}; stable by {one.stable or 'nothing that was found'}",
+            f"# {met}; {one.shown}",
             "[[gains]]",
             f"name = {quoted(one.gains.name)}",
             f"m = {one.gains.m}",

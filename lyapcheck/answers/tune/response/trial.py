@@ -62,7 +62,8 @@ class Trial:
             "peak_share": np.nan_to_num(self.share, nan=0.0),
             "rest_error": self.rest,
         }
-        return {name: np.minimum(seen[name] / asked, NEVER) for name, asked in wishes.given.items()}
+        with np.errstate(over="ignore"):
+            return {name: np.minimum(seen[name] / asked, NEVER) for name, asked in wishes.given.items()}
 
     def worst(self, wishes: Wishes) -> float:
         """The largest ratio: at most 1 where all is met."""

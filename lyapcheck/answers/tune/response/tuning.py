@@ -22,6 +22,7 @@ from lyapcheck.robots.vary import corners, corners_text, outside
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
+    from lyapcheck.answers.gate import GateResult
     from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
@@ -75,8 +76,9 @@ def tune_for(
             reasons.append(_none(m, way, limits))
             continue
         result = search.run(share)
-        gains = accepted(result.gains, way, robot, bounds, ranges)
-        sets.append(Candidate(gains, result.trial, way, held=tuple(_held(gains, search))))
+        judged = accepted(result.gains, way, robot, bounds, ranges)
+        gains = result.gains if judged is None else judged.gains
+        sets.append(Candidate(gains, result.trial, way, tuple(_held(gains, search)), result=judged))
     beside = [one for one in ([] if against is None else against.gains) if one.m in members]
     sets = [*(_other(one, arms, bench, against, robot, ranges) for one in beside), *sets]
     return BenchTuning(
@@ -121,14 +123,14 @@ def _none(m: int, way: str, limits: Limits) -> str:
 
 def accepted(
     gains: GainSet, way: str, robot: str, bounds: Bounds | None, ranges: dict[str, ArmLimits] | None
-) -> GainSet:
-    """The set with the conditions by which the gate accepts it; without any where it does not."""
+) -> GateResult | None:
+    """The set as the gate accepts it, with the conditions by which it does; ``None`` where it does not."""
     for condition in CONDITIONS[way]:
         named = replace(gains, condition=("10p", condition))
         (result,) = gate(GainFile("tuned gains", robot, (named,), bounds or Bounds()), robot, arms=ranges)
         if result.verdict == ACCEPTED:
-            return named
-    return gains
+            return result
+    return None
 
 
 def _held(gains: GainSet, search: Search) -> Iterator[str]:
@@ -151,8 +153,9 @@ def _other(
     """A set from elsewhere, tried as ours are, with the conditions by which the gate accepts it."""
     trial = tried(gains, arms, bench.tasks, bench.wishes, exact=True)
     assert file is not None
+    own, judged = replace(gains, condition=()), None
     for way in WAYS:
-        judged = accepted(replace(gains, condition=()), way, robot, file.bounds, ranges)
-        if judged.condition:
+        judged = accepted(own, way, robot, file.bounds, ranges)
+        if judged is not None:
             break
-    return Candidate(judged, trial, source=file.path)
+    return Candidate(own if judged is None else judged.gains, trial, source=file.path, result=judged)

@@ -63,10 +63,10 @@ class Wishes:
     def text(self) -> str:
         """What is asked, in one line."""
         forms = {
-            "overshoot": "overshoot at most {} %",
+            "overshoot": "overshoot ≤ {} %",
             "settle": "settled (2 %) within {} s",
-            "peak_share": "at most {} of each torque limit",
-            "rest_error": "dry friction leaves at most {}°",
+            "peak_share": "≤ {} of each torque limit",
+            "rest_error": "dry friction leaves ≤ {}°",
         }
         return "; ".join(forms[name].format(at_most(value, 6)) for name, value in self.given.items())
 

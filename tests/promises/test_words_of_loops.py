@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -13,18 +12,12 @@ import pytest
 
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
-from lyapcheck.promise import GUARDED, promises_as_seen
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.rest import resting
 from tests.helpers.command import invoke
+from tests.helpers.words_of_proof import left_over
 
-NEGATED = re.compile(r"\b(no|not|nothing|neither|none|cannot|un)\b[^.;:]*")
-"""A sentence that something is not proved promises nothing."""
-QUOTED = re.compile(r"`[^`]*`|--[\w-]+( [\w-]+)?")
-"""Commands and options, whose names may be words of proof."""
 FILES = {
     "pendulum.toml": 'robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [5]\nkv = [0.2]\n',
     "arm.toml": """
@@ -90,51 +83,6 @@ def in_a_folder_with_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.chdir(tmp_path)
 
 
-def said(answer: Answer) -> Iterator[str]:
-    """What an answer says in words: no heads of columns, no keys, no code."""
-    document = answer.document()
-    yield document.title
-    yield from texts(document.body)
-    for one in answer.annotations():
-        yield one.message
-    yield from values(answer.data())
-
-
-def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
-    for block in blocks:
-        if isinstance(block, Paragraph):
-            yield block.text
-        elif isinstance(block, Bullets):
-            yield from block.items
-        elif isinstance(block, Table):
-            yield block.caption
-            for row in block.rows:
-                yield from row
-        elif isinstance(block, Section):
-            yield block.title
-            yield from texts(block.blocks)
-        elif isinstance(block, Figure):
-            yield block.caption
-        else:
-            assert isinstance(block, Code)
-
-
-def values(data: Any) -> Iterator[str]:
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, dict):
-        for value in data.values():
-            yield from values(value)
-    elif isinstance(data, (list, tuple)):
-        for value in data:
-            yield from values(value)
-
-
-def words_of_proof(text: str) -> list[str]:
-    """The guarded words of a text that promise something."""
-    return GUARDED.findall(NEGATED.sub("", QUOTED.sub("", text)))
-
-
 @pytest.mark.parametrize(
     "words",
     [
@@ -143,18 +91,7 @@ def words_of_proof(text: str) -> list[str]:
     ],
 )
 def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
-    answers: list[Answer] = []
-    written = Answer.written
-    monkeypatch.setattr(
-        Answer,
-        "written",
-        lambda answer, *args, **kw: (answers.append(answer), written(answer, *args, **kw))[1],
-    )
-    with promises_as_seen():
-        done = invoke(*words)
-        assert answers, done.stderr
-        left = [text for answer in answers for text in said(answer) if words_of_proof(text)]
-    assert not left
+    assert not left_over(words, monkeypatch)
 
 
 def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(
@@ -183,9 +120,3 @@ def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bou
     assert done.exit_code == 3
     assert done.stdout.startswith("? not all errors at rest are proved")
     assert "what is proved does not answer the question (Resting.torque" in " ".join(done.stdout.split())
-
-
-def test_the_words_are_found() -> None:
-    assert words_of_proof("✓ accepted; at most 3.2°")
-    assert not words_of_proof("no ε₀ is certified")
-    assert not words_of_proof("use `gate --condition stable` or --stable")

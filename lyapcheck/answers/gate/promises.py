@@ -1,0 +1,142 @@
+"""Why the gate may say *accepted*: the promises on a gain set, each of a question and what was judged.
+
+    gravity  |g_i(q)| ≤ k_gi at every posture of every arm in the ranges, judged once an arm
+    gains    the conditions on numbers with the same k_gi, judged for each set
+    proofs   of stability, which the checks carry themselves
+
+Where no model shows a k_gi it is a premise, and is printed as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from lyapcheck.answers.gate.otherwise import unknown_function
+from lyapcheck.answers.gate.shown import DIGITS, Numbers, numbers_of, shown_gravity
+from lyapcheck.asked import gate_accepted, gravity_kept
+from lyapcheck.check.kinds.gate_accepted import TORQUES, GateAccepted, GateParts
+from lyapcheck.check.limits import MAX_ARM
+from lyapcheck.control.conditions import CONDITIONS, Check
+from lyapcheck.control.judgement import judged_statement
+from lyapcheck.family.registry import named
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.promise import Promise, promised
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.control.limits import Limits
+
+NEEDS_GRAVITY = frozenset(("10", *TORQUES))
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """Bounds k_gi, N·m, with the promise that the arm keeps them, or the premise that it does."""
+
+    k_g: tuple[Fraction, ...]
+    promise: Promise | None = None
+    premises: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Grounds:
+    """What a gain set is accepted on; ``missing`` says why it is not."""
+
+    promises: tuple[Promise, ...] = ()
+    premises: tuple[str, ...] = ()
+    missing: str = ""
+
+
+NO_GROUNDS = Grounds()
+
+
+class GateQuestions:
+    """The questions of one gain file about one arm.
+
+    Args:
+        file: the gains.
+        limits: by which they are judged.
+        gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
+    """
+
+    def __init__(self, file: GainFile, limits: Limits, gamma: str) -> None:
+        self.file, self.limits, self.gamma = file, limits, gamma
+        self._why_not = ""
+        self._known: dict[tuple[str, int | None], bool] = {}
+
+    @cached_property
+    def gravity(self) -> list[Gravity]:
+        """Bounds to try in turn: those of the limits, larger ones that are shown, and a premise."""
+        return list(self._gravity())
+
+    def _gravity(self) -> Iterator[Gravity]:
+        arm, k_g = self.limits.model, tuple(self.limits.gravity)
+        premises: tuple[str, ...] = ()
+        shown = None if arm is None else shown_gravity(arm, k_g)
+        if arm is not None and shown is not None:
+            promise, self._why_not = promised(gravity_kept(arm, shown.k_g), shown.judged)
+            if promise is not None:
+                yield Gravity(shown.k_g, promise)
+            if shown.k_g == k_g:
+                return
+        if arm is not None:
+            kept = k_g if shown is None else shown.k_g
+            premises = tuple(
+                f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, by masses and distances; no certificate shows it"
+                for i, (k, own) in enumerate(zip(k_g, kept, strict=True), 1)
+                if shown is None or k != own
+            )
+        yield Gravity(k_g, None, premises)
+
+    def grounds(self, gains: GainSet, deciding: Sequence[str], checks: Sequence[Check]) -> Grounds:
+        """The promises by which a set that passes its checks is accepted.
+
+        Soundness: ``lyapcheck.promise``.
+        """
+        proofs = [check.promise for check in checks if check.id in deciding and check.id not in CONDITIONS]
+        if None in proofs:
+            return Grounds(missing="a proof of stability is about another arm")
+        known = tuple(one for one in proofs if one is not None)
+        numbers = tuple(name for name in CONDITIONS if name in deciding)
+        if not numbers:
+            return Grounds(known)
+        if not self._stated(gains):
+            # another γ, or an h that the checker does not know: each check by itself
+            own = [check for check in checks if check.id in numbers]
+            return Grounds((*known, *(check.own_promise for check in own)))
+        needed = NEEDS_GRAVITY & set(numbers)
+        missing = ""
+        for gravity in self.gravity if needed else [Gravity(tuple(self.limits.gravity))]:
+            one, missing = self._gains(gains, gravity.k_g, numbers)
+            if one is not None:
+                promises = (one,) if gravity.promise is None else (gravity.promise, one)
+                return Grounds((*promises, *known), gravity.premises)
+        return Grounds(missing=missing or self._why_not)
+
+    def _gains(
+        self, gains: GainSet, k_g: tuple[Fraction, ...], numbers: tuple[str, ...]
+    ) -> tuple[Promise | None, str]:
+        parameters, viscous, limits = self._arm
+        statement = GateAccepted(
+            len(k_g), (), (), parameters, k_g, viscous, limits,
+            gains.family, gains.m, tuple(gains.kp), tuple(gains.kv), numbers, (),
+        )  # fmt: skip
+        judged = judged_statement(statement, (GateParts((), digits, ()) for digits in DIGITS))
+        asked = gate_accepted(gains, self.limits.model, self.file.bounds, k_g, numbers)
+        return promised(asked, judged)
+
+    @cached_property
+    def _arm(self) -> Numbers:
+        return numbers_of(self.limits, self.file.bounds.viscous_min)
+
+    def _stated(self, gains: GainSet) -> bool:
+        """Whether the checker knows h and γ of a set."""
+        key = gains.family, gains.m
+        if key not in self._known:
+            bounded = self.gamma == "true" and named(*key).bounded and self.limits.n <= MAX_ARM
+            self._known[key] = bounded and not unknown_function(gains)
+        return self._known[key]

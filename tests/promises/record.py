@@ -1,0 +1,59 @@
+"""``python -m tests.promises.record``: tests of promises with 200 draws each, and what they ask."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.verdicts import Exit
+
+FOLDER = Path(__file__).parent
+RECORD = FOLDER.parents[1] / "reports" / "promises.md"
+HEAD = """# Promises, asked again at members of their ranges
+
+`make promises` wrote this. It runs `tests/promises` with 200 draws a test: arms with ranges, gains near the
+border of what is accepted, advice that is followed. Each row counts the commands that a test has run by their
+exit codes: 0 is accepted, 1 rejected, 2 refused, 3 undecided.
+
+"""
+
+
+class Outcomes:
+    """The outcome of each test."""
+
+    def __init__(self) -> None:
+        self.failed: Counter[str] = Counter()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note a failure."""
+        self.failed[report.nodeid.partition("::")[2].partition("[")[0]] += report.failed
+
+
+def main() -> int:
+    """Run the tests; write the record where all have passed."""
+    outcomes = Outcomes()
+    words = [str(FOLDER), "-q", "-p", "no:randomly", "--hypothesis-profile", "promises", *sys.argv[1:]]
+    code = int(pytest.main(words, plugins=[outcomes]))
+    if code == 0:
+        RECORD.write_text(record(outcomes.failed), encoding="utf-8")
+    return code
+
+
+def record(failed: Counter[str]) -> str:
+    """The table."""
+    from tests.promises.draws import ASKED  # which pytest has to import first
+
+    codes = (Exit.PROVED, Exit.REFUTED, Exit.USAGE, Exit.UNDECIDED)
+    lines = ["| test | command | runs | 0 | 1 | 2 | 3 |", "|---|---|---|---|---|---|---|"]
+    for test, command in sorted({(test, command) for test, command, _ in ASKED}):
+        counts = [ASKED[test, command, int(code)] for code in codes]
+        lines.append(f"| {test} | {command} | {sum(counts)} | {' | '.join(map(str, counts))} |")
+    lines += ["", f"{len(failed)} tests, {sum(failed.values())} failed."]
+    return HEAD + "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,149 @@
+"""Inputs of which commands once said something false: what they say of them is true."""
+
+from __future__ import annotations
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.promises.draws import asked, invoke, results
+
+ARM = """
+title = "Heavy with a payload"
+gravity = [0, -9.81, 0]
+[[links]]
+name = "j1"
+axis = [0, 0, 1]
+origin = [0, 0, 0]
+mass = {mass}
+com = [0.5, 0, 0]
+inertia = 0.2
+viscous = {viscous}
+torque_limit = 60
+{more}
+"""
+RANGED = 'assumed = true, note = "x"'
+
+
+def files(folder: Path, more: str = "", mass: Any = 1, viscous: Any = 2, kp: Any = 50, kv: Any = 1) -> str:
+    (folder / "arm.toml").write_text(ARM.format(mass=mass, viscous=viscous, more=more), encoding="utf-8")
+    text = f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [{kp}]\nkv = [{kv}]\n'
+    (folder / "gains.toml").write_text(text, encoding="utf-8")
+    return str(folder / "gains.toml")
+
+
+def one(*words: str) -> tuple[int, dict[str, Any]]:
+    done = asked(*words)
+    (result,) = results(done)
+    return done.exit_code, result
+
+
+def test_a_payload_counts_beside_a_stated_bound_in_gate_sweep_and_tune(tmp_path: Path) -> None:
+    vary = ("--vary", "payload=0..20")
+    gains = files(tmp_path, "gravity_bound = 4.905")
+    assert one("gate", gains, *vary)[0] == 1
+    plan = tmp_path / "plan.toml"
+    sets = '[[gains]]\nname = "a"\nm = 1\nkp = [50]\nkv = [1]\n'
+    text = f'robots = ["arm.toml"]\nvariations = [[], ["payload=0..20"]]\nquestions = ["gate"]\n{sets}'
+    plan.write_text(text, encoding="utf-8")
+    done = asked("sweep", str(plan), "--jobs", "1")
+    assert {(len(row["variation"]), row["verdict"]) for row in results(done)} == {
+        (0, "accepted"),
+        (1, "rejected"),
+    }
+    tuned = invoke("tune", str(tmp_path / "arm.toml"), "--m", "1", *vary)
+    assert (tuned.exit_code, "the torque limit of 60 N·m is not above" in tuned.stdout) == (2, True)
+    gains = files(tmp_path, mass=21)  # the end of the range
+    code, result = one("gate", gains)
+    (row,) = [check for check in result["checks"] if check["id"] == "10p"]
+    assert (code, row["limit"]["lower"]) == (1, "-43.005")
+
+
+def test_the_largest_dry_friction_of_the_file_and_of_options_counts(tmp_path: Path) -> None:
+    path = tmp_path / "gains.toml"
+    sets = '[[gains]]\nname = "a"\nm = 1\nkp = [28, 60, 7]\nkv = [0.05, 0.05, 0.05]\n'
+    path.write_text(f'robot = "buap3"\n{sets}', encoding="utf-8")
+    text = " ".join(one("gate", str(path))[1]["remarks"])
+    assert "leaves at most base 15.01" in text
+    assert one("gate", str(path), "--vary", "shoulder_gravity=0%..+200%")[0] == 1
+    coulomb = f"coulomb = {{value = 1, low = 1, high = 6, {RANGED}}}"
+    gains = files(
+        tmp_path,
+        coulomb,
+        f"{{value = 2, low = 1, high = 3, {RANGED}}}",
+        f"{{value = 1, low = 0.5, high = 30, {RANGED}}}",
+        4,
+        0.4,
+    )
+    said = " ".join(invoke("gate", gains).stdout.split())
+    assert "may hold j1 anywhere" in said
+    assert "at most" not in said
+    wide = invoke(
+        "gate", gains, "--vary", "coulomb=-0%..+200%"
+    ).stdout  # up to 3 N·m, which k_p = 4 N·m holds
+    assert f"leaves at most {math.degrees(math.atanh(3 / 4)):.2f}°" in wide
+
+
+def test_an_eps0_over_ranges_is_that_of_all_their_friction(tmp_path: Path) -> None:
+    path = tmp_path / "gains.toml"
+    sets = '[bounds]\nviscous_min = 0.1\n[[gains]]\nname = "a"\nm = 1\nkp = [20, 3]\nkv = [5.0, 0.9]\n'
+    path.write_text(f'robot = "reyes-kelly2"\n{sets}', encoding="utf-8")
+    words = ("gate", str(path), "--vary", "viscous=-30%..+9900%", "--condition", "scalar")
+    _, result = one(*words, "--certificates", str(tmp_path / "made"))
+    (row,) = [check for check in result["checks"] if check["id"] == "scalar"]
+    assert 0 < Fraction(row["value"]) < Fraction(3, 100_000)
+    statement = json.loads((tmp_path / "made" / "a.scalar.json").read_text())["statement"]
+    assert max(Fraction(high) for _, high in statement["viscous"]) > 200
+
+
+def test_certificates_over_ranges_are_about_the_ranges(tmp_path: Path) -> None:
+    made = tmp_path / "made"
+    gains = files(tmp_path, kp=5)
+    assert invoke("gate", gains, "--vary", "payload=0..5", "--certificates", str(made)).exit_code == 0
+    assert json.loads((made / "a.json").read_text())["statement"]["parameters"] == [["1", "6"]]
+    assert invoke("recheck", str(made)).exit_code == 0
+
+
+def test_a_damping_ratio_that_is_asked_for_holds_over_the_ranges(tmp_path: Path) -> None:
+    out = tmp_path / "gains.toml"
+    words = ("tune", "reyes-kelly2", "--m", "1", "--damping", "1.0", "--vary", "viscous=-80%..+0%")
+    assert invoke(*words, "--out", str(out)).exit_code == 0
+    (tuned,) = results(asked(*words))
+    friction = (Fraction("2.288") / 5, Fraction("0.175") / 5)
+    inertia = (Fraction("2.351") + Fraction("0.168"), Fraction("0.102"))
+    for joint, b, J in zip(tuned["joints"], friction, inertia, strict=True):
+        kp, kv = float(joint["kp"]), float(joint["kv"])
+        assert (float(b) + kv) / (2 * math.sqrt(float(J) * kp)) >= 0.999
+    assert invoke("gate", str(out)).exit_code == 0
+
+
+def test_a_bound_that_the_arm_itself_breaks_is_said(tmp_path: Path) -> None:
+    gains = files(tmp_path, "gravity_bound = 1", 10)
+    done = invoke("gate", gains)
+    assert (done.exit_code, "the stated bound of 1 N·m is false" in " ".join(done.stdout.split())) == (
+        1,
+        True,
+    )
+
+
+@pytest.mark.parametrize("conditions", [("scalar",), ("10p", "lasalle")])
+def test_no_certificate_of_a_verdict_over_ranges_rests_on_the_nominal_arm(
+    tmp_path: Path, conditions: tuple[str, ...]
+) -> None:
+    """Without --vary proofs are about nominal numbers; the verdict is about the ranges of the file."""
+    gains = files(tmp_path, "", f"{{value = 1, low = 0.9, high = 1.1, {RANGED}}}", kp=5)
+    options = [word for name in conditions for word in ("--condition", name)]
+    for number, (vary, ranges) in enumerate([((), False), (("--vary", "mass=0.8..1.2"), True)]):
+        made = tmp_path / f"made{number}"
+        done = invoke("gate", gains, *options, *vary, "--certificates", str(made))
+        assert done.exit_code == 0
+        assert invoke("recheck", str(made)).exit_code == 0
+        own = json.loads((made / f"a.{conditions[-1]}.json").read_text())["statement"]
+        assert bool(own["parameters"]) is ranges
+        whole = json.loads((made / "a.json").read_text())["statement"]
+        if whole["kind"] == "GateAccepted":
+            assert [part["parameters"] for part in whole["stability"]] == [[["4/5", "6/5"]]] * ranges

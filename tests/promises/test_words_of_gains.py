@@ -1,0 +1,227 @@
+"""No answer says a word of proof but through a promise: with promises turned into *seen*, none is left."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction as F
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lyapcheck.answers.gate.otherwise import positive
+from lyapcheck.answers.gate.shown import shown_gravity
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
+from lyapcheck.promise import GUARDED, promises_as_seen
+from lyapcheck.robots import load
+from lyapcheck.robots.vary import Vary
+from lyapcheck.search.controlled_arm import ControlledArm
+from tests.helpers.command import invoke
+
+ROOT = Path(__file__).parents[2]
+NEGATED = re.compile(r"\b(no|not|nothing|neither|none|cannot|un)\b[^.;:]*")
+"""A sentence that something is not proved promises nothing."""
+QUOTED = re.compile(r"`[^`]*`|--[\w-]+( [\w-]+)?")
+"""Commands and options, whose names may be words of proof."""
+ARM = """
+title = "One link"
+gravity = [0, -9.81, 0]
+[[links]]
+name = "j1"
+axis = [0, 0, 1]
+origin = [0, 0, 0]
+mass = 1
+com = [0.5, 0, 0]
+inertia = 0.2
+viscous = 2
+coulomb = {value = 0.1, low = 0.1, high = 0.2, assumed = true, note = "x"}
+torque_limit = 60
+"""
+GAINS = """
+[[gains]]
+name = "passes"
+m = 1
+kp = [40]
+kv = [1]
+[[gains]]
+name = "saturates"
+m = 2
+kp = [100]
+kv = [3]
+"""
+FILES = {
+    "arm.toml": ARM,
+    "gains.toml": f'robot = "arm.toml"{GAINS}',
+    "own.toml": f"{GAINS}[bounds]\nviscous_min = 2\ntorque = [60]\ngravity = [4.905]\n",
+    "free.toml": 'robot = "ur5"\n[[gains]]\nname = "a"\nm = 1\n'
+    f"kp = [{', '.join(['1'] * 6)}]\nkv = [{', '.join(['0.1'] * 6)}]\n",
+    "wrong.toml": f'robot = "wrong_arm.toml"{GAINS}',
+    "wrong_arm.toml": ARM + "gravity_bound = 1\n",
+    "plan.toml": 'robots = ["arm.toml"]\nvariations = [[], ["payload=0..2"]]\nquestions = ["gate"]\n' + GAINS,
+}
+TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
+TARGETS = ("--overshoot", "5", "--settle", "2.5", "--goal", "45")
+ASKED = {
+    "gate": ("gate", TABLE2),
+    "gate, a proof for the arm": ("gate", TABLE2, "--condition", "10i", "--condition", "scalar"),
+    "gate over ranges": ("gate", TABLE2, "--vary", "viscous=-30%..+30%"),
+    "gate over ranges, a proof": ("gate", "gains.toml", "--vary", "payload=0..2", "--condition", "scalar"),
+    "gate by the printed γ": ("gate", TABLE2, "--gamma", "printed"),
+    "gate without an arm": ("gate", "own.toml"),
+    "gate without friction": ("gate", "free.toml"),
+    "gate on a false bound": ("gate", "wrong.toml"),
+    "gate on links too many to write out": ("gate", PANDA),
+    "tune": ("tune", "buap3", "--m", "1"),
+    "tune, all that may be asked": (
+        *("tune", "arm.toml", "--m", "1:3", "--damping", "0.2", "--kv-share", "0.5", "--peak-share", "0.9"),
+        *("--vary", "payload=0..2"),
+    ),
+    "tune what cannot be": ("tune", "arm.toml", "--m", "1", "--kv-min", "70"),
+    "tune to targets": ("tune", "arm.toml", "--m", "1", *TARGETS),
+    "tune to targets that are missed": ("tune", "arm.toml", "--m", "1", "--settle", "0.01", "--goal", "45"),
+    "sweep": ("sweep", "plan.toml", "--jobs", "1", "--out", "swept"),
+}
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_with_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+
+
+def said(answer: Answer) -> Iterator[str]:
+    """What an answer says in words: no heads of columns, no keys, no code."""
+    document = answer.document()
+    yield document.title
+    yield from texts(document.body)
+    for one in answer.annotations():
+        yield one.message
+    yield from values(answer.data())
+
+
+def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
+    for block in blocks:
+        if isinstance(block, Paragraph):
+            yield block.text
+        elif isinstance(block, Bullets):
+            yield from block.items
+        elif isinstance(block, Table):
+            yield block.caption
+            for row in block.rows:
+                yield from row
+        elif isinstance(block, Section):
+            yield block.title
+            yield from texts(block.blocks)
+        elif isinstance(block, Figure):
+            yield block.caption
+        else:
+            assert isinstance(block, Code)
+
+
+def values(data: Any) -> Iterator[str]:
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, dict):
+        for value in data.values():
+            yield from values(value)
+    elif isinstance(data, (list, tuple)):
+        for value in data:
+            yield from values(value)
+
+
+def words_of_proof(text: str) -> list[str]:
+    """The guarded words of a text that promise something."""
+    return GUARDED.findall(NEGATED.sub("", QUOTED.sub("", text)))
+
+
+@pytest.mark.parametrize("words", ASKED.values(), ids=list(ASKED))
+def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+    answers: list[Answer] = []
+    written = Answer.written
+    monkeypatch.setattr(
+        Answer,
+        "written",
+        lambda answer, *args, **kw: (answers.append(answer), written(answer, *args, **kw))[1],
+    )
+    with promises_as_seen():
+        done = invoke(*words)
+        assert answers, done.stderr
+        left = [text for answer in answers for text in said(answer) if words_of_proof(text)]
+    assert not left
+
+
+def undecided(*words: str) -> str:
+    """What an answer says that must be undecided, since what is proved is about something else."""
+    done = invoke(*words)
+    assert (done.exit_code, done.stdout[:1]) == (3, "?")
+    text = " ".join(done.stdout.split())
+    assert "accepted" not in text
+    return text
+
+
+RANGED = ("gate", "passes.toml", "--vary", "payload=0..2")
+
+
+@pytest.fixture
+def passes() -> None:
+    """A file of the set that passes alone."""
+    Path("passes.toml").write_text(FILES["gains.toml"].partition('[[gains]]\nname = "saturates"')[0])
+
+
+@pytest.mark.usefixtures("passes")
+def test_limits_of_the_nominal_arm_answer_no_question_about_ranges(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert invoke(*RANGED).exit_code == 0
+    nominal = (((F(1), F(1)),), ((F(2), F(2)),), (F(60),))
+    monkeypatch.setattr("lyapcheck.answers.gate.promises.numbers_of", lambda *_: nominal)
+    assert "does not answer the question (GateAccepted.parameters" in undecided(*RANGED)
+
+
+@pytest.mark.usefixtures("passes")
+def test_larger_motors_and_more_friction_answer_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    for field, (viscous, torque) in {"limits": (2, 61), "viscous": (3, 60)}.items():
+        stronger = (((F(1), F(3)),), ((F(viscous), F(viscous)),), (F(torque),))
+        with monkeypatch.context() as patch:
+            patch.setattr("lyapcheck.answers.gate.promises.numbers_of", lambda *_, s=stronger: s)
+            assert f"GateAccepted.{field}" in undecided(*RANGED)
+
+
+@pytest.mark.usefixtures("passes")
+def test_gravity_of_the_nominal_arm_answers_no_question_about_ranges(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        "lyapcheck.answers.gate.promises.shown_gravity",
+        lambda arm, k_g: shown_gravity(load("arm.toml", vary=[Vary.parsed("payload=0..1")]), k_g),
+    )
+    assert "does not answer the question (GravityOfPotential.parameters" in undecided(*RANGED)
+
+
+@pytest.mark.usefixtures("passes")
+@pytest.mark.parametrize("condition", ["scalar", "lasalle"])
+def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(
+    monkeypatch: pytest.MonkeyPatch, condition: str
+) -> None:
+    words = (*RANGED, "--condition", condition)
+    assert invoke(*words).exit_code == 0
+    monkeypatch.setattr(
+        "lyapcheck.answers.gate.prover.ControlledArm",
+        lambda gains, arm, ranges: ControlledArm(gains, arm.fixed(), False),
+    )
+    monkeypatch.setattr("lyapcheck.answers.gate.otherwise.positive", lambda arm: positive(arm.fixed()))
+    assert "does not answer the question (" in undecided(*words)
+
+
+@pytest.mark.usefixtures("passes")
+def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "leaves at most" in invoke(*RANGED).stdout
+    monkeypatch.setattr(
+        "lyapcheck.answers.gate.bench.dry_friction", lambda model: tuple(x.value for x in model.coulomb)
+    )
+    assert "leaves at most" not in invoke(*RANGED).stdout
+
+
+def test_the_words_are_found() -> None:
+    assert words_of_proof("✓ accepted; at most 3.2°")
+    assert not words_of_proof("no ε₀ is certified")
+    assert not words_of_proof("use `gate --condition stable` or --stable")
