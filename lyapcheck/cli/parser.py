@@ -87,6 +87,8 @@ class Parser(argparse.ArgumentParser):
         def read(word: str) -> Any:
             try:
                 value = kind(word)
+                if value != value:
+                    raise ValueError
             except ValueError:
                 example = 1 if least is None else least
                 raise argument_error(option, word, f"is not {what}", f"write {option} {example}") from None
