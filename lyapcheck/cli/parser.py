@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from math import isnan
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
@@ -87,7 +88,7 @@ class Parser(argparse.ArgumentParser):
         def read(word: str) -> Any:
             try:
                 value = kind(word)
-                if value != value:
+                if isnan(value):
                     raise ValueError
             except ValueError:
                 example = 1 if least is None else least
