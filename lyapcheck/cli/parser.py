@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import re
-from math import isnan
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
@@ -88,8 +87,6 @@ class Parser(argparse.ArgumentParser):
         def read(word: str) -> Any:
             try:
                 value = kind(word)
-                if isnan(value):
-                    raise ValueError
             except ValueError:
                 example = 1 if least is None else least
                 raise argument_error(option, word, f"is not {what}", f"write {option} {example}") from None
