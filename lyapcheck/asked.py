@@ -20,6 +20,7 @@ from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.robots.dynamics import TooManyTerms
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.inertia import mass_of
 
@@ -192,9 +193,15 @@ def viscous_of(arm: Plant, viscous_min: Fraction | None = None, *, nominal: bool
 
 
 def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
-    """Is g the slope of the potential, and |g_i(q)| ≤ k_gi at every posture of every arm in the ranges?"""
+    """Is g the slope of the potential, and |g_i(q)| ≤ k_gi at every posture of every arm in the ranges?
+
+    Of exact links whose g is too long to be written out the second is asked.
+    """
+    try:
+        gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
+    except TooManyTerms:
+        return AllOf(tuple((f"g{i}", _of_links(f"k_g{i}", arm, k)) for i, k in enumerate(k_g, 1)))
     ranges = tuple(number.bounds for number in arm.parameters.values())
-    gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
     parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
     slope = GravityOfPotential(gravity, tuple(to_terms(arm.potential)), ranges)
     return AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(parts, 1))))
