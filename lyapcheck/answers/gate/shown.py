@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.otherwise import friction_of
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
-from lyapcheck.check.kinds.chain import ChainGravityBelow, OwnLevers
 from lyapcheck.check.kinds.compared import SameHarmonics
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
@@ -82,6 +81,8 @@ def _along_links(
     """Of exact links whose g is too long to be written out."""
     if chain is None:
         return None
+    from lyapcheck.check.kinds.chain import ChainGravityBelow, OwnLevers
+
     bounds = [ChainGravityBelow(chain.links, chain.fall, (i,), k) for i, k in enumerate(k_g, 1)]
     parts = AllOf(tuple((f"g{i}", bound) for i, bound in enumerate(bounds, 1)))
     judged = judged_statement(parts, [EveryPart(tuple(OwnLevers(one.along) for one in known))])
