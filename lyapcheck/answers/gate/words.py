@@ -104,6 +104,8 @@ def margin_text(check: Check, digits: int = 4) -> str:
 
 def significant_text(numerator: int, denominator: int, digits: int) -> str:
     """A decimal of a few significant digits that is not above the quotient."""
+    if not numerator:
+        return "0"
     size, places = abs(numerator), digits
     while places < 40 and size * 10**places < denominator * 10 ** (digits - 1):
         places += 1
@@ -171,6 +173,6 @@ def _repair(result: GateResult, check: Check) -> str:
 
 def _passes(check: Check, words: str) -> str:
     """Words about the largest value that passes, which the checker has judged; else none of them."""
-    if check.admitted is None:
+    if check.admitted is None or check.threshold is None or check.largest_admissible is None:
         return "lower it"
-    return Promise(check.admitted.statement, check.admitted).says(words)
+    return Promise(check.threshold.asked(check.largest_admissible), check.admitted).says(words)
