@@ -224,7 +224,6 @@ CORRECTED = {
     "bounds, --delta": ("bounds", "--delta", "0"),
     "bounds, --friction": ("bounds", "--friction", "0.1,0.1,0.1"),
     "bounds, --target": ("bounds",),
-    "epsilon, --spread": ("epsilon", "--spread", "0"),
     "epsilon, --m": ("epsilon", "--m", "7"),
 }
 
@@ -235,7 +234,13 @@ def written(path: Path, arm: str, kp: str, kv: str, family: str = "m = 1") -> Pa
     return path
 
 
-@pytest.mark.parametrize("words", CORRECTED.values(), ids=CORRECTED)
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(pytest.param(words, id=name) for name, words in CORRECTED.items()),
+        pytest.param(("epsilon", "--spread", "0"), id="epsilon, --spread", marks=pytest.mark.slow),
+    ],
+)
 def test_what_an_error_tells_to_write_is_taken(tmp_path: Path, words: tuple[str, ...]) -> None:
     gains = written(tmp_path / "gains.toml", "pendulum1", "3", "0.05")
     line, told = [words[0], str(gains), *words[1:]], []

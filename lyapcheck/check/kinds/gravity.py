@@ -89,14 +89,10 @@ class GravityBelow(BoundedAbove):
 
 @dataclass(frozen=True)
 class Levers(Proof):
-    """The links of the arm: gravity pulls at one joint no harder than masses times distances from its axis.
+    """Gravity pulls at one joint, from 0, no harder than masses times distances from its axis.
 
-    Args:
-        links: with the masses that they have where every parameter is 0.
-        shares: for each parameter the mass of each link for one unit of it, kg.
-        fall: acceleration of free fall in the base frame, m/s².
-        joint: that of the one g_i, from 0.
-        along: see `lyapcheck.check.loop.links.lever_bound`.
+    ``links`` have their masses where every parameter is 0, ``shares`` those for one unit of each, ``fall`` is
+    the acceleration of free fall in the base frame, m/s²; for ``along`` see `lever_bound`.
     """
 
     rule = "levers"
@@ -129,13 +125,12 @@ def by_levers(statement: GravityBelow, proof: Levers) -> Accepted:
     require(fits, "links", len(proof.links), f"must be {n} joints and bodies, with masses for each parameter")
     require(0 <= proof.joint < n, "joint", proof.joint, f"must be from 0 to {n - 1}")
     require(len(statement.gravity) == 1, "gravity", len(statement.gravity), "must be of one joint")
-    parts: dict[tuple[int, ...], list[tuple[tuple[int, ...], Fraction]]] = {}
-    for powers, c in statement.gravity[0]:
-        parts.setdefault(powers[2 * n :], []).append((powers[: 2 * n], c))
+    (torque,) = statement.gravity
+    require(all(sum(p[2 * n :]) <= 1 for p, _ in torque), "parameters", count, "enter g as products")
     for k, links in enumerate(proof.weighed()):
-        part = parts.pop(tuple(int(k == 1 + j) for j in range(count)), [])
-        require(pulls(links, proof.fall, proof.joint, tuple(part)), "links", k, "do not make this g")
-    require(not parts, "parameters", len(parts), "enter g as products")
+        one = tuple(int(k == 1 + j) for j in range(count))
+        part = tuple((p[: 2 * n], c) for p, c in torque if p[2 * n :] == one)
+        require(pulls(links, proof.fall, proof.joint, part), "links", k, "do not make this g")
     reached = proof.bound(statement.parameters)
     require(reached <= statement.high, "levers", reached, f"are above {statement.high}")
     return Accepted("proved", "exact")
