@@ -145,7 +145,8 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     first = invoke("epsilon", gains, *options, "--certificates", str(folder))
     assert first.exit_code == 0, first.output
     names = sorted(path.name for path in folder.iterdir())
-    assert names == ["tau_m1.certified.json", "tau_m1.falsified.json", "tau_m1.scalar.json"]
+    kinds = ("certified", "falsified", "scalar", "weighted")
+    assert names == [f"tau_m1.{kind}.json" for kind in kinds]
     again = invoke("recheck", str(folder))
     assert again.exit_code == 0, again.output
     assert "3 accepted" in again.output

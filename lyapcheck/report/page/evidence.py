@@ -1,4 +1,4 @@
-"""What the verdicts rest on: ε₀ between brackets, what is assumed, the runs, versions, digests and seeds."""
+"""What SymPy derives; what the verdicts rest on: ε₀ between brackets, the runs, digests and seeds."""
 
 from __future__ import annotations
 
@@ -11,6 +11,18 @@ from lyapcheck.output.html import blocks, fold
 from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.drawing import figure
+
+
+def derive_section(report: Report) -> Markup:
+    """The comparison of SymPy with the checker; the formulas folded."""
+    section, derived = report.derived.section(), report.derived
+    return element(
+        "section",
+        element("h2", section.title),
+        shown(report, (derived.table(),)),
+        [fold(one.title, shown(report, one.blocks)) for one in derived.formulas()],
+        id="derive",
+    )
 
 
 def evidence_section(report: Report) -> Markup:
