@@ -66,7 +66,7 @@ class Derivation(Answer):
 
     def section(self) -> Section:
         """The same for a report."""
-        return Section("What SymPy derives, and what the checker says of it", tuple(self.blocks()))
+        return Section("What SymPy derives, and what the checker says of it", (self.table(), Paragraph(NOTES[0]), *self.formulas()))
 
     def table(self) -> Table:
         """A row a derivation."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from flint import arb
 
+from lyapcheck.answers.derive.parts import SHOWN
 from lyapcheck.answers.derive.statements import equal_values, of_family, rate_of_value, tree
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.norm_bound import NormBound
@@ -27,7 +28,6 @@ from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.robots import RobotModel
 
 DIGITS, BITS = 30, 160
-SHOWN = 10
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import PurePosixPath
 
-from lyapcheck.output.document import Block, Figure
+from lyapcheck.output.document import Block, Figure, Section
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.html import blocks, fold
 from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
@@ -15,12 +15,13 @@ from lyapcheck.report.page.drawing import figure
 
 def derive_section(report: Report) -> Markup:
     """The comparison of SymPy with the checker; the formulas folded."""
-    section, derived = report.derived.section(), report.derived
+    section = report.derived.section()
+    formulas = [block for block in section.blocks if isinstance(block, Section)]
     return element(
         "section",
         element("h2", section.title),
-        shown(report, (derived.table(),)),
-        [fold(one.title, shown(report, one.blocks)) for one in derived.formulas()],
+        shown(report, section.blocks[: -len(formulas)]),
+        [fold(one.title, shown(report, one.blocks)) for one in formulas],
         id="derive",
     )
 
