@@ -13,8 +13,8 @@ from functools import cached_property
 from typing import Any
 
 from lyapcheck.derive.evaluate import function, values_of
-from lyapcheck.derive.plain import Forms
 from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.family.base import Forms
 from lyapcheck.robots.dynamics import ArmAtAngles
 from lyapcheck.robots.elimination import solve_definite
 from lyapcheck.robots.plant import Plant

@@ -66,7 +66,10 @@ class Derivation(Answer):
 
     def section(self) -> Section:
         """The same for a report."""
-        return Section("What SymPy derives, and what the checker says of it", (self.table(), Paragraph(NOTES[0]), *self.formulas()))
+        return Section(
+            "What SymPy derives, and what the checker says of it",
+            (self.table(), Paragraph(NOTES[0]), *self.formulas()),
+        )
 
     def table(self) -> Table:
         """A row a derivation."""
