@@ -21,7 +21,7 @@ import casadi as ca
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.lyapunov.graph import at_symbols
+from lyapcheck.lyapunov.graph import at_symbols, lyapunov_graph
 from lyapcheck.robots import graph
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import States, fastest_directions, quadratic
@@ -33,6 +33,8 @@ _OPTIONS: dict[str, Any] = {
 }
 _LONGEST_ERROR = 30.0
 """Largest |e_i| searched, rad: beyond it 1/(1 + ‖e‖) is small."""
+SAME = 1e-6
+"""How far two ways to dV/dt may differ, as a share of its terms."""
 SOFTEST = 1e-12
 """N·m, of K_p Λ⁻¹ − ¼ L K_v: what is no larger resists at every state."""
 _FASTEST = 1e4
@@ -87,6 +89,25 @@ def expressions(controlled: ControlledArm) -> Expressions:
     at = at_symbols(controlled.fixed, q, e, w, *gains, forms, kink=1e-24)
     a0, a1, a2 = at.coefficients()
     return Expressions(q, e, w, a0, a1, a2, ca.bilin(graph.matrix(at.fast()), w, w))
+
+
+class Disagreement(RuntimeError):
+    """Two ways to dV/dt give different numbers: one of the two is wrong, and no search may go on."""
+
+
+def require_one_rate(controlled: ControlledArm, states: States) -> None:
+    """Hold the dV/dt of samples against what CasADi gets from V alone, by automatic differentiation.
+
+    Raises:
+        Disagreement: they differ by more than rounding.
+    """
+    known = quadratic(controlled, states)
+    eps0 = 1.0 / max(float(np.max(known.reciprocal())), 1e-3)
+    graph, columns = lyapunov_graph(controlled.fixed, controlled.family), (states.q, states.e, states.w)
+    derived = graph.rate(*(x.T for x in columns), controlled.kp, controlled.kv, eps0).full().ravel()
+    size = np.abs(known.a0) + eps0 * (np.abs(known.a1) + eps0 * np.abs(known.a2))
+    if not np.all(np.abs(derived - known.at(eps0)) <= SAME * size):
+        raise Disagreement(f"{controlled.gains.name}: V by automatic differentiation has another dV/dt")
 
 
 def fast_states(controlled: ControlledArm, starts: States) -> States:

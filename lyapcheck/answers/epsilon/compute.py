@@ -97,7 +97,7 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     proof: DecreaseProof | None = None
     scalar_proof: DecreaseProof | None = None
     reasons["certified"] = unphysical(controlled)
-    sought = options.weights is not False
+    sought = options.weights is not False and model.n > 1
     main = 0.9 if sought else 1.0
     search = _Search(
         controlled,
