@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 
+from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness, statement_of
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.proof import proves
@@ -16,7 +18,7 @@ from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
@@ -163,3 +165,27 @@ def test_states_are_about_no_weights() -> None:
     witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
     with pytest.raises(Refused):
         verify(statement_of(loop), witness)
+
+
+def test_epsilon_seeks_weights_unless_told_not_to() -> None:
+    case = controlled(0)
+    few: dict[str, Any] = {"max_boxes": 4000, "starts": 2}
+    usual = epsilon(case.gains, case.model, **few)
+    assert usual.weighted is not None
+    assert usual.certified is not None
+    assert np.prod([float(x) for x in usual.weighted.products]) >= float(usual.certified) ** 2
+    assert usual.data()["results"][0]["weighted"]["lambda"][0] is not None
+    assert "with weights, y = w − εΛh" in usual.written("text")
+    without = epsilon(case.gains, case.model, weights=False, **few)
+    assert without.weighted is None
+    assert without.certified == usual.certified
+
+
+def test_one_joint_has_no_weights_to_choose() -> None:
+    result = epsilon(pendulum(), load("pendulum1"), max_boxes=2000, starts=2)
+    assert result.certified is not None
+    assert result.weighted is None
+
+
+def pendulum() -> GainSet:
+    return GainSet(name="a", family="hyperbolic", m=1, kp=(F(3),), kv=(F(1, 5),))
