@@ -9,6 +9,8 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
+from mpmath import mp
+
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.claims import (
@@ -23,7 +25,8 @@ from lyapcheck.claims import (
     Statement,
     TrigonometricBound,
 )
-from tests.refutations.oracle import family_number, names_in
+from tests.oracle.numbers import supremum
+from tests.oracle.trees import names as names_in
 from tests.refutations.statements import Part, Tree, expressions, places, put_at
 
 PER_KIND = 4
@@ -134,6 +137,11 @@ def _other_power(node: Tree) -> Iterator[Tree]:
         yield from ((node[0], m, node[2]) for m in (node[1] + 1, node[1] - 1) if m > 0)
 
 
+def _decimal(kind: str, m: int) -> str:
+    with mp.workdps(60):
+        return "1" if m == 1 else str(supremum(kind, m, 60))
+
+
 def _rounded(value: Fraction) -> list[str]:
     """The two neighbours with one significant digit less, at most three digits."""
     exact = Decimal(value.numerator) / Decimal(value.denominator)
@@ -146,7 +154,7 @@ def _badly_rounded(node: Tree) -> Iterator[Tree]:
     if node[0] == "num" and len(str(Fraction(node[1]))) > 2:
         yield from (("num", text) for text in _rounded(Fraction(node[1])))
     elif node[0] in SWAPPED:
-        yield from (("num", text) for text in _rounded(Fraction(str(family_number(node[0], node[1])))))
+        yield from (("num", text) for text in _rounded(Fraction(_decimal(*node))))
 
 
 # On relations and on whole statements ---------------------------------------------------------------------

@@ -8,16 +8,15 @@ from pathlib import Path
 
 from lyapcheck.verdicts import Verdict
 from tests.refutations.mutations import RULES
-from tests.refutations.oracle import DIGITS, SEED
 from tests.refutations.statements import MEMBER
-from tests.refutations.suite import Outcome, Planted
+from tests.refutations.suite import SEED, Outcome, Planted
 
 REPORT = Path(__file__).parents[2] / "reports" / "refutations.md"
 AT_RANDOM = REPORT.with_name("statement_fuzz.md")
 COLUMNS = (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED, Verdict.ERROR)
 INTRODUCTION = f"""\
 A program changes the statements of the proofs in `proofs/` in one place each (m = {MEMBER}, the arm and
-gains of the paper). A change counts as a planted fault if an independent evaluation to {DIGITS} digits finds
+gains of the paper). A change counts as a planted fault if an independent evaluation to 60 digits finds
 a point at which the changed statement clearly fails (seed {SEED}); changes that leave a statement true, or
 not known to be false, are not counted. `proved` must be 0. Written by `python -m tests.refutations`.
 """

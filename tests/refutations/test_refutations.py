@@ -3,41 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
 
 import pytest
-from mpmath import mp, mpf
 
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
-from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.claims import (
     Constant,
     Implies,
     Relation,
     Statement,
-    agrees,
     any_vector,
-    at_most_every_n,
-    dh,
-    diff,
-    dot,
-    expr,
-    for_all,
-    gamma,
-    h,
-    identity,
     implies,
-    nonnegative,
-    norm_bound,
     positive,
-    sinh,
-    sqrt,
-    tanh,
     var,
 )
 from lyapcheck.verdicts import Verdict
 from tests.refutations.mutations import RULES, faults_of
-from tests.refutations.oracle import DIGITS, family_number, is_false
 from tests.refutations.report import markdown, summary
 from tests.refutations.statements import Part, parts
 from tests.refutations.suite import FEW, LEAST, MANY, outcomes, planted, verdict_of, wrongly_proved
@@ -123,53 +104,6 @@ def test_the_suite_sees_one_proof_too_many() -> None:
         return Verdict.PROVED if statement == target.statement else Verdict.REFUTED
 
     assert wrongly_proved(outcomes(planted(FEW).false, by=nearly_sound)) == [target.name]
-
-
-FALSE = {
-    "an identity": identity(diff(h(2, x), "x"), dh(3, x)),
-    "below on part of the line": for_all(h(2, x) <= "1.05"),
-    "equality at an end": for_all(tanh(x) < x, 0),
-    "numbers": Constant(sqrt(3) < "1.732"),
-    "equal numbers": Constant(expr("0.5") < "1/2"),
-    "a norm": norm_bound(h(3, x), 4, gamma(3)),
-    "transitivity": implies(positive("a", "b"), (a <= b,), a < b),
-    "equality at a zero": implies(nonnegative("a", "b"), (), expr(0) < a + b),
-    "rounding": agrees(a * 2, "8", a="3"),
-    "norms": at_most_every_n(dot(v, v), a**2, [(v, a * "1.1")]),
-}
-TRUE = {
-    "an identity": identity(diff(h(2, x), "x"), dh(2, x)),
-    "below on the line": for_all(h(2, x) <= "1.054"),
-    "equality at an open end": for_all(tanh(x) < x, 0, open_low=True),
-    "numbers": Constant(sqrt(3) < "1.7321"),
-    "equal numbers": Constant(expr("0.5") <= "1/2"),
-    "a high power is small, not zero": for_all(expr(1) < 1 + sinh(x) ** 12, 0, open_low=True),
-    "a norm": norm_bound(h(3, x), 4, 2 * gamma(3)),
-    "a border that rounding only seems to cross": implies(
-        positive("a", "b"), (a < sqrt(3) * b,), a / sqrt(3) < b
-    ),
-    "rounding": agrees(a * b, "0.01", a="0.06", b="0.133"),
-    "norms": at_most_every_n(x**2 * dot(v, v), x * b * a**2, [(x, b), (v, a)]),
-}
-
-
-@pytest.mark.parametrize("name", FALSE)
-def test_the_oracle_finds_what_is_false(name: str) -> None:
-    assert is_false(FALSE[name])
-
-
-@pytest.mark.parametrize("name", TRUE)
-def test_the_oracle_breaks_nothing_that_is_true(name: str) -> None:
-    assert not is_false(TRUE[name])
-
-
-@pytest.mark.parametrize("m", [2, 3, 5])
-def test_the_oracle_has_its_own_constants_and_they_agree(m: int) -> None:
-    certified = hyperbolic_constants(m)
-    with mp.workdps(DIGITS):
-        for name, enclosure in (("gamma", certified.gamma), ("rho", certified.rho), ("L", certified.L)):
-            own = Fraction(str(mpf(family_number(name, m))))
-            assert abs(own - enclosure.mid) < Fraction(1, 10**25), name
 
 
 @pytest.mark.slow
