@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import textwrap
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
@@ -332,19 +329,3 @@ def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
         robots.load(tmp_path / "nothing.toml")
     with pytest.raises(InputError, match="is a folder"):
         robots.load(tmp_path)
-
-
-pieces = st.sampled_from(
-    sorted({word for text in (CHAIN, PRINTED) for word in text.split()} | {"[", "}", '"', "=", "é"})
-)
-
-
-@given(st.sampled_from([CHAIN, PRINTED]), st.data())
-def test_a_garbled_file_never_ends_in_another_error(
-    tmp_path_factory: pytest.TempPathFactory, text: str, data: st.DataObject
-) -> None:
-    words = text.split(" ")
-    for _ in range(data.draw(st.integers(1, 3))):
-        words[data.draw(st.integers(0, len(words) - 1))] = data.draw(pieces)
-    with contextlib.suppress(InputError):
-        load(tmp_path_factory.getbasetemp(), " ".join(words))

@@ -212,7 +212,7 @@ def test_more_joints_than_are_understood(tmp_path: Path) -> None:
     assert "has a chain of 13 joints, more than 12" in printed(tmp_path, f"<robot>{links}{joints}</robot>")
 
 
-# Fuzzing, here guided by Hypothesis; tests/fuzz_readers runs many more -----
+# Fuzzing, guided by Hypothesis -----
 
 SEEDS = {
     "arm.urdf": [TWO, (ARMS / "panda.urdf").read_text()[:3000] + "</robot>"],
@@ -221,6 +221,18 @@ SEEDS = {
 WORDS = sorted(
     {word for texts in SEEDS.values() for text in texts for word in text.replace('"', ' " ').split()}
     | {"nan", "-1", "1e99", "&lt;", "<!DOCTYPE a>", "<![CDATA[", "\x00", "é", "]]", "{}", "''''", "<!--"}
+    | {
+        "9" * 400,
+        "1e99999999",
+        "1e" + "9" * 50,
+        "٣",
+        "[" * 200,
+        "{ a = " * 60,
+        "<a>" * 60,
+        "${pi}",
+        "c1 " * 30,
+    }
+    | {'<!ENTITY a "&b;&b;">', "&a;", "</robot>", "/dev/zero", "../../etc/passwd", "1979-05-27", "s12^9"}
 )
 
 

@@ -18,6 +18,20 @@ from tests.statement_fuzz.generators import Made, generates
 GOOD = Path(__file__).parents[2] / "arena" / "good"
 FACTORS = ("1001/1000", "999/1000", "101/100", "99/100", "2", "1/2", f"{10**30}", f"1/{10**30}")
 MOST_CHANGES = 3
+PLAIN = {
+    *(
+        "Identity",
+        "ForAll",
+        "Constant",
+        "NormBound",
+        "Implies",
+        "ForSmall",
+        "Agrees",
+        "BoundEveryN",
+        "EveryN",
+    ),
+    *("TrigonometricBound", "TrigonometricPositive"),
+}
 LARGEST = 200_000
 """Characters: larger certificates take too long for their part."""
 
@@ -48,6 +62,25 @@ def _texts():
     read = {path: path.read_text(encoding="utf-8") for path in sorted(GOOD.rglob("*.json"))}
     own = (text for path, text in read.items() if path.parent == GOOD or '"Stable' in text)
     return tuple(text for text in own if len(text) <= LARGEST)
+
+
+@generates("Planted", 2)
+def planted(random):
+    """A statement of the shipped proofs in which something was changed, to be decided anew."""
+    while True:
+        data = json.loads(random.choice(_texts()))["statement"]
+        while data["kind"] == "AllOf":
+            data = random.choice(data["parts"])[1]
+        kind = data["kind"]
+        if kind not in PLAIN:
+            continue
+        _change(random, data)
+        try:
+            statement = from_json(Statement, data, "statement")
+            statement.require_well_formed()
+        except (Refused, ValueError, TypeError):
+            continue
+        return Made(statement, f"planted in {kind}")
 
 
 @generates("Altered", 0.001)
