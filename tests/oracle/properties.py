@@ -22,11 +22,7 @@ class Functions:
     """h, h' and U at points; middles of enclosures."""
 
     def __init__(self, member):
-        self.trees = {
-            "h": member.value,
-            "slope": member.slope,
-            "potential": member.potential,
-        }
+        self.trees = {"h": member.value, "slope": member.slope, "potential": member.potential}
 
     def at(self, name, x):
         """A value.

@@ -31,10 +31,7 @@ BOUNDED = (
     (lambda x: 2 * np.tanh(3 * x), 6.0, 2.0),
 )
 """Functions of the class, with a bound of slope and secant, and of the value."""
-UNBOUNDED = (
-    (lambda x: x, 1.0, 1e9),
-    (lambda x: x + np.tanh(x), 2.0, 1e9),
-)
+UNBOUNDED = ((lambda x: x, 1.0, 1e9), (lambda x: x + np.tanh(x), 2.0, 1e9))
 
 
 @dataclass(frozen=True)

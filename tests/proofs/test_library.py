@@ -61,11 +61,7 @@ def test_the_class_theorem_serves_every_n_and_every_function():
 
 TURNED = [("K_p @ e - K_v @ w", "-1 * K_p @ e - K_v @ w"), ("K_p @ e - K_v @ w", "K_p @ e + K_v @ w")]
 FAULTS = {
-    "takegaki_arimoto": [
-        *TURNED,
-        (" + goal.gravity)\nV", ")\nV"),
-        ("V = w @ M @ w / 2", "V = w @ M @ w"),
-    ],
+    "takegaki_arimoto": [*TURNED, (" + goal.gravity)\nV", ")\nV"), ("V = w @ M @ w / 2", "V = w @ M @ w")],
     "tomei": [
         *TURNED,
         ('stable", theorem(k_g < K_p.min)', 'stable", theorem()'),
@@ -96,11 +92,7 @@ FAULTS = {
         ("M @ (goal.acceleration - Λ @ w)", "M @ goal.acceleration"),
         ("C @ reference + B", "C @ goal.velocity + B"),
     ],
-    "pid": [
-        *TURNED,
-        ("+ K_i @ z +", "- K_i @ z +"),
-        ("α * e), any", "-α * e), any"),
-    ],
+    "pid": [*TURNED, ("+ K_i @ z +", "- K_i @ z +"), ("α * e), any", "-α * e), any")],
     "feedforward": [
         TURNED[0],
         ("goal.M_at_goal @ goal.acceleration +", "2 * goal.M_at_goal @ goal.acceleration +"),

@@ -114,11 +114,7 @@ FAULTS = (
     # vectors and matrices
     KnownFault(
         "a word twice",
-        every_n(
-            (a + M @ a).dot(a + M @ a),
-            a.dot(a) + a.dot(M @ a) + a.dot(M @ (M @ a)),
-            symmetric=[M],
-        ),
+        every_n((a + M @ a).dot(a + M @ a), a.dot(a) + a.dot(M @ a) + a.dot(M @ (M @ a)), symmetric=[M]),
         NormalForm(),
     ),
     KnownFault("aa/aa", every_n(a.dot(a) / a.dot(a), 1), NormalForm()),

@@ -133,10 +133,7 @@ def _planar(random, plain):
     a, b, c = i1 + m1 * r1**2 + m2 * l1**2, m2 * l1 * r2, i2 + m2 * r2**2
     factor = Fraction(1) if plain else random.choice(SCALES)
     one, turn = powers(2, 0), powers(2, 0, c2=1)
-    rows = (
-        (((one, a + c), (turn, 2 * b)), ((one, c), (turn, b))),
-        (((one, c), (turn, b)), ((one, c),)),
-    )
+    rows = ((((one, a + c), (turn, 2 * b)), ((one, c), (turn, b))), (((one, c), (turn, b)), ((one, c),)))
     return Robot(tuple(tuple(scaled(e, factor) for e in row) for row in rows), (), True)
 
 

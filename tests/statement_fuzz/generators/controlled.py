@@ -61,10 +61,7 @@ def decreasing(random):
     eps0, truth, what = natural * random.choice(SMALL), None, "a small ε₀"
     coupling = ()
     if dear:
-        eps0, what = (
-            natural * random.choice((1, 4, 20, 100)),
-            "some ε₀",
-        )
+        eps0, what = (natural * random.choice((1, 4, 20, 100)), "some ε₀")
     elif kind < 0.26:
         eps0, what = natural * random.choice((10**3, 10**6)), "a huge ε₀"
     elif kind < 0.36:

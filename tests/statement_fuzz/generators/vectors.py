@@ -142,13 +142,7 @@ def _collected(random, left, right, symmetric):
     return Made(_every_n(("dot", _sum(left), _sum(right)), add(*once.values()), symmetric), "each word once")
 
 
-def _every_n(
-    left,
-    right,
-    symmetric=(),
-    rates=(),
-    given=(),
-):
+def _every_n(left, right, symmetric=(), rates=(), given=()):
     """The statement with those of the symmetric matrices that occur."""
     result = _letters(left, right, *(t for pair in rates for t in pair), *(g.equals for g in given))
     result |= {("mat", g.matrix) for g in given}
