@@ -9,27 +9,22 @@ PARTIAL = ("sqrt", "log", "tan", "asin", "acos")
 
 
 def num(value):
-    """A number."""
     return ("num", str(Fraction(value)))
 
 
 def var(name):
-    """A variable."""
     return ("var", name)
 
 
 def add(*parts):
-    """A sum."""
     return ("add", *parts) if len(parts) > 1 else parts[0]
 
 
 def mul(*parts):
-    """A product."""
     return ("mul", *parts) if len(parts) > 1 else parts[0]
 
 
 def neg(a):
-    """The negative."""
     return ("neg", a)
 
 
@@ -39,17 +34,14 @@ def sub(a, b):
 
 
 def div(a, b):
-    """A quotient."""
     return ("div", a, b)
 
 
 def power(a, k):
-    """A power."""
     return ("pow", a, k)
 
 
 def root(a):
-    """A square root."""
     return ("sqrt", a)
 
 
@@ -57,12 +49,10 @@ ZERO, ONE, TWO = num(0), num(1), num(2)
 
 
 def le(a, b):
-    """a <= b."""
     return Relation(a, "<=", b)
 
 
 def lt(a, b):
-    """a < b."""
     return Relation(a, "<", b)
 
 
@@ -205,82 +195,33 @@ def somewhere(a, b, k):
 
 def hidden_zero(random, names):
     """An expression that is 0 at every point, though it may take a law to see it."""
-    return random.choice(_VANISHING)(random, names)
 
+    def some():
+        return smooth(random, names, 1) if names else num(random.choice((1, 2, 3, Fraction(1, 2), -2)))
 
-def _some(random, names):
-    """A number or a plain expression, defined everywhere."""
-    return smooth(random, names, 1) if names else num(random.choice((1, 2, 3, Fraction(1, 2), -2)))
-
-
-def _same(random, names):
-    a = _some(random, names)
-    return sub(a, a)
-
-
-def _square_of_root(random, names):
+    one, other, k = some(), some(), random.choice((2, 3, 10))
     c = num(random.choice((2, 3, 5, Fraction(1, 2), Fraction(7, 3))))
-    return sub(power(root(c), 2), c)
-
-
-def _product_of_roots(random, names):
     a, b = random.choice(((2, 3), (2, 8), (3, 12), (5, 7)))
-    return sub(mul(root(num(a)), root(num(b))), root(num(a * b)))
-
-
-def _nested_root(random, names):
-    inner = add(ONE, root(TWO))
-    return sub(mul(power(root(inner), 2), root(TWO)), add(root(TWO), TWO))
-
-
-def _denested(random, names):
-    return sub(root(add(num(4), mul(TWO, root(num(3))))), add(ONE, root(num(3))))
-
-
-def _scaled_root(random, names):
-    k = random.choice((2, 3, 10))
-    return sub(root(num(2 * k * k)), mul(num(k), root(TWO)))
-
-
-def _law(random, names):
-    return sub(*random.choice(everywhere(_some(random, names), _some(random, names))))
-
-
-def _logarithms(random, names):
-    return random.choice(
-        (sub(("log", num(4)), mul(TWO, ("log", TWO))), sub(("exp", ("log", num(3))), num(3)), ("log", ONE))
+    two, three, nested, pi = root(TWO), root(num(3)), root(add(ONE, root(TWO))), ("pi",)
+    laws = [sub(*law) for law in everywhere(one, other)]
+    kinds = (
+        [sub(one, one)],
+        [sub(power(root(c), 2), c)],
+        [sub(mul(root(num(a)), root(num(b))), root(num(a * b)))],
+        [sub(mul(power(nested, 2), two), add(two, TWO))],
+        [sub(root(add(num(4), mul(TWO, three))), add(ONE, three))],
+        [sub(root(num(2 * k * k)), mul(num(k), two))],
+        [sub(("log", num(4)), mul(TWO, ("log", TWO))), sub(("exp", ("log", num(3))), num(3)), ("log", ONE)],
+        [
+            *(sub(mul(num(4), ("atan", ONE)), pi), sub(mul(TWO, ("asin", ONE)), pi)),
+            add(("asin", num("1/3")), ("acos", num("1/3")), neg(div(pi, TWO))),
+            *(("sin", pi), ("cos", div(pi, TWO)), add(ONE, ("cos", pi))),
+        ],
+        *[laws] * 4,
+        [*(("h", 2, ZERO), ("potential", 3, ZERO)), sub(("gamma", 1), ONE), sub(("L", 1), ("rho", 1))],
+        [mul(ZERO, one), sub(mul(one, other), mul(other, one))],
     )
-
-
-def _arcs(random, names):
-    return random.choice(
-        (
-            sub(mul(num(4), ("atan", ONE)), ("pi",)),
-            sub(mul(TWO, ("asin", ONE)), ("pi",)),
-            add(("asin", num("1/3")), ("acos", num("1/3")), neg(div(("pi",), TWO))),
-            ("sin", ("pi",)),
-            ("cos", div(("pi",), TWO)),
-            add(ONE, ("cos", ("pi",))),
-        )
-    )
-
-
-def _family(random, names):
-    m = random.choice((1, 2, 3))
-    return random.choice(
-        (("h", m, ZERO), ("potential", m, ZERO), sub(("gamma", 1), ONE), sub(("L", 1), ("rho", 1)))
-    )
-
-
-def _product(random, names):
-    a, b = _some(random, names), _some(random, names)
-    return random.choice((mul(ZERO, a), sub(mul(a, b), mul(b, a))))
-
-
-_VANISHING = (
-    *(_same, _square_of_root, _product_of_roots, _nested_root, _denested, _scaled_root, _logarithms, _arcs),
-    *(_law, _law, _law, _law, _family, _product),
-)
+    return random.choice(random.choice(kinds))
 
 
 def undefined_number(random):
