@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 from mpmath import mp
+from scipy.optimize import minimize
 
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.inertia import MassAbove
@@ -139,7 +140,7 @@ class Loop:
         return self.rate(*([many(x) for x in part] for part in (q, e, w)), of)
 
 
-SAMPLES, ROUNDS, STEPS, BEST = 1_000, 12, 40, 3
+SAMPLES, ROUNDS, STEPS, BEST = 4_000, 10, 40, 4
 LARGEST = 9.0
 """The logarithm of the largest rates: beyond them, doubles lose what is left when C(q, w)w cancels."""
 ALLOWED = Fraction(1, 1000)
@@ -184,7 +185,7 @@ def _start(random, n, numbers):
 def rising(statement, random):
     """How fast V rises at most beside friction and stiffness, and the states at which it does.
 
-    Samples, then ever smaller steps from the best of them.
+    Samples, then ever smaller steps from the best of them, then downhill.
     """
     n = len(statement.mass)
     generator = np.random.default_rng(random.getrandbits(32))
@@ -215,6 +216,17 @@ def rising(statement, random):
             step = int(np.argmax(row))
             if row[step] > tops[k]:
                 best[:, k], tops[k] = near[:, k, step], row[step]
+
+    def downhill(z):
+        steps = 1e-6 * np.eye(len(z))
+        columns = np.concatenate([z[:, None], z[:, None] + steps, z[:, None] - steps], axis=1)
+        values = np.nan_to_num(-share(columns), posinf=1e9)
+        up, down = np.split(values[1:], 2)
+        return values[0], (up - down) / 2e-6
+
+    ends = np.array([minimize(downhill, z, method="BFGS", jac=True).x for z in best.T]).T
+    best = np.concatenate([best, ends], axis=1)
+    tops = share(best)
     top = int(np.argmax(tops))
     return float(tops[top]), States(best[:, top], statement)
 
