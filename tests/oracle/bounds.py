@@ -56,8 +56,10 @@ class Bound:
         random, size = np.random.default_rng(seed), 2 * self.n + len(self.ranges)
         starts = random.uniform(-np.pi, np.pi, (SAMPLES, size))
         starts[: SAMPLES // 4] = np.round(starts[: SAMPLES // 4] / (np.pi / 4)) * (np.pi / 4) + 1e-9
-        best = sorted(starts, key=lambda z: -self.excess(z))[:CLIMBS]
-        ends = [minimize(lambda z: -self.excess(z), z, method="BFGS").x for z in best]
+        values = np.array([self.excess(z) for z in starts])
+        best = starts[np.argsort(-values)[:CLIMBS]]
+        size = np.abs(values).max() or 1.0  # arms of any size: BFGS knows of none
+        ends = [minimize(lambda z: -self.excess(z) / size, z, method="BFGS").x for z in best]
         return max([*best, *ends], key=self.excess)
 
     def certainly(self, q, x, y, free):
