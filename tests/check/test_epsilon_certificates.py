@@ -66,17 +66,18 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     first = invoke("epsilon", gains, *options, "--certificates", str(folder))
     assert first.exit_code == 0, first.output
     names = sorted(path.name for path in folder.iterdir())
-    assert names == ["tau_m1.certified.json", "tau_m1.falsified.json", "tau_m1.scalar.json"]
+    kinds = ("certified", "falsified", "scalar", "weighted")
+    assert names == [f"tau_m1.{kind}.json" for kind in kinds]
     again = invoke("recheck", str(folder))
     assert again.exit_code == 0, again.output
-    assert "3 accepted" in again.output
+    assert "4 accepted" in again.output
 
 
 @pytest.mark.slow
 def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: Path) -> None:
     """With one box nothing but norms or bounds in ‖e‖ is left."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    result = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1)
+    result = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1, weights=False)
     made = certificates(result)
     assert result.certified is not None
     assert made["tau_m2.certified.json"].statement.eps0 == result.certified  # type: ignore[attr-defined]
@@ -96,7 +97,7 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
     arm += "".join(f'[[joints]]\nname = "{name}"\nviscous = 2\n' for name in "ab")
     (tmp_path / "arm.toml").write_text(arm)
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    result = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100)
+    result = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100, weights=False)
     assert (result.certified, result.proof, result.scalar_proof, result.weighted) == (None, None, None, None)
     assert "M(q) is not positive definite at q = (" in result.reasons["certified"]
     assert not [name for name in certificates(result) if "falsified" not in name]
@@ -105,7 +106,7 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
 @pytest.mark.slow
 def test_an_unbounded_function_has_nothing_certified() -> None:
     gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
-    result = epsilon(gains, load("buap3"), starts=2, max_boxes=100)
+    result = epsilon(gains, load("buap3"), starts=2, max_boxes=100, weights=False)
     assert (result.certified, certificates(result)) == (None, {})
     assert "unbounded" in result.reasons["certified"]
 

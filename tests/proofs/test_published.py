@@ -192,13 +192,22 @@ def test_the_gains_at_hand_matter(tmp_path, elbow, damping, verdicts):
     assert tuple(outcome[name] for name in ids) == verdicts
 
 
-@pytest.mark.parametrize(("shoulder", "verdict"), [("75", "proved"), ("76", "refuted")])
+@pytest.mark.parametrize(("shoulder", "verdict"), [("76", "proved"), ("77", "refuted")])
 def test_10p_is_decided_for_an_arm_whose_gravity_bounds_no_source_prints(tmp_path, shoulder, verdict):
-    """By those that the gate takes: (150 − 42.1)/√2 = 76.29."""
+    """By those that the gate takes: (150 − 40.29)/√2 = 77.58."""
     path = tmp_path / "own.toml"
     text = f'[[gains]]\nname = "own"\nm = 1\nkp = [{shoulder}, 5]\nkv = [1, 1]\n'
     path.write_text(text, encoding="utf-8")
     (row,) = run_proof("published.py", ms=(1,), robot="reyes-kelly2", gains=path, only=("10p.gains",)).claims
+    assert row.verdict.value == verdict
+
+
+@pytest.mark.parametrize(("kp", "verdict"), [("0.1", "proved"), ("3", "refuted")])
+def test_claims_about_gains_take_the_ranges_of_an_arm_as_the_gate_does(tmp_path, kp, verdict):
+    """The heaviest pendulum admits 0.19 N·m, the nominal one 5.095."""
+    path = tmp_path / "own.toml"
+    path.write_text(f'[[gains]]\nname = "own"\nm = 1\nkp = [{kp}]\nkv = [0.05]\n', encoding="utf-8")
+    (row,) = run_proof("published.py", ms=(1,), robot="pendulum1", gains=path, only=("10p.gains",)).claims
     assert row.verdict.value == verdict
 
 

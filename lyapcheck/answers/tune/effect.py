@@ -75,7 +75,7 @@ def effect_section(result: Sequence[Effect], target: Sequence[float], time: floa
             shown(one.final, ".2f"),
             shown(one.share, ".2f"),
             shown(one.speed, ".2f"),
-            "anywhere" if math.isinf(one.rest) else at_most(one.rest, 3) if one.rest > 0 else "—",
+            "anywhere" if math.isinf(one.rest) else at_most(one.rest) if one.rest > 0 else "—",
         )
         for one in result
     )

@@ -49,7 +49,7 @@ class Wishes:
                 rule = f"must be above 0, up to {top:g}"
                 option = "--" + name.replace("_", "-")
                 problems.append(
-                    Problem("argument", None, option, at_most(value, 6), rule, "correct the value")
+                    Problem("argument", None, option, value, rule, "correct the value")
                 )
         if problems:
             raise InputError(problems)
