@@ -98,28 +98,6 @@ def least(case: ControlledArm, weights: np.ndarray, row: np.ndarray) -> float:
     return float(np.linalg.eigvalsh(P / np.outer(root, root))[0])
 
 
-@pytest.mark.slow
-def test_V_with_weights_falls_at_random_states_of_the_arm() -> None:
-    """dV/dt by differences of V along the closed loop; nothing of the derivation is used."""
-    case, result = controlled(1), weighted(1)
-    loop, model = result.proof.loop, NumericModel(case.model)
-    family, scale = named(case.gains.family, case.gains.m), np.array([float(x) for x in loop.Lambda])
-    eps0, random = float(loop.eps0), np.random.default_rng(2)
-
-    def V(q: np.ndarray, e: np.ndarray, w: np.ndarray) -> float:
-        y = w - eps0 / (1 + np.linalg.norm(e)) * scale * family.h(e)
-        return float(y @ model.mass(q) @ y / 2 + case.kp @ family.potential(e))
-
-    for _ in range(60):
-        q, e = random.uniform(-3, 3, 2), random.normal(size=2) * 10 ** random.uniform(-0.5, 0.5)
-        w = random.normal(size=2) * 10 ** random.uniform(-1, 1)
-        force = case.kp * family.h(e) - case.kv * family.h(w) - model.viscous * w - model.coriolis(q, w) @ w
-        a = np.linalg.solve(model.mass(q), force)
-        t = 1e-6
-        rate = (V(q + t * w, e - t * w, w + t * a) - V(q - t * w, e + t * w, w - t * a)) / (2 * t)
-        assert rate < 1e-7 * (1 + w @ w)
-
-
 def test_P_over_boxes_holds_P_with_weights() -> None:
     case, loop = controlled(0), weighted(0).proof.loop
     model, family = NumericModel(case.model), named("hyperbolic", 1)
