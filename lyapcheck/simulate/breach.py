@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.output.digits import at_least, at_most
+from lyapcheck.output.digits import at_least, at_most, shown
 from lyapcheck.simulate.confirm import Sample, exceeds, rises
 
 if TYPE_CHECKING:
@@ -187,4 +187,4 @@ def bound_monitor(name: str, bound: float | None) -> Monitor:
 
 
 def _row(values: Sequence[float]) -> str:
-    return f"({', '.join(f'{x:.6g}' for x in values)})"
+    return f"({', '.join(shown(x, '.6g') for x in values)})"
