@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
 from lyapcheck.family.compared import gamma_less_than
@@ -239,3 +248,36 @@ def printed_bounds(m: int) -> bool:
     """Whether h_m never exceeds the printed γ: tanh stays below 1, the others reach their γ."""
     value = PRINTED_GAMMA[m]
     return value >= 1 if m == 1 else gamma_less_than(m, value**2)
+
+
+PROOF = "table"
+PRECISIONS = (128, 512, 2048)
+"""Bits."""
+FUNCTIONS = {"gamma": "h", "rho": "dh"}
+
+
+def certificates(table: Table) -> dict[str, Certificate]:
+    """Certificates by file name; none of a bound that the checker does not accept."""
+    made = {}
+    for row in table.rows:
+        for name, function in FUNCTIONS.items():
+            _, upper = decimals(getattr(row, name), table.digits)
+            x: Tree = ("var", "x")
+            statement = NormBound((function, row.m, x), 1, ("num", str(Fraction(upper))))
+            shown = _shown(statement)
+            if shown is None:
+                continue
+            accepted, proof = shown
+            about = About(f"m{row.m}.{name}", f"{name} of m = {row.m} is at most {upper}", row.m, 1, PROOF)
+            certificate = Certificate(about, statement, accepted.verdict, accepted.grade, proof)
+            made[f"m{row.m}.{name}.json"] = certificate
+    return made
+
+
+def _shown(statement: NormBound) -> tuple[Accepted, Supremum] | None:
+    """The verdict on a bound and what shows it; ``None`` where the numbers are too close to it."""
+    for numbers in (ExactNumbers(), *map(SeparateBalls, PRECISIONS)):
+        with suppress(Refused):
+            proof = Supremum(numbers)
+            return verify(statement, proof), proof
+    return None

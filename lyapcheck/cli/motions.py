@@ -105,8 +105,7 @@ def _share_of(advance: Progress, done: int, cases: int, name: str) -> Progress:
 
 def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
     """The set-point task, by the equations or on the bench."""
-    from lyapcheck.answers.simulate.certificates import breach_certificate
-    from lyapcheck.answers.simulate.runs import SetPointRuns
+    from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
     from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.files.names import file_stem
     from lyapcheck.simulate.closed_loop import simulate

@@ -12,7 +12,7 @@ from lyapcheck.cli.decimals import parse_decimal, parse_decimals
 from lyapcheck.errors import InputError, argument_error
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.response.wishes import Trials
+    from lyapcheck.answers.tune.response.trial import Trials
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.simulate.task import Task
@@ -34,7 +34,7 @@ def trials_of(
     Raises:
         InputError: a target or an angle that cannot be used.
     """
-    from lyapcheck.answers.tune.response.wishes import Trials, Wishes
+    from lyapcheck.answers.tune.response.trial import Trials, Wishes
     from lyapcheck.simulate.indices import LEAST_STEP
 
     tasks = tasks_of(robot, *motion)

@@ -17,9 +17,8 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
+from lyapcheck.answers.robot.answer import ArmFacts, page
 from lyapcheck.answers.robot.certified import CertifiedBounds
-from lyapcheck.answers.robot.facts import ArmFacts
-from lyapcheck.answers.robot.page import page
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.harmonics import derivative, harmonics

@@ -26,7 +26,7 @@ HEADING, SORTING, COLOURS = "a heading or a label", "an order in which verdicts 
 CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
-    "answers.bounds.certificates": (1, CERTIFICATE),
+    "answers.bounds.answer": (1, CERTIFICATE),
     "answers.check.proof": (4, "an order of verdicts, and a word that promises alone may say"),
     "answers.epsilon.annotations": (4, "the name of a rule"),
     "answers.epsilon.certificates": (3, CERTIFICATE),
@@ -37,8 +37,7 @@ SAID = {
     "answers.gate.words": (1, "the word of a check that is accepted, said by its promise"),
     "answers.gate.whole": (2, CERTIFICATE),
     "answers.recheck": (2, SORTING),
-    "answers.robot.page": (2, "a word that promises alone may say"),
-    "answers.robot.report": (1, HEADING),
+    "answers.robot.answer": (3, "a heading, and a word that promises alone may say"),
     "answers.sweep.question": (2, "the words for the exit codes of answers"),
     "answers.sweep.result": (2, SORTING),
     "claims.decision": (1, "what a fresh process of the checker said"),

@@ -9,9 +9,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.bounds.compare import BoundsComparison
-from lyapcheck.answers.bounds.data import comparison_data
 from lyapcheck.answers.gain_place import gain_place
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
+from lyapcheck.check.kinds.resting import AtBounds
+from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.files.names import file_stem
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import shown
@@ -159,3 +163,53 @@ def angle_up(value: Fraction | None) -> str:
     if value is None:
         return "∞"
     return f"{decimal_text(significant_up(value, 4))}°" if value else "0°"
+
+
+def comparison_data(result: BoundsComparison) -> dict[str, Any]:
+    """One gain set; angles in degrees, those that are proved rounded up."""
+    task, promise = result.task, result.promise
+    return {
+        "name": result.gains.name,
+        "robot": result.robot,
+        "target": [_degrees(x) for x in task.q_d],
+        "start": [_degrees(x) for x in task.q0],
+        "settling": {"delta": _degrees(result.delta)},
+        "disturbance": {
+            "friction": [above(x) for x in result.dry],
+            "rest": [None if x is None else float(x) for x in result.rest_degrees],
+            "rest_statement": None if promise is None else promise.says(promise.shown.statement.text()),
+            "reason": result.reason,
+        },
+        "simulated": {
+            "duration": task.T,
+            "time": result.simulated_time,
+            "largest": [_degrees(x) for x in result.simulated_largest],
+            "rest": [_degrees(x) for x in result.simulated_rest],
+        },
+        "assumptions": list(result.assumptions),
+        "vary": list(result.varies),
+        "unvaried": None if result.unvaried is None else comparison_data(result.unvaried),
+    }
+
+
+def above(value: Fraction | None) -> float | None:
+    """The smallest double that is not below."""
+    return None if value is None else Enclosure(value, value).float_upper + 0.0  # −0.0 is written 0.0
+
+
+def _degrees(x: float) -> float:
+    return round(math.degrees(x), 9)
+
+
+PROOF = "bounds"
+
+
+def certificates(result: BoundsComparison) -> dict[str, Certificate]:
+    """The certificate by its file name; none where nothing was accepted."""
+    if result.promise is None:
+        return {}
+    name, gains = f"{result.gains.name}.resting", result.gains
+    says = f"how far from the goal it can rest: {gains.name} on {result.robot}"
+    about = About(name, says, gains.m, len(result.joints), PROOF)
+    made = Certificate(about, result.promise.shown.statement, "proved", "enclosure", AtBounds())
+    return {f"{file_stem(gains.name)}.resting.json": made}

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row
-from lyapcheck.answers.simulate.quantities import quantities
 from lyapcheck.answers.simulate.runs import SETTLED
-from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.answers.simulate.samples import quantities
+from lyapcheck.answers.simulate.simulation import Simulation, breach_record, cell, lower, plain, plains, row
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.simulate.starts import SHARES, Sweep, quantiles
 

@@ -9,8 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row, sized
-from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.answers.simulate.simulation import (
+    Simulation,
+    breach_record,
+    cell,
+    lower,
+    plain,
+    plains,
+    row,
+    sized,
+)
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most

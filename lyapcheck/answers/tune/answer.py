@@ -5,22 +5,196 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.tune.data import joint_records, limits_data, set_data, targets_data
-from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, GainComparison, TunedSet
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.control.gains import Bounds
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.deciding import DECIDING
+from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_least
+from lyapcheck.output.digits import at_least, decimals
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.effect import Effect
     from lyapcheck.simulate.task import Task
+
+TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
+
+
+@dataclass(frozen=True)
+class TunedJoint:
+    """The gains of one joint and what forbids larger ones.
+
+    Args:
+        name: of the joint.
+        kp: N·m, exact.
+        kv: N·m, exact.
+        sum_limit: what (10p) keeps k_p + k_v below, N·m.
+        kv_limit: what (19) keeps k_v below, N·m.
+        kp_bound: ``10p`` or ``damping``: what one unit more of k_p would break.
+        kv_bound: ``19`` or ``10p``: what one unit more of k_v would break.
+        damping: the damping ratio from below, where one was asked for.
+    """
+
+    name: str
+    kp: Fraction
+    kv: Fraction
+    sum_limit: Enclosure
+    kv_limit: Enclosure
+    kp_bound: str
+    kv_bound: str
+    damping: Fraction | None = None
+
+
+@dataclass(frozen=True)
+class ComparedJoint:
+    """A joint's gains from elsewhere beside the tuned ones.
+
+    Args:
+        name: of the joint.
+        kp: theirs, N·m.
+        kv: theirs, N·m.
+        kp_left: tuned k_p less theirs: what they left on the table, N·m.
+        kp_left_share: the same as a share of the tuned k_p, from below.
+        used: the share of (10p)'s limit that they use, from below.
+        broken: the conditions that they break.
+    """
+
+    name: str
+    kp: Fraction
+    kv: Fraction
+    kp_left: Fraction
+    kp_left_share: Fraction
+    used: Fraction
+    broken: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class GainComparison:
+    """A gain set from elsewhere beside the tuned one."""
+
+    name: str
+    source: str
+    joints: tuple[ComparedJoint, ...]
+
+
+@dataclass(frozen=True)
+class TunedSet:
+    """The gains for one member; ``reasons`` says why there are none."""
+
+    name: str
+    m: int
+    status: str
+    joints: tuple[TunedJoint, ...] = ()
+    reasons: tuple[str, ...] = ()
+    program: str = ""
+    comparison: GainComparison | None = None
+
+    @property
+    def gains(self) -> GainSet | None:
+        """As the gate reads them."""
+        if self.status != TUNED:
+            return None
+        kp, kv = tuple(j.kp for j in self.joints), tuple(j.kv for j in self.joints)
+        return GainSet(self.name, self.m, kp, kv, condition=DECIDING)
+
+
+DIGITS = 20
+
+
+def targets_data(targets: Targets) -> dict[str, Any]:
+    """What was asked for; numbers as decimal strings."""
+    return {
+        "digits": targets.digits,
+        "peak_share": _texts(targets.peak_share),
+        "kv_share": _texts(targets.kv_share),
+        "kv_min": _texts(targets.kv_min),
+        "damping": _texts(targets.damping),
+    }
+
+
+def limits_data(limits: Limits) -> dict[str, Any]:
+    """What the gains were tuned to, N·m and N·m·s/rad."""
+    return {
+        "torque": [None if limit is None else decimal_text(limit) for limit in limits.torque],
+        "gravity": _texts(limits.gravity),
+        "viscous_min": None if limits.viscous_min is None else decimal_text(limits.viscous_min),
+    }
+
+
+def joint_records(sets: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
+    rows = []
+    for item in sets:
+        head = {key: item[key] for key in ("name", "m", "status")}
+        beside = {joint["joint"]: joint for joint in (item["comparison"] or {}).get("joints", ())}
+        for joint in item["joints"]:
+            compared = {key: value for key, value in beside.get(joint["joint"], {}).items() if key != "joint"}
+            broken = {"broken": ", ".join(compared["broken"])} if compared else {}
+            rows.append(head | joint | ({"compared": compared | broken} if compared else {}))
+        if not item["joints"]:
+            rows.append(head | {"reasons": "; ".join(item["reasons"])})
+    return rows
+
+
+def set_data(item: TunedSet, digits: int) -> dict[str, Any]:
+    """The gains of one member, what ends each, and what they are compared with."""
+    return {
+        "name": item.name,
+        "m": item.m,
+        "status": item.status,
+        "reasons": list(item.reasons),
+        "joints": [_joint(joint, digits) for joint in item.joints],
+        "program": item.program or None,
+        "comparison": None if item.comparison is None else _comparison(item.comparison),
+    }
+
+
+def _joint(joint: TunedJoint, digits: int) -> dict[str, Any]:
+    return {
+        "joint": joint.name,
+        "kp": decimal_text(joint.kp, digits),
+        "kv": decimal_text(joint.kv, digits),
+        "kp_bound": joint.kp_bound,
+        "kv_bound": joint.kv_bound,
+        "sum_limit": _ends(joint.sum_limit),
+        "kv_limit": _ends(joint.kv_limit),
+        "damping": None if joint.damping is None else decimal_text(joint.damping),
+    }
+
+
+def _comparison(comparison: GainComparison) -> dict[str, Any]:
+    return {
+        "name": comparison.name,
+        "source": comparison.source,
+        "joints": [_compared_data(joint) for joint in comparison.joints],
+    }
+
+
+def _compared_data(joint: ComparedJoint) -> dict[str, Any]:
+    return {
+        "joint": joint.name,
+        "kp": decimal_text(joint.kp),
+        "kv": decimal_text(joint.kv),
+        "kp_left": decimal_text(joint.kp_left),
+        "kp_left_share": decimal_text(joint.kp_left_share),
+        "used": decimal_text(joint.used),
+        "broken": list(joint.broken),
+    }
+
+
+def _ends(value: Enclosure) -> dict[str, str]:
+    return dict(zip(("lower", "upper"), decimals(value, DIGITS), strict=True))
+
+
+def _texts(values: Sequence[Fraction] | None) -> list[str] | None:
+    return None if values is None else [decimal_text(value) for value in values]
+
 
 HEADS = ("joint", "k_p", "k_v", "(10p) limit", "(19) limit", "k_p ends at", "k_v ends at")
 DAMPING_HEAD = "ζ"

@@ -5,21 +5,33 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
+from math import floor
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.words import advice
-from lyapcheck.answers.tune.answer import Tuning
-from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.compare import compare
-from lyapcheck.answers.tune.damping import Damping, damping_of
-from lyapcheck.answers.tune.gain_range import GainRange, gain_range_of
-from lyapcheck.answers.tune.obstacles import impossible, obstacle, unknown
-from lyapcheck.answers.tune.program import propose
-from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet
-from lyapcheck.answers.tune.rounding import best_units, binding
+from lyapcheck.answers.tune.answer import (
+    INFEASIBLE,
+    TUNED,
+    UNDECIDED,
+    ComparedJoint,
+    GainComparison,
+    TunedJoint,
+    TunedSet,
+    Tuning,
+)
+from lyapcheck.answers.tune.largest import (
+    Damping,
+    GainRange,
+    best_units,
+    binding,
+    damping_of,
+    gain_range_of,
+    propose,
+)
+from lyapcheck.answers.tune.limits import arm_limits, impossible, obstacle, unknown
 from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
-from lyapcheck.control.conditions import ACCEPTED, gamma_of
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, check_10p, check_19, gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import round_down
@@ -29,6 +41,35 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.effect import Effect
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
+
+
+def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> GainComparison | None:
+    """The gains of the same member in another file, judged by the same limits; ``None`` where it has none."""
+    if against is None or tuned.gains is None:
+        return None
+    for item in against.gains:
+        if item.m == tuned.m and item.family == "hyperbolic" and item.n == limits.n:
+            return GainComparison(item.name, against.path, _joints(tuned, item, limits))
+    return None
+
+
+def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJoint, ...]:
+    gamma = gamma_of(other)
+    torques, dampings = check_10p(other, limits, gamma), check_19(other, limits, gamma)
+    result = []
+    for i, joint in enumerate(tuned.joints):
+        kp, kv = other.kp[i], other.kv[i]
+        broken = tuple(check.id for check in (torques[i], dampings[i]) if check.verdict == REJECTED)
+        left = joint.kp - kp
+        shares = _millionths(left / joint.kp), _millionths((kp + kv) / joint.sum_limit.upper)
+        result.append(ComparedJoint(joint.name, kp, kv, left, *shares, broken))
+    return tuple(result)
+
+
+def _millionths(share: Fraction) -> Fraction:
+    """A share to six decimal places, from below."""
+    return Fraction(floor(share * 10**6), 10**6)
+
 
 WRITTEN_PLACES = 12
 
@@ -49,7 +90,7 @@ def tune(
         members: m of each gain set.
         targets: the trade between stiffness, damping and torque; by default as much damping as (19) admits.
         bounds: limits to take instead of the arm's.
-        against: gains to compare with; see ``lyapcheck.answers.tune.compare``.
+        against: gains to compare with; see ``lyapcheck.answers.tune.tuning``.
         varies: ranges of the arm's numbers that the limits are to hold for.
         task: a motion on which the members are compared by runs.
 

@@ -90,7 +90,7 @@ def run(
     with progress("bounds") as advance:
         result = _compare(gain_file.gains, model, task, (angle, dry), varied, advance)
     if folder is not None:
-        from lyapcheck.answers.bounds.certificates import certificates as certificates_of
+        from lyapcheck.answers.bounds.answer import certificates as certificates_of
 
         write_certificates(folder, *map(certificates_of, result))
     from lyapcheck.answers.bounds.answer import Comparisons

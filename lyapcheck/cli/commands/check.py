@@ -76,7 +76,7 @@ def run(
         sys.stderr.write(f"ALARM: {alarm}\n")
         return Exit.INTERNAL
     if gains is not None:
-        from lyapcheck.answers.check.gains import left_out
+        from lyapcheck.answers.check.run import left_out
         from lyapcheck.output.escapes import printable
 
         for sentence in left_out(gains, result.n, result.ms):

@@ -66,13 +66,13 @@ def run(
     if robot is not None:
         from dataclasses import replace
 
-        from lyapcheck.answers.tune.budget import torque_budget
+        from lyapcheck.answers.tune.limits import torque_budget
 
         table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:
         _draw(table, folder)
     if proofs is not None:
-        from lyapcheck.answers.table_certificates import certificates as certificates_of
+        from lyapcheck.answers.table import certificates as certificates_of
 
         write_certificates(proofs, certificates_of(table))
     show(table, format)

@@ -21,7 +21,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from lyapcheck.answers.tune.response.wishes import Trials
+    from lyapcheck.answers.tune.response.trial import Trials
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.robots.vary import Vary
@@ -173,7 +173,7 @@ def _tune_for(
     format: str,  # noqa: A002
 ) -> Exit:
     """Gains for targets; ``file`` says where to write them, and whether the best are written in any case."""
-    from lyapcheck.answers.tune.response.gain_file import bench_file_text
+    from lyapcheck.answers.tune.gain_file import bench_file_text
     from lyapcheck.answers.tune.response.tuning import tune_for
     from lyapcheck.cli.progress import progress
 

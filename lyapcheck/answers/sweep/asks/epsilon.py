@@ -10,8 +10,7 @@ from lyapcheck.answers.epsilon.data import result_data
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.words import exact
-from lyapcheck.answers.sweep.arms import UncertainArm
-from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, UncertainArm, answered
 from lyapcheck.verdicts import Exit
 
 OPTIONS = {"max_boxes": 100_000, "starts": 30}

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
-from lyapcheck.answers.tune.response.trial import Trial
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, NAMES, Trials
+from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer

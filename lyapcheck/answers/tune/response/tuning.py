@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
-from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.obstacles import impossible, unknown
+from lyapcheck.answers.tune.limits import arm_limits, impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
-from lyapcheck.answers.tune.response.trial import tried
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, WAYS, Trials
+from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials, tried
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED

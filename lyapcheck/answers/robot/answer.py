@@ -1,27 +1,186 @@
-"""The report of an arm for people."""
+"""What is known of an arm: decided properties and certified constants, for people and for programs."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.robot.certified import CertifiedBounds
-from lyapcheck.answers.robot.entries import inertia_sections
-from lyapcheck.answers.robot.extent import NOMINAL, RANGES, extent, together, uncertain
+from lyapcheck.answers.robot.properties import PropertyResult
+from lyapcheck.check.kinds.inertia import mass_entries, mass_text
+from lyapcheck.claims.moving_arm import ranges_of
+from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most, decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
-from lyapcheck.promise import Promise, all_say
+from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.number import with_unit
-from lyapcheck.verdicts import Verdict
+from lyapcheck.search.inertia import mass_of
+from lyapcheck.verdicts import Exit, Verdict, exit_code
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.robot.facts import ArmFacts
-    from lyapcheck.answers.robot.properties import PropertyResult
+    from lyapcheck.certificate import Certificate
     from lyapcheck.constants import ConstantResult
     from lyapcheck.robots import Number, RobotModel
+
+
+@dataclass(frozen=True)
+class ArmFacts:
+    """An arm with what was decided and certified about it; ``extent`` says for which of its values.
+
+    Args:
+        model: the arm.
+        properties: 2.1 to 2.8.
+        constants: from both sides, in floating point.
+        prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
+            follow from M and the potential.
+        certified: by the name of a constant its ends that a certificate shows.
+        certificates: of all that is decided, by file name.
+        path: of the file that describes the arm; empty for a built-in one.
+    """
+
+    model: RobotModel
+    properties: tuple[PropertyResult, ...]
+    constants: tuple[ConstantResult, ...]
+    prints: tuple[PropertyResult, ...] = ()
+    certified: Mapping[str, CertifiedBounds] = field(default_factory=dict)
+    certificates: Mapping[str, Certificate] = field(default_factory=dict)
+    path: str = ""
+
+
+RANGES, NOMINAL = "all values of the ranges", "nominal numbers"
+
+
+def uncertain(model: RobotModel) -> bool:
+    """Whether the file gives a range to a number that the properties are about."""
+    return any(number.ranged for number in (*model.parameters.values(), *model.viscous))
+
+
+def extent(row: PropertyResult, model: RobotModel) -> str:
+    """For which arms a decided row holds; empty where nothing is decided, and for an arm without ranges."""
+    if row.finding.certificate is None or not uncertain(model):
+        return ""
+    return NOMINAL if row.over is None else RANGES
+
+
+def together(ids: Sequence[str], every: Sequence[str]) -> str:
+    """Some ids of a list, neighbours as a span: ``2.1, 2.3–2.5``."""
+    spans: list[list[str]] = []
+    for before, name in zip(["", *every], every, strict=False):
+        if name in ids:
+            if before in ids:
+                spans[-1].append(name)
+            else:
+                spans.append([name])
+    return ", ".join(f"{one[0]}–{one[-1]}" if len(one) > 2 else ", ".join(one) for one in spans)
+
+
+DATA_DIGITS = 15
+
+
+def report_data(report: ArmFacts) -> dict[str, Any]:
+    """All of it; exact numbers as decimal strings."""
+    model = report.model
+    return {
+        "robot": model.name,
+        "title": model.title,
+        "n": model.n,
+        "seed": SEED,
+        "properties": [property_data(row, extent(row, model)) for row in report.properties],
+        "prints": [property_data(row, extent(row, model)) for row in report.prints],
+        "constants": [constant_data(report, constant) for constant in report.constants],
+        "joints": [
+            {
+                "name": joint,
+                "viscous": _number(model.viscous[i]),
+                "coulomb": _number(model.coulomb[i]),
+                "torque_limit": _number(model.torque_limit[i]),
+                "encoder": model.encoder[i],
+                "gravity_bound": _number(model.gravity_bound[i]),
+            }
+            for i, joint in enumerate(model.joints)
+        ],
+        "numbers": {name: _number(number) for name, number in model.numbers.items()},
+        "parameters": list(model.parameters),
+        "assumptions": list(model.assumptions),
+    }
+
+
+def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
+    """One property, or a claim about the print, and for which arms it holds where the arm has ranges."""
+    finding = row.finding
+    return {
+        "id": row.id,
+        "statement": finding.says(row.statement),
+        "verdict": row.word,
+        "for": about or None,
+        "grade": finding.grade.label,
+        "method": finding.says(finding.method),
+        "reason": finding.reason,
+        "witness": finding.witness,
+        "evidence": told(finding.promise, finding.evidence),
+    }
+
+
+def constant_data(report: ArmFacts, constant: ConstantResult) -> dict[str, Any]:
+    """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``, and ``gap`` is theirs."""
+    lower, upper = decimals(constant.enclosure, DATA_DIGITS)
+    n, shown = report.model.n, report.certified.get(constant.name, CertifiedBounds())
+    return {
+        "name": constant.name,
+        "unit": constant.unit,
+        "lower": lower,
+        "upper": upper,
+        "certified": {"lower": _end(shown.lower), "upper": _end(shown.upper)},
+        "numeric": {"lower": lower, "upper": upper},
+        "gap": f"{constant.gap:.3e}",
+        "q": [repr(x) for x in constant.state[:n]],
+        "x": [repr(x) for x in constant.state[n:]] or None,
+        "boxes": constant.boxes,
+    }
+
+
+def _end(value: Fraction | None) -> str | None:
+    return None if value is None else decimal_text(value)
+
+
+def _number(number: Number | None) -> dict[str, Any] | None:
+    if number is None:
+        return None
+    low, high = number.bounds
+    return {
+        "value": decimal_text(number.value),
+        "unit": number.unit,
+        "source": number.source,
+        "assumed": number.assumed,
+        "low": decimal_text(low),
+        "high": decimal_text(high),
+        "note": number.note,
+    }
+
+
+READABLE = 2000
+"""Characters beyond which nobody reads a matrix; certificates have it."""
+
+
+def inertia_sections(model: RobotModel) -> list[Section]:
+    """M(q) with its ranges and at the nominal numbers, where its statements do not have the entries."""
+    result: dict[str, Section] = {}
+    for robot in (model, model.fixed()):
+        if robot.chain is not None and robot.n > FEW_JOINTS:
+            continue
+        mass, ranges = mass_of(robot), ranges_of(robot)
+        entries, title = mass_entries(mass, ranges), mass_text(mass, ranges).removeprefix("the ")
+        if entries[0] not in title and sum(map(len, entries)) <= READABLE:
+            names = (f"p{k + 1} is {name}" for k, name in enumerate(robot.parameters))
+            result[title] = Section(title, (Bullets((*entries, *names)),))
+    return list(result.values())
+
 
 SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
 MARKS = {Verdict.ERROR: "!", Verdict.REFUTED: "✗", Verdict.UNDECIDED: "?"}
@@ -221,3 +380,49 @@ def _value(number: Number | None) -> str:
     if number is None:
         return NONE
     return decimal_text(number.value) + (" (assumed)" if number.assumed else "")
+
+
+LEVELS = {Verdict.PROVED: Level.PASSED, Verdict.REFUTED: Level.FAILED}
+ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
+
+
+@dataclass(frozen=True)
+class RobotReport(ArmFacts, Answer):
+    """What is known of an arm as an answer; see `ArmFacts` for what it has."""
+
+    schema = "lyapcheck/robot/1"
+
+    @property
+    def exit_code(self) -> Exit:
+        """0 all properties proved, 1 one refuted, 3 one undecided."""
+        return exit_code(row.verdict for row in self.properties)
+
+    def document(self) -> Document:
+        """Properties, constants, joints, every number with its source, and what is assumed."""
+        return page(self)
+
+    def data(self) -> dict[str, Any]:
+        """``properties: [{id, verdict, …}], constants: [{name, lower, upper, …}], joints, numbers, …``."""
+        return report_data(self)
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a property, a claim about the print, and a constant; ``kind`` says which."""
+        judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
+        entries = [(kind, property_data(row)) for kind, row in judged]
+        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]
+        for constant in self.constants:
+            result = constant_data(self, constant)
+            kept = {key: result[key] for key in ("unit", "certified", "numeric", "gap", "q")}
+            rows.append({"kind": "constant", "id": result["name"], **kept, "x": result["x"] or []})
+        return rows
+
+    def annotations(self) -> list[Annotation]:
+        """A case a property; a refuted claim about the print is a remark."""
+        result = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
+        wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
+        return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
+
+    def _annotation(self, row: PropertyResult, level: Level) -> Annotation:
+        said = "" if level is Level.PASSED else f"{row.word}: {row.statement}; {evidence(row)}"
+        rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
+        return Annotation(level, rule, row.finding.says(row.statement), self.model.name, "", said, self.path)
