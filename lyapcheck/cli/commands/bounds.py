@@ -7,12 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress
-from lyapcheck.cli.arm import require_joints, robot_name
-from lyapcheck.cli.complaints import Complaints
 from lyapcheck.cli.options import add_certificates, add_format, add_robot, add_vary, varies
-from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates
+from lyapcheck.cli.values import Complaints, require_joints, robot_name
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
@@ -110,7 +108,7 @@ def _angle(delta: float) -> float:
 
 def _torques(text: str, model: RobotModel) -> tuple[Fraction, ...]:
     """Torques in N·m, one a joint and none below 0."""
-    from lyapcheck.cli.decimals import parse_decimals
+    from lyapcheck.cli.values import parse_decimals
 
     option = "--friction"
     values = parse_decimals(option, text) or ()

@@ -56,10 +56,9 @@ def run(
 
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.fresh_check import ContradictionError
-    from lyapcheck.cli.m_range import parse_m
-    from lyapcheck.cli.output import open_folder, write_certificates
     from lyapcheck.cli.progress import progress
-    from lyapcheck.cli.show import show
+    from lyapcheck.cli.show import open_folder, show, write_certificates
+    from lyapcheck.cli.values import parse_m
     from lyapcheck.errors import argument_error
 
     if n is not None and robot is not None:

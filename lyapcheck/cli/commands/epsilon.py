@@ -8,7 +8,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress
-from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.options import (
     add_certificates,
     add_format,
@@ -18,9 +17,9 @@ from lyapcheck.cli.options import (
     add_vary,
     varies,
 )
-from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates
+from lyapcheck.cli.values import require_joints, robot_name
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
@@ -139,7 +138,7 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
     """The gain sets of the members asked for."""
     if m is None:
         return list(gain_file.gains)
-    from lyapcheck.cli.m_range import parse_m
+    from lyapcheck.cli.values import parse_m
 
     members = parse_m(m)
     chosen = [gain_set for gain_set in gain_file.gains if gain_set.m in members]

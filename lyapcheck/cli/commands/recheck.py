@@ -58,8 +58,8 @@ def run(
         raise lacking("flint")
     if kernel or kernel_files is not None:
         from lyapcheck.answers.kernel import writer
-        from lyapcheck.cli.output import open_folder
         from lyapcheck.cli.progress import progress
+        from lyapcheck.cli.show import open_folder
 
         folder = None if kernel_files is None else open_folder("--kernel-files", kernel_files)
         with progress("kernel") as advance:

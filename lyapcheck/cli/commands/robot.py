@@ -55,11 +55,11 @@ def run(
       lyapcheck robot arm.urdf --tip hand --certificates proof/
       lyapcheck robot buap3 --export arm.toml
     """
-    from lyapcheck.cli.output import open_folder, write_certificates, write_whole
+    from lyapcheck.cli.show import open_folder, write_certificates, write_whole
     from lyapcheck.robots import load, names
 
     if export is not None:
-        from lyapcheck.cli.output import require_writable
+        from lyapcheck.cli.show import require_writable
         from lyapcheck.robots.export import arm_text
 
         if str(export) == "-":

@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_certificates, add_format, add_members
-from lyapcheck.cli.output import open_folder, write_certificates, write_whole
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
+from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
