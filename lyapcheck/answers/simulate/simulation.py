@@ -10,50 +10,17 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
 
 from lyapcheck.answers.gain_place import GainPlace, gain_place
+from lyapcheck.output import fields
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.simulate.breach import Breach
-
-
-def cell(value: float | None, form: str) -> str:
-    """A number in a form, a dash where there is none."""
-    return shown(value, form)
-
-
-def lower(value: float | Fraction | None) -> str:
-    """A limit or an ε₀, rounded down; a dash where there is none."""
-    return NONE if value is None or math.isnan(value) else at_least(value)
-
-
-def upper(value: float | None) -> str:
-    """A bound from above, rounded up; a dash where there is none."""
-    return NONE if value is None or math.isnan(value) else at_most(value)
-
-
-def sized(value: float) -> str:
-    """The size of an error in one digit, rounded up."""
-    return "unknown" if math.isnan(value) else at_most(value, 1)
-
-
-def plain(value: float | None) -> float | None:
-    """The number to nine digits, which is what the accuracy of a run supports; none for NaN and infinity."""
-    return None if value is None or not math.isfinite(value) else float(f"{value:.9g}")
-
-
-def plains(values: Iterable[float]) -> list[float | None]:
-    """The same for each number."""
-    return [plain(float(value)) for value in values]
-
-
-def row(values: Iterable[float]) -> str:
-    """Numbers in parentheses."""
-    return f"({', '.join(shown(value, 'g') for value in values)})"
 
 
 PROMISES, FINISHED = "promises", "finished"
@@ -65,6 +32,11 @@ NUMERIC = (
     "there is no certificate."
 )
 BREACH_KEYS = ("promise", "t", "value", "limit", "unit", "grade")
+BREACH = (
+    Field("breach", "breach", to=lambda breach: breach.data, csv=None),
+    Field("", lambda one: breach_record(one.breach), csv="breach"),
+)
+"""What broke, whole for programs and in a few cells for spreadsheets."""
 
 
 class Simulated(Protocol):
@@ -77,6 +49,10 @@ class Simulated(Protocol):
     @property
     def robot(self) -> str:
         """The name of the arm."""
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of its joints."""
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -122,6 +98,8 @@ class Simulation(Answer, Generic[Result]):
 
     promised: ClassVar[str]
     """What theory promises, in words."""
+    fields: ClassVar[tuple[Field, ...]]
+    """What is said of a gain set, and of each joint of it."""
 
     @property
     def exit_code(self) -> Exit:
@@ -180,21 +158,28 @@ class Simulation(Answer, Generic[Result]):
         """A case a gain set."""
         return [self._annotation(name) for name in self._names()]
 
-    @abstractmethod
     def overview(self) -> Table:
-        """A row a gain set."""
+        """A row a gain set, and how it came out."""
+        mark = Field("", lambda one: self.mark(one.name) or NONE, "promises", align="l")
+        whole = [one for one in self.fields if not one.each]
+        return fields.table([*whole, mark], [(one,) for one in self.results])
+
+    def by_joint(self, one: Result, **words: Any) -> Table:
+        """A row a joint of a gain set."""
+        parts = [field for field in self.fields if field.each]
+        return fields.table(parts, [(one, i) for i in range(len(one.joints))], **words)
 
     @abstractmethod
     def section(self, one: Result) -> Section:
         """All that was found for a gain set."""
 
-    @abstractmethod
     def plain_data(self, one: Result) -> dict[str, Any]:
         """The same for programs."""
+        return fields.data(self.fields, one)
 
-    @abstractmethod
     def rows_of(self, one: Result) -> list[dict[str, Any]]:
         """The same as rows of a table."""
+        return fields.records(self.fields, one, len(one.joints))
 
     def opening(self) -> Sequence[Block]:
         """What all gain sets have in common."""
@@ -258,3 +243,38 @@ def breach_record(breach: Breach | None) -> dict[str, Any]:
 
 def _unique(texts: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(texts))
+
+
+def lower(value: float | Fraction | None) -> str:
+    """A limit or an ε₀, rounded down; a dash where there is none."""
+    return NONE if value is None or math.isnan(value) else at_least(value)
+
+
+def upper(value: float | None) -> str:
+    """A bound from above, rounded up; a dash where there is none."""
+    return NONE if value is None or math.isnan(value) else at_most(value)
+
+
+def sized(value: float) -> str:
+    """The size of an error in one digit, rounded up."""
+    return "unknown" if math.isnan(value) else at_most(value, 1)
+
+
+def plain(value: float | None) -> float | None:
+    """The number to nine digits, which is what the accuracy of a run supports; none for NaN and infinity."""
+    return None if value is None or not math.isfinite(value) else float(f"{value:.9g}")
+
+
+def plains(values: Iterable[float]) -> list[float | None]:
+    """The same for each number."""
+    return [plain(float(value)) for value in values]
+
+
+def degrees(values: Iterable[float]) -> list[float | None]:
+    """Angles in rad for programs."""
+    return plains(map(math.degrees, values))
+
+
+def row(values: Iterable[float]) -> str:
+    """Numbers in parentheses."""
+    return f"({', '.join(shown(value, 'g') for value in values)})"
