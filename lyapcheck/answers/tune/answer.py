@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,8 @@ from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, decimals
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section
+from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -104,101 +105,6 @@ class TunedSet:
         return GainSet(self.name, self.m, kp, kv, condition=DECIDING)
 
 
-DIGITS = 20
-
-
-def targets_data(targets: Targets) -> dict[str, Any]:
-    """What was asked for; numbers as decimal strings."""
-    return {
-        "digits": targets.digits,
-        "peak_share": _texts(targets.peak_share),
-        "kv_share": _texts(targets.kv_share),
-        "kv_min": _texts(targets.kv_min),
-        "damping": _texts(targets.damping),
-    }
-
-
-def limits_data(limits: Limits) -> dict[str, Any]:
-    """What the gains were tuned to, N·m and N·m·s/rad."""
-    return {
-        "torque": [None if limit is None else decimal_text(limit) for limit in limits.torque],
-        "gravity": _texts(limits.gravity),
-        "viscous_min": None if limits.viscous_min is None else decimal_text(limits.viscous_min),
-    }
-
-
-def joint_records(sets: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
-    rows = []
-    for item in sets:
-        head = {key: item[key] for key in ("name", "m", "status")}
-        beside = {joint["joint"]: joint for joint in (item["comparison"] or {}).get("joints", ())}
-        for joint in item["joints"]:
-            compared = {key: value for key, value in beside.get(joint["joint"], {}).items() if key != "joint"}
-            broken = {"broken": ", ".join(compared["broken"])} if compared else {}
-            rows.append(head | joint | ({"compared": compared | broken} if compared else {}))
-        if not item["joints"]:
-            rows.append(head | {"reasons": "; ".join(item["reasons"])})
-    return rows
-
-
-def set_data(item: TunedSet, digits: int) -> dict[str, Any]:
-    """The gains of one member, what ends each, and what they are compared with."""
-    return {
-        "name": item.name,
-        "m": item.m,
-        "status": item.status,
-        "reasons": list(item.reasons),
-        "joints": [_joint(joint, digits) for joint in item.joints],
-        "program": item.program or None,
-        "comparison": None if item.comparison is None else _comparison(item.comparison),
-    }
-
-
-def _joint(joint: TunedJoint, digits: int) -> dict[str, Any]:
-    return {
-        "joint": joint.name,
-        "kp": decimal_text(joint.kp, digits),
-        "kv": decimal_text(joint.kv, digits),
-        "kp_bound": joint.kp_bound,
-        "kv_bound": joint.kv_bound,
-        "sum_limit": _ends(joint.sum_limit),
-        "kv_limit": _ends(joint.kv_limit),
-        "damping": None if joint.damping is None else decimal_text(joint.damping),
-    }
-
-
-def _comparison(comparison: GainComparison) -> dict[str, Any]:
-    return {
-        "name": comparison.name,
-        "source": comparison.source,
-        "joints": [_compared_data(joint) for joint in comparison.joints],
-    }
-
-
-def _compared_data(joint: ComparedJoint) -> dict[str, Any]:
-    return {
-        "joint": joint.name,
-        "kp": decimal_text(joint.kp),
-        "kv": decimal_text(joint.kv),
-        "kp_left": decimal_text(joint.kp_left),
-        "kp_left_share": decimal_text(joint.kp_left_share),
-        "used": decimal_text(joint.used),
-        "broken": list(joint.broken),
-    }
-
-
-def _ends(value: Enclosure) -> dict[str, str]:
-    return dict(zip(("lower", "upper"), decimals(value, DIGITS), strict=True))
-
-
-def _texts(values: Sequence[Fraction] | None) -> list[str] | None:
-    return None if values is None else [decimal_text(value) for value in values]
-
-
-HEADS = ("joint", "k_p", "k_v", "(10p) limit", "(19) limit", "k_p ends at", "k_v ends at")
-DAMPING_HEAD = "ζ"
-COMPARED_HEADS = ("joint", "k_p", "k_v", "k_p left", "of the largest", "share of (10p)", "breaks")
 BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
 MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
 NONE_FOUND = {
@@ -214,6 +120,71 @@ DAMPED = (
 LIMIT_DIGITS = 6
 """Significant digits of limits, as the gate shows them."""
 LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
+
+
+DIGITS = 20
+"""Of limits, for programs."""
+
+
+def ends(value: Enclosure) -> dict[str, str]:
+    """A limit for programs."""
+    return dict(zip(("lower", "upper"), decimals(value, DIGITS), strict=True))
+
+
+def texts(values: Iterable[Fraction | None]) -> list[str | None]:
+    """Exact numbers for programs."""
+    return [None if value is None else decimal_text(value) for value in values]
+
+
+def _limit(value: Enclosure) -> str:
+    return at_least(value, LIMIT_DIGITS)
+
+
+def _percent(share: Fraction) -> str:
+    return f"{at_least(100 * share)} %"
+
+
+def _broken(names: Sequence[str]) -> str:
+    return ", ".join(BOUNDS[name] for name in names) or "nothing"
+
+
+ASKED = (
+    Field("digits", "digits"),
+    *(Field(key, key, to=texts) for key in ("peak_share", "kv_share", "kv_min", "damping")),
+)
+TUNED_TO = (
+    Field("torque", "torque", to=texts),
+    Field("gravity", "gravity", to=texts),
+    Field("viscous_min", "viscous_min", to=decimal_text),
+)
+"""N·m and N·m·s/rad."""
+COMPARED = (
+    Field("joint", "name", "joint", align="l"),
+    Field("kp", "kp", "k_p", decimal_text, decimal_text),
+    Field("kv", "kv", "k_v", decimal_text, decimal_text),
+    Field("kp_left", "kp_left", "k_p left", decimal_text, decimal_text),
+    Field("kp_left_share", "kp_left_share", "of the largest", _percent, decimal_text),
+    Field("used", "used", "share of (10p)", _percent, decimal_text),
+    Field("broken", "broken", "breaks", _broken, list, "l"),
+)
+
+
+def of_joint(digits: int, damped: bool) -> tuple[Field, ...]:
+    """What is said of a joint, its gains with so many decimal places."""
+
+    def gain(value: Fraction) -> str:
+        return decimal_text(value, digits)
+
+    return (
+        Field("joint", "name", "joint", align="l"),
+        Field("kp", "kp", "k_p", gain, gain),
+        Field("kv", "kv", "k_v", gain, gain),
+        Field("sum_limit", "sum_limit", "(10p) limit", _limit, ends),
+        Field("kv_limit", "kv_limit", "(19) limit", _limit, ends),
+        Field("kp_bound", "kp_bound", "k_p ends at", BOUNDS.__getitem__, align="l"),
+        Field("kv_bound", "kv_bound", "k_v ends at", BOUNDS.__getitem__, align="l"),
+        Field("damping", "damping", "ζ" if damped else "", at_least, decimal_text),
+    )
 
 
 @dataclass(frozen=True)
@@ -263,16 +234,45 @@ class Tuning(Answer):
         """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as strings."""
         return {
             "robot": self.robot,
-            "targets": targets_data(self.targets),
-            "limits": limits_data(self.limits),
+            "targets": data(ASKED, self.targets),
+            "limits": data(TUNED_TO, self.limits),
             "assumptions": list(self.limits.assumptions),
-            "results": [set_data(item, self.targets.digits) for item in self.sets],
+            "results": [self._set(item) for item in self.sets],
             "effects": [one.data for one in self.effects],
         }
 
     def records(self) -> list[dict[str, Any]]:
-        """A row a joint of each member."""
-        return joint_records(self.data()["results"])
+        """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
+        rows = []
+        for item in self.data()["results"]:
+            head = {key: item[key] for key in ("name", "m", "status")}
+            beside = (item["comparison"] or {"joints": [{}] * len(item["joints"])})["joints"]
+            for joint, other in zip(item["joints"], beside, strict=True):
+                compared = {key: other[key] for key in other if key != "joint"}
+                if compared:
+                    compared["broken"] = ", ".join(compared["broken"])
+                rows.append(head | joint | ({"compared": compared} if compared else {}))
+            if not item["joints"]:
+                rows.append(head | {"reasons": "; ".join(item["reasons"])})
+        return rows
+
+    def _set(self, item: TunedSet) -> dict[str, Any]:
+        fields, other = of_joint(self.targets.digits, False), item.comparison
+        return {
+            "name": item.name,
+            "m": item.m,
+            "status": item.status,
+            "reasons": list(item.reasons),
+            "joints": [data(fields, joint) for joint in item.joints],
+            "program": item.program or None,
+            "comparison": None
+            if other is None
+            else {
+                "name": other.name,
+                "source": other.source,
+                "joints": [data(COMPARED, joint) for joint in other.joints],
+            },
+        }
 
     def _verdict(self) -> str:
         """The worst of the members decides."""
@@ -298,41 +298,9 @@ def _section(item: TunedSet, digits: int) -> Section:
     title = f"{MARKS[item.status]} {item.name} (m = {item.m})"
     if item.status != TUNED:
         return Section(f"{title}: {item.status}", (Bullets(item.reasons),))
-    compared = () if item.comparison is None else (_compared(item.comparison),)
-    return Section(title, (_tuned(item, digits), *compared))
-
-
-def _tuned(item: TunedSet, digits: int) -> Table:
     damped = any(joint.damping is not None for joint in item.joints)
-    rows: list[Sequence[str]] = [
-        (
-            joint.name,
-            decimal_text(joint.kp, digits),
-            decimal_text(joint.kv, digits),
-            at_least(joint.sum_limit, LIMIT_DIGITS),
-            at_least(joint.kv_limit, LIMIT_DIGITS),
-            BOUNDS[joint.kp_bound],
-            BOUNDS[joint.kv_bound],
-            *([] if joint.damping is None else [at_least(joint.damping)]),
-        )
-        for joint in item.joints
-    ]
-    heads = (*HEADS, DAMPING_HEAD) if damped else HEADS
-    return Table(heads, tuple(map(tuple, rows)), align="lrrrrllr"[: len(heads)])
-
-
-def _compared(comparison: GainComparison) -> Table:
-    rows = tuple(
-        (
-            joint.name,
-            decimal_text(joint.kp),
-            decimal_text(joint.kv),
-            decimal_text(joint.kp_left),
-            f"{at_least(100 * joint.kp_left_share)} %",
-            f"{at_least(100 * joint.used)} %",
-            ", ".join(BOUNDS[name] for name in joint.broken) or "nothing",
-        )
-        for joint in comparison.joints
-    )
-    beside = f"Beside {comparison.name} of {comparison.source}:"
-    return Table(COMPARED_HEADS, rows, beside, "lrrrrrl")
+    tables = [table(of_joint(digits, damped), [(joint,) for joint in item.joints])]
+    if (other := item.comparison) is not None:
+        beside = f"Beside {other.name} of {other.source}:"
+        tables.append(table(COMPARED, [(joint,) for joint in other.joints], beside))
+    return Section(title, tuple(tables))

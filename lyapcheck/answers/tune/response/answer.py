@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
@@ -14,6 +16,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.fields import Field, records, table
 from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
@@ -26,16 +29,6 @@ IN_WORDS = {BY_19: "(19)", BY_PROOF: "proof"}
 STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
 """The condition of a set that shows stability, in words."""
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
-HEADS = (
-    "joint",
-    "k_p",
-    "k_v",
-    "overshoot [%]",
-    "settles [s]",
-    "torque share",
-    "friction leaves [°]",
-    "held by",
-)
 NONE = "—"
 FAR = 100
 """Ratios from here on are not told apart."""
@@ -248,23 +241,30 @@ class BenchTuning(Answer):
         return Table(OVERVIEW, tuple(rows), align="llrlrrrrr", keys=2)
 
     def _section(self, one: Candidate) -> Section:
-        digits = self.bench.digits
-        rows = [
-            (
-                joint,
-                decimal_text(one.gains.kp[i], digits),
-                decimal_text(one.gains.kv[i], digits),
-                _up(float(one.trial.overshoot[i])),
-                _seconds(float(one.trial.settled[i])),
-                _up(float(one.trial.share[i])),
-                _degrees(float(one.trial.rest[i])),
-                one.held[i],
-            )
-            for i, joint in enumerate(self.joints)
-        ]
+        rows = table(self._fields, [(one, i) for i in range(len(self.joints))])
         title = f"{one.gains.name} (m = {one.gains.m}, {one.shown})"
         lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
-        return Section(title, (Table(HEADS, tuple(rows), align="lrrrrrrl"), Bullets(lines)))
+        return Section(title, (rows, Bullets(lines)))
+
+    @cached_property
+    def _fields(self) -> tuple[Field, ...]:
+        """What is said of each joint of a set."""
+
+        def gain(value: Fraction) -> str:
+            return decimal_text(value, self.bench.digits)
+
+        return (
+            Field("joint", lambda one: self.joints, "joint", align="l", each=True),
+            Field("kp", "gains.kp", "k_p", gain, _exact, each=True),
+            Field("kv", "gains.kv", "k_v", gain, _exact, each=True),
+            Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
+            Field("settling", "trial.settled", "settles [s]", _seconds, _sixes, each=True),
+            Field("torque_share", "trial.share", "torque share", _up, _sixes, each=True),
+            Field("rest_error", "trial.rest", "friction leaves [°]", _degrees, _sixes, each=True),
+            Field(
+                "held_by", lambda one: one.held or ("",) * len(self.joints), "held by", align="l", each=True
+            ),
+        )
 
     def _behind(self, one: Candidate) -> Iterator[str]:
         """What a set misses, and what stands in the way."""
@@ -301,19 +301,7 @@ class BenchTuning(Answer):
             "met": self.met(one),
             "condition": list(one.gains.condition),
             "worst": _six(trial.worst(self.bench.wishes)),
-            "joints": [
-                {
-                    "joint": joint,
-                    "kp": decimal_text(one.gains.kp[i]),
-                    "kv": decimal_text(one.gains.kv[i]),
-                    "overshoot": _six(trial.overshoot[i]),
-                    "settling": _six(trial.settled[i]),
-                    "torque_share": _six(trial.share[i]),
-                    "rest_error": _six(trial.rest[i]),
-                    "held_by": one.held[i] if one.held else "",
-                }
-                for i, joint in enumerate(self.joints)
-            ],
+            "joints": records(self._fields, one, len(self.joints)),
         }
 
 
@@ -327,6 +315,14 @@ def _degrees_of(values: tuple[float, ...]) -> list[float | None]:
 
 def _six(value: float) -> float | None:
     return float(f"{float(value):.6g}") if math.isfinite(value) else None
+
+
+def _sixes(values: Iterable[float]) -> list[float | None]:
+    return [_six(value) for value in values]
+
+
+def _exact(values: Iterable[Fraction]) -> list[str]:
+    return [decimal_text(value) for value in values]
 
 
 def _most(values: Any, none_is_worst: bool = False) -> float:
