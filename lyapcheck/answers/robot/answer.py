@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most, decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.fields import Field, data, records, table
 from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.number import with_unit
@@ -29,8 +30,64 @@ if TYPE_CHECKING:
     from lyapcheck.robots import Number, RobotModel
 
 
+RANGES, NOMINAL = "all values of the ranges", "nominal numbers"
+LEVELS = {Verdict.PROVED: Level.PASSED, Verdict.REFUTED: Level.FAILED}
+SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
+MARKS = {Verdict.ERROR: "!", Verdict.REFUTED: "✗", Verdict.UNDECIDED: "?"}
+"""From what matters most."""
+NONE = "–"
+DIGITS, DATA_DIGITS = 6, 15
+"""Of the ends in floating point, for people and for programs."""
+ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
+AT_NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
+GAPS = "The gap is that of the ends by certificates, relative to the larger one."
+NUMERIC = "Marked *: that of the numeric ends, as a certificate is missing."
+WIDE = 0.25
+"""The gap from which a word is said about it."""
+READABLE = 2000
+"""Characters beyond which nobody reads a matrix; certificates have it."""
+
+
+def _exact(number: Number | None) -> str:
+    """A number of the arm for people."""
+    if number is None:
+        return NONE
+    return decimal_text(number.value) + (" (assumed)" if number.assumed else "")
+
+
+NUMBER = (
+    Field("value", "value", to=decimal_text),
+    Field("unit", "unit"),
+    Field("source", "source"),
+    Field("assumed", "assumed"),
+    Field("low", lambda number: decimal_text(number.bounds[0])),
+    Field("high", lambda number: decimal_text(number.bounds[1])),
+    Field("note", "note"),
+)
+"""What is said of a number of the arm."""
+
+
+def _data(number: Number | None) -> dict[str, Any] | None:
+    return None if number is None else data(NUMBER, number)
+
+
+def _each(numbers: Iterable[Number | None]) -> list[dict[str, Any] | None]:
+    return list(map(_data, numbers))
+
+
+JOINT = (
+    Field("name", "joints", "joint", align="l", each=True),
+    Field("viscous", "viscous", "viscous [N·m·s/rad]", _exact, _each, each=True),
+    Field("coulomb", "coulomb", "Coulomb [N·m]", _exact, _each, each=True),
+    Field("torque_limit", "torque_limit", "torque limit [N·m]", _exact, _each, each=True),
+    Field("encoder", "encoder", "encoder [counts/turn]", lambda x: NONE if x is None else str(x), each=True),
+    Field("gravity_bound", "gravity_bound", to=_each, each=True),
+)
+"""What is said of a joint."""
+
+
 @dataclass(frozen=True)
-class ArmFacts:
+class RobotReport(Answer):
     """An arm with what was decided and certified about it; ``extent`` says for which of its values.
 
     Args:
@@ -44,6 +101,8 @@ class ArmFacts:
         path: of the file that describes the arm; empty for a built-in one.
     """
 
+    schema = "lyapcheck/robot/1"
+
     model: RobotModel
     properties: tuple[PropertyResult, ...]
     constants: tuple[ConstantResult, ...]
@@ -52,8 +111,62 @@ class ArmFacts:
     certificates: Mapping[str, Certificate] = field(default_factory=dict)
     path: str = ""
 
+    @property
+    def exit_code(self) -> Exit:
+        """0 all properties proved, 1 one refuted, 3 one undecided."""
+        return exit_code(row.verdict for row in self.properties)
 
-RANGES, NOMINAL = "all values of the ranges", "nominal numbers"
+    def document(self) -> Document:
+        """The verdicts first, then what was not proved, then all there is."""
+        model = self.model
+        judged = [(f"property {row.id}", row) for row in self.properties]
+        judged += [(row.statement, row) for row in self.prints]
+        wrong = tuple(
+            f"{what}: {row.word}; {evidence(row)}"
+            for what, row in judged
+            if row.verdict is not Verdict.PROVED
+        )
+        about = Paragraph(f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}.")
+        return Document(_title(self), (about, *([Bullets(wrong)] if wrong else []), *_sections(self)))
+
+    def data(self) -> dict[str, Any]:
+        """``properties: [{id, verdict, …}], constants: [{name, lower, upper, …}], joints, numbers, …``."""
+        model = self.model
+        return {
+            "robot": model.name,
+            "title": model.title,
+            "n": model.n,
+            "seed": SEED,
+            "properties": [property_data(row, extent(row, model)) for row in self.properties],
+            "prints": [property_data(row, extent(row, model)) for row in self.prints],
+            "constants": [constant_data(self, constant) for constant in self.constants],
+            "joints": records(JOINT, model, model.n),
+            "numbers": {name: _data(number) for name, number in model.numbers.items()},
+            "parameters": list(model.parameters),
+            "assumptions": list(model.assumptions),
+        }
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a property, a claim about the print, and a constant; ``kind`` says which."""
+        judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
+        entries = [(kind, property_data(row)) for kind, row in judged]
+        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]
+        for constant in self.constants:
+            result = constant_data(self, constant)
+            kept = {key: result[key] for key in ("unit", "certified", "numeric", "gap", "q")}
+            rows.append({"kind": "constant", "id": result["name"], **kept, "x": result["x"] or []})
+        return rows
+
+    def annotations(self) -> list[Annotation]:
+        """A case a property; a refuted claim about the print is a remark."""
+        result = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
+        wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
+        return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
+
+    def _annotation(self, row: PropertyResult, level: Level) -> Annotation:
+        said = "" if level is Level.PASSED else f"{row.word}: {row.statement}; {evidence(row)}"
+        rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
+        return Annotation(level, rule, row.finding.says(row.statement), self.model.name, "", said, self.path)
 
 
 def uncertain(model: RobotModel) -> bool:
@@ -80,37 +193,6 @@ def together(ids: Sequence[str], every: Sequence[str]) -> str:
     return ", ".join(f"{one[0]}–{one[-1]}" if len(one) > 2 else ", ".join(one) for one in spans)
 
 
-DATA_DIGITS = 15
-
-
-def report_data(report: ArmFacts) -> dict[str, Any]:
-    """All of it; exact numbers as decimal strings."""
-    model = report.model
-    return {
-        "robot": model.name,
-        "title": model.title,
-        "n": model.n,
-        "seed": SEED,
-        "properties": [property_data(row, extent(row, model)) for row in report.properties],
-        "prints": [property_data(row, extent(row, model)) for row in report.prints],
-        "constants": [constant_data(report, constant) for constant in report.constants],
-        "joints": [
-            {
-                "name": joint,
-                "viscous": _number(model.viscous[i]),
-                "coulomb": _number(model.coulomb[i]),
-                "torque_limit": _number(model.torque_limit[i]),
-                "encoder": model.encoder[i],
-                "gravity_bound": _number(model.gravity_bound[i]),
-            }
-            for i, joint in enumerate(model.joints)
-        ],
-        "numbers": {name: _number(number) for name, number in model.numbers.items()},
-        "parameters": list(model.parameters),
-        "assumptions": list(model.assumptions),
-    }
-
-
 def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
     """One property, or a claim about the print, and for which arms it holds where the arm has ranges."""
     finding = row.finding
@@ -127,94 +209,25 @@ def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
     }
 
 
-def constant_data(report: ArmFacts, constant: ConstantResult) -> dict[str, Any]:
+def constant_data(report: RobotReport, constant: ConstantResult) -> dict[str, Any]:
     """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``, and ``gap`` is theirs."""
     lower, upper = decimals(constant.enclosure, DATA_DIGITS)
-    n, shown = report.model.n, report.certified.get(constant.name, CertifiedBounds())
+    n, known = report.model.n, report.certified.get(constant.name, CertifiedBounds())
     return {
         "name": constant.name,
         "unit": constant.unit,
         "lower": lower,
         "upper": upper,
-        "certified": {"lower": _end(shown.lower), "upper": _end(shown.upper)},
+        "certified": {
+            end: None if (shown := getattr(known, end)) is None else decimal_text(shown)
+            for end in ("lower", "upper")
+        },
         "numeric": {"lower": lower, "upper": upper},
         "gap": f"{constant.gap:.3e}",
         "q": [repr(x) for x in constant.state[:n]],
         "x": [repr(x) for x in constant.state[n:]] or None,
         "boxes": constant.boxes,
     }
-
-
-def _end(value: Fraction | None) -> str | None:
-    return None if value is None else decimal_text(value)
-
-
-def _number(number: Number | None) -> dict[str, Any] | None:
-    if number is None:
-        return None
-    low, high = number.bounds
-    return {
-        "value": decimal_text(number.value),
-        "unit": number.unit,
-        "source": number.source,
-        "assumed": number.assumed,
-        "low": decimal_text(low),
-        "high": decimal_text(high),
-        "note": number.note,
-    }
-
-
-READABLE = 2000
-"""Characters beyond which nobody reads a matrix; certificates have it."""
-
-
-def inertia_sections(model: RobotModel) -> list[Section]:
-    """M(q) with its ranges and at the nominal numbers, where its statements do not have the entries."""
-    result: dict[str, Section] = {}
-    for robot in (model, model.fixed()):
-        if robot.chain is not None and robot.n > FEW_JOINTS:
-            continue
-        mass, ranges = mass_of(robot), ranges_of(robot)
-        entries, title = mass_entries(mass, ranges), mass_text(mass, ranges).removeprefix("the ")
-        if entries[0] not in title and sum(map(len, entries)) <= READABLE:
-            names = (f"p{k + 1} is {name}" for k, name in enumerate(robot.parameters))
-            result[title] = Section(title, (Bullets((*entries, *names)),))
-    return list(result.values())
-
-
-SYMBOLS = {"lambda_min": "λmin(M)", "lambda_max": "λmax(M) = β_M"}
-MARKS = {Verdict.ERROR: "!", Verdict.REFUTED: "✗", Verdict.UNDECIDED: "?"}
-"""From what matters most."""
-NONE = "–"
-_DIGITS = 6
-CONSTANT_HEADS = (
-    "constant",
-    "unit",
-    "certified: above",
-    "at most",
-    "numeric: at least",
-    "at most",
-    "gap",
-)
-JOINT_HEADS = ("joint", "viscous [N·m·s/rad]", "Coulomb [N·m]", "torque limit [N·m]", "encoder [counts/turn]")
-AT_NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
-GAPS = "The gap is that of the ends by certificates, relative to the larger one."
-NUMERIC = "Marked *: that of the numeric ends, as a certificate is missing."
-WIDE = 0.25
-"""The gap from which a word is said about it."""
-PRINT = "As the source prints it"
-
-
-def page(report: ArmFacts) -> Document:
-    """The verdicts first, then what was not proved, then all there is."""
-    model = report.model
-    judged = [(f"property {row.id}", row) for row in report.properties]
-    judged += [(row.statement, row) for row in report.prints]
-    wrong = tuple(
-        f"{what}: {row.word}; {evidence(row)}" for what, row in judged if row.verdict is not Verdict.PROVED
-    )
-    about = Paragraph(f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}.")
-    return Document(_title(report), (about, *([Bullets(wrong)] if wrong else []), *_sections(report)))
 
 
 def evidence(row: PropertyResult) -> str:
@@ -229,7 +242,7 @@ def evidence(row: PropertyResult) -> str:
     return "; ".join(part for part in parts if part)
 
 
-def _title(report: ArmFacts) -> str:
+def _title(report: RobotReport) -> str:
     name = report.model.name
     for verdict, mark in MARKS.items():
         result = [row.id for row in report.properties if row.verdict is verdict]
@@ -251,22 +264,22 @@ def _title(report: ArmFacts) -> str:
     return f"{'!' if nominal else '✓'} {name}: properties {said}: {'; '.join(parts)}"
 
 
-def _promises(report: ArmFacts) -> list[Promise | None]:
+def _promises(report: RobotReport) -> list[Promise | None]:
     """One a property: about all ranges where that is shown, else about the nominal numbers."""
     return [row.over or row.finding.promise for row in report.properties]
 
 
-def _sections(report: ArmFacts) -> list[Section]:
+def _sections(report: RobotReport) -> list[Section]:
     model = report.model
-    prints = [_judged(PRINT, "claim", report.prints, report)] if report.prints else []
-    joints = [Section("Joints", (Table(JOINT_HEADS, tuple(_joint_rows(model))),))]
+    prints = [_judged("As the source prints it", "claim", report.prints, report)] if report.prints else []
+    joints = [Section("Joints", (table(JOINT, [(model, i) for i in range(model.n)]),))]
     assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
     numbers = [Section("Numbers", (_numbers(model),))] if model.numbers else []
     properties = _judged("Properties", "property", report.properties, report)
     return [properties, *prints, _constants(report), *joints, *numbers, *assumed, *inertia_sections(model)]
 
 
-def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: ArmFacts) -> Section:
+def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: RobotReport) -> Section:
     """Verdicts with the arms that they are about, then what supports them."""
     ranged = uncertain(report.model)
     cells = tuple(
@@ -285,19 +298,20 @@ def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: ArmFa
     return Section(title, (table, Paragraph("Shown by:"), Bullets(shown)))
 
 
-def _constants(report: ArmFacts) -> Section:
+def _constants(report: RobotReport) -> Section:
     rows = [_constant_row(report, constant) for constant in report.constants]
     states = [row for constant in report.constants for row in _state_rows(report, constant)]
-    table = Table(CONSTANT_HEADS, tuple(rows), align="llrrrrr")
+    heads = ("constant", "unit", "certified: above", "at most", "numeric: at least", "at most", "gap")
+    ends = Table(heads, tuple(rows), align="llrrrrr")
     shown = Table(("constant", "shown at q [rad]"), tuple(states), align="ll")
     said = [_wide(report, constant) for constant in report.constants if _gap(report, constant) > WIDE]
     wide = [Bullets(tuple(said))] if said else []
     starred = any(not _by_certificates(report, constant) for constant in report.constants)
     notes = [Paragraph(AT_NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if starred else GAPS)]
-    return Section("Constants", (*notes, table, *wide, shown))
+    return Section("Constants", (*notes, ends, *wide, shown))
 
 
-def _wide(report: ArmFacts, constant: ConstantResult) -> str:
+def _wide(report: RobotReport, constant: ConstantResult) -> str:
     """How wide the ends are, and what might narrow them."""
     advice, model = "try a larger --max-boxes", report.model
     if model.n > FEW_JOINTS and model.fixed().chain is not None:
@@ -312,7 +326,7 @@ def _percent(share: Fraction) -> str:
     return at_most(100 * share, 2)
 
 
-def _gap(report: ArmFacts, constant: ConstantResult) -> Fraction:
+def _gap(report: RobotReport, constant: ConstantResult) -> Fraction:
     """Of the certified ends, which users rely on; where one is missing, of the numeric ones."""
     shown = report.certified.get(constant.name)
     if shown is None or shown.lower is None or shown.upper is None:
@@ -323,24 +337,24 @@ def _gap(report: ArmFacts, constant: ConstantResult) -> Fraction:
     return (high - low) / size if size else Fraction(0)
 
 
-def _by_certificates(report: ArmFacts, constant: ConstantResult) -> bool:
+def _by_certificates(report: RobotReport, constant: ConstantResult) -> bool:
     """Whether both ends are certified; that a norm is not negative needs no certificate."""
     shown = report.certified.get(constant.name, CertifiedBounds())
     zero = constant.name != "lambda_min" and shown.upper == 0
     return zero or (shown.lower is not None and shown.upper is not None)
 
 
-def _constant_row(report: ArmFacts, constant: ConstantResult) -> tuple[str, ...]:
+def _constant_row(report: RobotReport, constant: ConstantResult) -> tuple[str, ...]:
     """The ends that certificates show, those of floating point, rounded outward, and the gap."""
     shown, gap = report.certified.get(constant.name, CertifiedBounds()), _gap(report, constant)
     known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
     cell = "0" if gap == 0 else f"{_percent(gap)} %"
     star = "" if _by_certificates(report, constant) else "*"
-    ends = decimals(constant.enclosure, _DIGITS)
+    ends = decimals(constant.enclosure, DIGITS)
     return (_symbol(constant), constant.unit, *known, *ends, cell + star)
 
 
-def _state_rows(report: ArmFacts, constant: ConstantResult) -> list[tuple[str, str]]:
+def _state_rows(report: RobotReport, constant: ConstantResult) -> list[tuple[str, str]]:
     """The angles; of k_c also the direction x."""
     n, name = report.model.n, _symbol(constant)
     angles, x = (", ".join(f"{x:z.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))
@@ -349,19 +363,6 @@ def _state_rows(report: ArmFacts, constant: ConstantResult) -> list[tuple[str, s
 
 def _symbol(constant: ConstantResult) -> str:
     return SYMBOLS.get(constant.name, constant.name)
-
-
-def _joint_rows(model: RobotModel) -> list[tuple[str, ...]]:
-    return [
-        (
-            joint,
-            _value(model.viscous[i]),
-            _value(model.coulomb[i]),
-            _value(model.torque_limit[i]),
-            NONE if model.encoder[i] is None else str(model.encoder[i]),
-        )
-        for i, joint in enumerate(model.joints)
-    ]
 
 
 def _numbers(model: RobotModel) -> Table:
@@ -376,53 +377,15 @@ def _numbers(model: RobotModel) -> Table:
     return Table(heads, tuple(rows), align="l" * len(heads))
 
 
-def _value(number: Number | None) -> str:
-    if number is None:
-        return NONE
-    return decimal_text(number.value) + (" (assumed)" if number.assumed else "")
-
-
-LEVELS = {Verdict.PROVED: Level.PASSED, Verdict.REFUTED: Level.FAILED}
-ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
-
-
-@dataclass(frozen=True)
-class RobotReport(ArmFacts, Answer):
-    """What is known of an arm as an answer; see `ArmFacts` for what it has."""
-
-    schema = "lyapcheck/robot/1"
-
-    @property
-    def exit_code(self) -> Exit:
-        """0 all properties proved, 1 one refuted, 3 one undecided."""
-        return exit_code(row.verdict for row in self.properties)
-
-    def document(self) -> Document:
-        """Properties, constants, joints, every number with its source, and what is assumed."""
-        return page(self)
-
-    def data(self) -> dict[str, Any]:
-        """``properties: [{id, verdict, …}], constants: [{name, lower, upper, …}], joints, numbers, …``."""
-        return report_data(self)
-
-    def records(self) -> list[dict[str, Any]]:
-        """A row a property, a claim about the print, and a constant; ``kind`` says which."""
-        judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
-        entries = [(kind, property_data(row)) for kind, row in judged]
-        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]
-        for constant in self.constants:
-            result = constant_data(self, constant)
-            kept = {key: result[key] for key in ("unit", "certified", "numeric", "gap", "q")}
-            rows.append({"kind": "constant", "id": result["name"], **kept, "x": result["x"] or []})
-        return rows
-
-    def annotations(self) -> list[Annotation]:
-        """A case a property; a refuted claim about the print is a remark."""
-        result = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
-        wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
-        return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
-
-    def _annotation(self, row: PropertyResult, level: Level) -> Annotation:
-        said = "" if level is Level.PASSED else f"{row.word}: {row.statement}; {evidence(row)}"
-        rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
-        return Annotation(level, rule, row.finding.says(row.statement), self.model.name, "", said, self.path)
+def inertia_sections(model: RobotModel) -> list[Section]:
+    """M(q) with its ranges and at the nominal numbers, where its statements do not have the entries."""
+    result: dict[str, Section] = {}
+    for robot in (model, model.fixed()):
+        if robot.chain is not None and robot.n > FEW_JOINTS:
+            continue
+        mass, ranges = mass_of(robot), ranges_of(robot)
+        entries, title = mass_entries(mass, ranges), mass_text(mass, ranges).removeprefix("the ")
+        if entries[0] not in title and sum(map(len, entries)) <= READABLE:
+            names = (f"p{k + 1} is {name}" for k, name in enumerate(robot.parameters))
+            result[title] = Section(title, (Bullets((*entries, *names)),))
+    return list(result.values())
