@@ -75,7 +75,7 @@ class Eps0:
         from lyapcheck.check.numbers.enclosure import Enclosure
 
         advance(0.0, f"{gain_set.name}: what ε₀ is certified")
-        result = epsilon(gain_set, model, max_boxes=MAX_BOXES).certified
+        result = epsilon(gain_set, model, max_boxes=MAX_BOXES, weights=False).certified
         return None if result is None else Enclosure(result, result).float_lower
 
 

@@ -13,7 +13,7 @@ import sympy as sp
 
 import lyapcheck
 from lyapcheck import answers, robots
-from lyapcheck.answers.derive import statements
+from lyapcheck.answers.derive import rows
 from lyapcheck.derive import lyapunov
 from lyapcheck.derive.arm import written_arm
 from lyapcheck.derive.family import Member, S, X, member, positive_roots
@@ -54,24 +54,24 @@ def test_isolated_roots_lie_in_their_intervals() -> None:
 
 @pytest.mark.parametrize("m", MEMBERS)
 def test_the_checker_agrees_on_the_family(m: int) -> None:
-    judged = statements.of_member(member(m))
+    judged = rows.of_member(member(m))
     assert [row.agree for row in judged] == [True] * 4
     assert [row.grade for row in judged[:2]] == ["exact", "exact"]
 
 
 def test_another_potential_is_not_agreed_to() -> None:
     """h of twice the potential; and ρ of a polynomial whose roots are elsewhere."""
-    wrong = statements.of_member(Member(2, 2 * member(2).potential))
+    wrong = rows.of_member(Member(2, 2 * member(2).potential))
     assert [row.agree for row in wrong] == [False] * 4
     u, right = sp.Symbol("u"), member(2)
-    moved = statements.largest(right, "gamma", "h", right.h, sp.Poly(u**2 - 4 * u - 2, u))
+    moved = rows.largest(right, "gamma", "h", right.h, sp.Poly(u**2 - 4 * u - 2, u))
     assert moved.verdict == "proved"
     assert not moved.agree
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
 def test_v_and_its_derivative_are_those_that_the_checker_proves(n: int) -> None:
-    assert [row.agree for row in statements.of_loop(n)] == [True, True]
+    assert [row.agree for row in rows.of_loop(n)] == [True, True]
 
 
 @pytest.mark.parametrize("term", range(11))
@@ -86,7 +86,7 @@ def test_a_changed_term_is_found(term: int, monkeypatch: pytest.MonkeyPatch) -> 
 
     for module in (lyapunov, statements):
         monkeypatch.setattr(module, "terms_15", wrong)
-    row = statements.of_loop(2)[1]
+    row = rows.of_loop(2)[1]
     assert not row.holds
     assert row.verdict != "proved"
 
@@ -103,7 +103,7 @@ def test_another_value_is_found() -> None:
 def test_on_an_arm_the_chain_rule_gives_the_same(name: str) -> None:
     model = robots.load(name)
     arm = written_arm(model)
-    assert [row.agree for row in statements.of_arm(model, arm)] == [True]
+    assert [row.agree for row in rows.of_arm(model, arm)] == [True]
     if model.n > 1:  # with one joint and constant inertia there is nothing to double
         assert not replace(arm, C=2 * arm.C).derivation().sum_is_rate()
 

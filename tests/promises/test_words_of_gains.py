@@ -216,7 +216,7 @@ def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(
 def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "leaves at most" in invoke(*RANGED).stdout
     monkeypatch.setattr(
-        "lyapcheck.answers.gate.bench.dry_friction", lambda model: tuple(x.value for x in model.coulomb)
+        "lyapcheck.answers.gate.friction.dry_friction", lambda model: tuple(x.value for x in model.coulomb)
     )
     assert "leaves at most" not in invoke(*RANGED).stdout
 

@@ -12,7 +12,7 @@ from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive.formulas import Formula
-    from lyapcheck.answers.derive.statements import Agreement
+    from lyapcheck.answers.derive.rows import Agreement
 
 MOST_JOINTS = 7
 """Of the entries in which SymPy decides that V and dV/dt are what is printed."""
@@ -116,7 +116,7 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None)
         >>> found.rows[2].derived
         '1 positive root, γ = 1.053569219'
     """
-    from lyapcheck.answers.derive import formulas, statements
+    from lyapcheck.answers.derive import parts, rows
     from lyapcheck.derive.arm import written_arm
     from lyapcheck.derive.family import member
     from lyapcheck.robots import load
@@ -129,11 +129,11 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None)
     _require("n", joints, MOST_JOINTS)
     arm = None if model is None else written_arm(model)
     members = [member(one) for one in ms]
-    judged = [row for one in members for row in statements.of_member(one)] + statements.of_loop(joints)
-    shown = [*map(formulas.family, members), formulas.value(), formulas.rate()]
+    judged = [row for one in members for row in rows.of_member(one)] + rows.of_loop(joints)
+    shown = [*map(parts.family, members), parts.value(), parts.rate()]
     if model is not None and arm is not None:
-        judged += statements.of_arm(model, arm)
-        shown.append(formulas.arm(model, arm))
+        judged += rows.of_arm(model, arm)
+        shown.append(parts.arm(model, arm))
     return Derivation(ms, joints, "" if model is None else model.name, tuple(shown), tuple(judged))
 
 

@@ -48,7 +48,7 @@ def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Eff
     # what runs is loaded only by those who have no runs yet
     import numpy as np
 
-    from lyapcheck.answers.gate.bench import rest_errors
+    from lyapcheck.answers.gate.friction import rest_errors
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.run import SimulationFailed
 

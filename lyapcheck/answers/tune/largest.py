@@ -1,7 +1,18 @@
-"""The damping ratio of one joint, with h replaced by its steepest secant.
+"""The largest gains of each joint: their range, exactly, the convex program that proposes, and rounding.
 
-A joint that moves alone obeys  J ë + b ė + k_v h(ė) + k_p h(e) = 0. Both h(x) are at most L x in size; with
-L x in their place the joint is a linear oscillator with
+The program is a second-order cone program in √k_p and k_v.
+
+    maximise    Σ s_i / √P_i                           s_i = √k_pi, P_i the limit of (10p)
+    subject to  s_i² + k_vi ≤ P_i                      (10p)
+                f_i ≤ k_vi ≤ V                         the targets, and (19)
+                2 ζ_i √(J_i L) s_i ≤ b_i + L k_vi      the damping ratio, where one is asked for
+
+The joints are coupled by nothing, but one program serves all. Its answer is a proposal in floating point, of
+which exact decimals are made.
+
+The damping ratio is that of one joint, with h replaced by its steepest secant. A joint that moves alone obeys
+J ë + b ė + k_v h(ė) + k_p h(e) = 0. Both h(x) are at most L x in size; with L x in their place the joint is a
+linear oscillator with
 
     ζ = (b + L k_v) / (2 √(J L k_p)).
 

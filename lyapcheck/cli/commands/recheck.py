@@ -57,7 +57,7 @@ def run(
     if not installed("flint"):  # else it is the process that judges that does not start
         raise lacking("flint")
     if kernel or kernel_files is not None:
-        from lyapcheck.answers.kernel import writer
+        from lyapcheck.answers.recheck import writer
         from lyapcheck.cli.progress import progress
         from lyapcheck.cli.show import open_folder
 

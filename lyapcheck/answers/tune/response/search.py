@@ -2,6 +2,17 @@
 
 The programs of the single joints give a first set; then gains of the joint that is worst are moved as long as
 the worst of all motions on the whole arm gets better. Counts, not clocks, end the search.
+
+One joint is an optimal-control program in CasADi.
+
+    J ë + b ė + k_v h(ė) + k_p h(e) = 0,   e(0) = the step,   by the implicit midpoint rule on t = T s
+
+    minimise  ϑ + μ T + ν σ     over k_p, k_v, T, ϑ, σ and the motion
+    with      −e/e(0) ≤ ϑ · overshoot;   |e| ≤ 2 % of the step + σ for s ≥ 1;   T ≤ ϑ · settling time
+              |k_p h(e) − k_v h(w)| + k_g ≤ ϑ · share · τmax;   k_p h(ϑ · rest error) ≥ f
+              k_p + k_v ≤ (10p),   k_v ≤ (19) where that is to hold
+
+Its answer is a proposal: the whole arm is tried with it.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.digits import at_most
 from lyapcheck.simulate import indices
