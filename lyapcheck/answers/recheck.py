@@ -31,6 +31,12 @@ RULES = {
 }
 ALARM = "the checker is wrong; trust none of these verdicts, and report this"
 WHOSE = "Statements are rendered from their data; what their authors call them stands in quotation marks."
+WIDTH = 11
+MEANING = (
+    "kernel: Coq's kernel accepted a theorem whose statement is printed from the certificate's own data, and "
+    "whose axioms are on the golden list named: real has those of classical real numbers, float also the "
+    "specifications of 63-bit integers and binary64 numbers"
+)
 
 
 @dataclass(frozen=True)
@@ -193,14 +199,6 @@ def _annotation(one: Checked) -> Annotation:
     return Annotation(
         LEVELS[one.status], "certificate", RULES["certificate"], one.file, "", said[one.status], path
     )
-
-
-WIDTH = 11
-MEANING = (
-    "kernel: Coq's kernel accepted a theorem whose statement is printed from the certificate's own data, and "
-    "whose axioms are on the golden list named: real has those of classical real numbers, float also the "
-    "specifications of 63-bit integers and binary64 numbers"
-)
 
 
 def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str], None]) -> Writer:

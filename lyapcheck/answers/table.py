@@ -55,6 +55,10 @@ RESTS = (
 _GUARD_DIGITS = 6
 _RESTS_DIGITS = 12
 """More digits still, where the constants are compared with numbers that come close to them."""
+PROOF = "table"
+PRECISIONS = (128, 512, 2048)
+"""Bits."""
+FUNCTIONS = {"gamma": "h", "rho": "dh"}
 
 
 @dataclass(frozen=True)
@@ -248,12 +252,6 @@ def printed_bounds(m: int) -> bool:
     """Whether h_m never exceeds the printed γ: tanh stays below 1, the others reach their γ."""
     value = PRINTED_GAMMA[m]
     return value >= 1 if m == 1 else gamma_less_than(m, value**2)
-
-
-PROOF = "table"
-PRECISIONS = (128, 512, 2048)
-"""Bits."""
-FUNCTIONS = {"gamma": "h", "rho": "dh"}
 
 
 def certificates(table: Table) -> dict[str, Certificate]:

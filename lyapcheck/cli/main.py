@@ -36,6 +36,12 @@ ABOUT = """Check the Lyapunov proof of bounded hyperbolic controllers for robot 
       lyapcheck gate --help                  what a command takes
     """
 SHELLS = ("bash", "zsh", "fish")
+CLOSED_PIPE = 141
+"""128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""
+INTERRUPTED = 130
+"""128 + SIGINT."""
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+"""What a standard output that takes no more says; files are written elsewhere, by who says their names."""
 
 
 def run_program(words: Sequence[str]) -> Exit:
@@ -99,14 +105,6 @@ def _completion(parser: Parser, shell: str) -> str:
                 action.complete = places[action.metavar]  # type: ignore[attr-defined]
     text: str = shtab.complete(parser, shell)
     return text
-
-
-CLOSED_PIPE = 141
-"""128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""
-INTERRUPTED = 130
-"""128 + SIGINT."""
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
-"""What a standard output that takes no more says; files are written elsewhere, by who says their names."""
 
 
 def run(words: Sequence[str]) -> int:

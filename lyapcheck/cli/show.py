@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
 
 OTHERS_NAMED = 8
+SUMMARY = "GITHUB_STEP_SUMMARY"
+"""The variable by which GitHub names the file that it shows under a job."""
+LARGEST_SUMMARY = 1_000_000
+"""Bytes; GitHub refuses more than a mebibyte."""
 
 
 def require_writable(option: str, path: Path) -> None:
@@ -122,12 +126,6 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
-
-
-SUMMARY = "GITHUB_STEP_SUMMARY"
-"""The variable by which GitHub names the file that it shows under a job."""
-LARGEST_SUMMARY = 1_000_000
-"""Bytes; GitHub refuses more than a mebibyte."""
 
 
 def show(answer: Answer, format: str) -> None:  # noqa: A002

@@ -24,6 +24,40 @@ if TYPE_CHECKING:
 
 MOST_DEGREES = 36_000.0
 """A hundred turns of a joint."""
+CERTIFIED = "certified"
+MAX_BOXES = 100_000
+"""Budget of branch and bound for one gain set; ``lyapcheck epsilon`` goes further."""
+Made = TypeVar("Made")
+SECONDS = 5.0
+"""Duration of a set-point task, as in the paper."""
+SPREAD = 45.0
+"""Degrees."""
+BAND = 1.0
+"""Degrees."""
+_OPTIONS = {
+    "T": "--time",
+    "eps0": "--eps0",
+    "band": "--band",
+    "reference": "--reference",
+    "w0": "--velocity",
+    "q0": "--start",
+    "q_d": "--target",
+}
+_NEEDS = {"--spread": "--runs", "--seed": "--runs", "--band": "--reference"}
+_CLASHES = (
+    ("--reference", "--experiment"),
+    ("--reference", "--runs"),
+    ("--reference", "--target"),
+    ("--runs", "--experiment"),
+    ("--runs", "--keep-going"),
+    ("--runs", "--plot"),
+    ("--runs", "--vary"),
+    ("--reference", "--vary"),
+    ("--experiment", "--keep-going"),
+    ("--experiment", "--certificates"),
+    ("--reference", "--certificates"),
+    ("--runs", "--certificates"),
+)
 
 
 def parse_angles(option: str, text: str, joints: tuple[str, ...]) -> tuple[float, ...]:
@@ -52,11 +86,6 @@ def _degrees(word: str) -> float:
     except ValueError:
         return math.nan
     return angle if abs(angle) <= MOST_DEGREES else math.nan
-
-
-CERTIFIED = "certified"
-MAX_BOXES = 100_000
-"""Budget of branch and bound for one gain set; ``lyapcheck epsilon`` goes further."""
 
 
 @dataclass(frozen=True)
@@ -95,42 +124,6 @@ def eps0_of(text: str | None) -> Eps0:
         rule = f"must be a number or {CERTIFIED}"
         raise argument_error("--eps0", text, rule, f"write --eps0 0.01, or --eps0 {CERTIFIED}")
     return Eps0(number)
-
-
-Made = TypeVar("Made")
-
-SECONDS = 5.0
-"""Duration of a set-point task, as in the paper."""
-SPREAD = 45.0
-"""Degrees."""
-BAND = 1.0
-"""Degrees."""
-
-_OPTIONS = {
-    "T": "--time",
-    "eps0": "--eps0",
-    "band": "--band",
-    "reference": "--reference",
-    "w0": "--velocity",
-    "q0": "--start",
-    "q_d": "--target",
-}
-
-_NEEDS = {"--spread": "--runs", "--seed": "--runs", "--band": "--reference"}
-_CLASHES = (
-    ("--reference", "--experiment"),
-    ("--reference", "--runs"),
-    ("--reference", "--target"),
-    ("--runs", "--experiment"),
-    ("--runs", "--keep-going"),
-    ("--runs", "--plot"),
-    ("--runs", "--vary"),
-    ("--reference", "--vary"),
-    ("--experiment", "--keep-going"),
-    ("--experiment", "--certificates"),
-    ("--reference", "--certificates"),
-    ("--runs", "--certificates"),
-)
 
 
 def task_of(

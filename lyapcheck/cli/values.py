@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 Value = TypeVar("Value")
+_DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?", re.IGNORECASE | re.ASCII)
+_MOST_DIGITS = 1_000
 
 
 class Complaints:
@@ -51,9 +53,6 @@ class Complaints:
             raise InputError(self.problems)
 
 
-_DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?", re.IGNORECASE | re.ASCII)
-
-
 def parse_decimals(option: str, text: str | None) -> tuple[Fraction, ...] | None:
     """The exact values, ``None`` where the option is not given.
 
@@ -84,9 +83,6 @@ def parse_decimal(option: str, text: str | None) -> Fraction | None:
     if values is not None and len(values) != 1:
         raise argument_error(option, text, "must be one number", f"write {option} 0.406")
     return None if values is None else values[0]
-
-
-_MOST_DIGITS = 1_000
 
 
 def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:

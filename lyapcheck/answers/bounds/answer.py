@@ -39,6 +39,7 @@ SIMULATED = "simulated: {}, in floating point, with that dry friction."
 ONE_RUN = "one run at nominal numbers"
 CORNERS = "the worst of one run at {}, for {}, which proves nothing of what lies between"
 NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
+PROOF = "bounds"
 
 
 @dataclass(frozen=True)
@@ -199,9 +200,6 @@ def above(value: Fraction | None) -> float | None:
 
 def _degrees(x: float) -> float:
     return round(math.degrees(x), 9)
-
-
-PROOF = "bounds"
 
 
 def certificates(result: BoundsComparison) -> dict[str, Certificate]:

@@ -32,6 +32,21 @@ SIDES = ("point", "left", "operator", "right")
 RELATIONS = {"<=": "≤"}
 REASONS = {Verdict.REFUTED: "where it fails", Verdict.PROVED: "remark"}
 """What the reason of a decision is called, where it is not the reason that nothing was decided."""
+ORDER = (Verdict.ERROR, Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED)
+"""What must be seen first."""
+LEVELS = {
+    Verdict.PROVED: Level.PASSED,
+    Verdict.REFUTED: Level.FAILED,
+    Verdict.ERROR: Level.FAILED,
+    Verdict.UNDECIDED: Level.UNDECIDED,
+}
+GRADES = {
+    KERNEL: "kernel: a theorem of Coq's kernel as well; recheck --kernel asks it anew.",
+    Grade.EXACT.label: "exact: rational numbers and symbolic normal forms.",
+    Grade.ENCLOSURE.label: "enclosure: balls that enclose the exact numbers.",
+    Grade.NUMERIC.label: "numeric: nothing that could decide the claim.",
+}
+WHOSE = "Statements and verdicts are the checker's; what the author calls them stands in quotation marks."
 
 
 def statement_text(stated: Statement) -> str:
@@ -160,23 +175,6 @@ def _span(value: Any) -> str:
         return str(value)
     low, high = value
     return str(low) if low == high else f"[{low}, {high}]"
-
-
-ORDER = (Verdict.ERROR, Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED)
-"""What must be seen first."""
-LEVELS = {
-    Verdict.PROVED: Level.PASSED,
-    Verdict.REFUTED: Level.FAILED,
-    Verdict.ERROR: Level.FAILED,
-    Verdict.UNDECIDED: Level.UNDECIDED,
-}
-GRADES = {
-    KERNEL: "kernel: a theorem of Coq's kernel as well; recheck --kernel asks it anew.",
-    Grade.EXACT.label: "exact: rational numbers and symbolic normal forms.",
-    Grade.ENCLOSURE.label: "enclosure: balls that enclose the exact numbers.",
-    Grade.NUMERIC.label: "numeric: nothing that could decide the claim.",
-}
-WHOSE = "Statements and verdicts are the checker's; what the author calls them stands in quotation marks."
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,9 @@ from lyapcheck.search.inertia import remember
 from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_GAINS = "table2"
+DEFAULT_ROBOT = "buap3"
+BESIDE = {"method": str, "reason": str, "witness": dict | None, "evidence": dict}
+"""What a search says beside its proof."""
 
 
 def gain_sets(gains: GainFile | str | Path | None, joints: int) -> tuple[GainSet, ...]:
@@ -72,11 +75,6 @@ def _misfit(file: GainFile, one: GainSet, joints: int) -> Problem:
     rule = f"{one.name} has gains for {one.n} joints, but the claims are about {joints}"
     repair = f"choose an arm of {one.n} joints by --robot, or give {joints} gains, one a joint"
     return Problem(file.path, place.line if place else None, "kp", "", rule, repair)
-
-
-DEFAULT_ROBOT = "buap3"
-BESIDE = {"method": str, "reason": str, "witness": dict | None, "evidence": dict}
-"""What a search says beside its proof."""
 
 
 def run_proof(

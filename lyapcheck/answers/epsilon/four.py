@@ -20,6 +20,19 @@ if TYPE_CHECKING:
     from lyapcheck.search.proof import DecreaseProof
     from lyapcheck.search.weights import Weighted
 
+ROUNDED = Fraction(1, 10**8)
+"""More than the end of (18) loses where it is rounded down, as a share of it."""
+FINDINGS: Mapping[str, str] = {
+    "published-refuted": (
+        "(18) is refuted: it allows all ε₀ below its end, and the witness refutes a smaller one"
+    ),
+    "published-certified": "(18) allows no ε₀ above the certified one",
+    "no-interval": (
+        "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
+    ),
+}
+"""What the numbers may say about each other, by the id of the rule that an annotation names."""
+
 
 def eps0_of(promise: Promise | None) -> Fraction | None:
     """The ε₀ that a promise is about."""
@@ -127,20 +140,6 @@ class FourEpsilons:
         if self.certified is None or not self.falsified:
             return None
         return self.certified / self.falsified
-
-
-ROUNDED = Fraction(1, 10**8)
-"""More than the end of (18) loses where it is rounded down, as a share of it."""
-FINDINGS: Mapping[str, str] = {
-    "published-refuted": (
-        "(18) is refuted: it allows all ε₀ below its end, and the witness refutes a smaller one"
-    ),
-    "published-certified": "(18) allows no ε₀ above the certified one",
-    "no-interval": (
-        "the ε₀ without a failing state are not an interval: some that fail lie below others that do not"
-    ),
-}
-"""What the numbers may say about each other, by the id of the rule that an annotation names."""
 
 
 class Contradiction(RuntimeError):

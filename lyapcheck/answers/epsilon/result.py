@@ -30,6 +30,16 @@ if TYPE_CHECKING:
     from lyapcheck.search.weights import Weighted
 
 _DIGITS = 20
+CERTIFIED, FALSIFIED = "certified", "falsified"
+RULES = {
+    CERTIFIED: "V > 0 and dV/dt < 0 at all states but the origin, for some ε₀ > 0",
+    FALSIFIED: "a state with dV/dt > 0",
+    **FINDINGS,
+}
+HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
+NOT_IN_RECORDS = ("corner", "outside", "findings", "assumptions")
+PARTS = ("witness", "weighted")
+"""What takes several columns where there is any."""
 
 
 def result_data(result: FourEpsilons) -> dict[str, Any]:
@@ -73,14 +83,6 @@ def _witness(witness: RisingState) -> dict[str, Any]:
     return {"eps0": exact(witness.eps0), **state, "rate": rate, "kind": witness.kind}
 
 
-CERTIFIED, FALSIFIED = "certified", "falsified"
-RULES = {
-    CERTIFIED: "V > 0 and dV/dt < 0 at all states but the origin, for some ε₀ > 0",
-    FALSIFIED: "a state with dV/dt > 0",
-    **FINDINGS,
-}
-
-
 def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotation]:
     """Whether an ε₀ is certified; then, as remarks, what is falsified and what follows from the numbers."""
     about = partial(Annotation, group=result.name, **gain_place(file, result.gains)._asdict())
@@ -94,12 +96,6 @@ def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotati
         for rule, text in said.items()
     ]
     return outcome
-
-
-HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
-NOT_IN_RECORDS = ("corner", "outside", "findings", "assumptions")
-PARTS = ("witness", "weighted")
-"""What takes several columns where there is any."""
 
 
 @dataclass(frozen=True)

@@ -41,6 +41,13 @@ _NO_FRICTION = (
     "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
     "error, no bound under a disturbance. A measured friction goes into [bounds] viscous_min"
 )
+HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
+NAMED = "!"
+"""Accepted, with a fact that no condition is about."""
+DIGITS, MARGIN_DIGITS = 20, 12
+"""Significant digits of limits and of margins in data; people see fewer."""
+LEVELS = {ACCEPTED: Level.PASSED, REJECTED: Level.FAILED, UNDECIDED: Level.UNDECIDED}
+NO_DECISION = "* shown, but does not decide; --condition chooses what does"
 
 
 def remarks(result: GateResult) -> list[str]:
@@ -99,15 +106,6 @@ def _accepting(result: GateResult) -> str:
     if others and result.verdict_of(others) != ACCEPTED:
         return ""
     return f"; {' '.join(f'--condition {name}' for name in wanted)} accepts it"
-
-
-HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
-NAMED = "!"
-"""Accepted, with a fact that no condition is about."""
-DIGITS, MARGIN_DIGITS = 20, 12
-"""Significant digits of limits and of margins in data; people see fewer."""
-LEVELS = {ACCEPTED: Level.PASSED, REJECTED: Level.FAILED, UNDECIDED: Level.UNDECIDED}
-NO_DECISION = "* shown, but does not decide; --condition chooses what does"
 
 
 class GateAnswer(tuple[GateResult, ...], Answer):

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from lyapcheck.control.judgement import JudgedStatement
 
 PROOF = "gate"
+HELD = "k_p ≤ f/γ: dry friction f holds the joint wherever it stops"
+REST = "how far from the goal dry friction may leave the joints"
 
 
 def whole(result: GateResult) -> Certificate | None:
@@ -68,10 +70,6 @@ def whole(result: GateResult) -> Certificate | None:
 def _proof(result: JudgedStatement) -> Proof:
     assert result.proof is not None
     return result.proof
-
-
-HELD = "k_p ≤ f/γ: dry friction f holds the joint wherever it stops"
-REST = "how far from the goal dry friction may leave the joints"
 
 
 @dataclass

@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 
 SWINGS = 0.5
 """A damping ratio below which a joint overshoots by more than a sixth of its step."""
+ANYWHERE = Fraction(10**6)
+Fact = tuple[Fraction, str]
+"""How far from the goal, in degrees, and in words."""
 
 
 def rest_errors(gains: GainSet, model: RobotModel) -> list[Fraction | None]:
@@ -85,9 +88,6 @@ def _inertias(model: RobotModel) -> tuple[float, ...]:
     return tuple(
         float(largest(harmonics(trig.to_terms(nominal.mass[i][i]), model.n))) for i in range(model.n)
     )
-
-
-ANYWHERE = Fraction(10**6)
 
 
 def held(gains: GainSet, model: RobotModel) -> dict[int, JudgedStatement]:
@@ -138,10 +138,6 @@ def resting(gains: GainSet, model: RobotModel) -> Rest | None:
     printed = [None if angle is None else angle / DEGREES for angle in degrees]
     promise, _ = promised(asked_resting(gains, dry_friction(model), printed), judged)
     return Rest(judged, promise, degrees)
-
-
-Fact = tuple[Fraction, str]
-"""How far from the goal, in degrees, and in words."""
 
 
 def farthest(gains: GainSet, model: RobotModel) -> Fact | None:

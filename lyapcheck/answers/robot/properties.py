@@ -29,6 +29,16 @@ from lyapcheck.robots import Number, RobotModel, trig
 from lyapcheck.search.inertia import mass_of
 from lyapcheck.verdicts import Verdict
 
+IDS = tuple(f"2.{k}" for k in range(1, 9))
+FRICTION = "2.7"
+"""The property of B, whose statement has no ranges; the others are about M, C and g."""
+_STATE_IT = "state it in an arm file that names this URDF"
+SAYS = {
+    "C torque": "the printed C(q, q̇)q̇ is that of the Christoffel symbols of M",
+    "C rates": "Ṁ(q) = C(q, q̇) + C(q, q̇)ᵀ for the printed C",
+    "g": "the printed g(q) is the gradient of the potential",
+}
+
 
 @dataclass(frozen=True)
 class PropertyQuestion:
@@ -108,12 +118,6 @@ def about_ranges(
     return None if asked is None else promised(asked, decision.promise.shown)[0]
 
 
-IDS = tuple(f"2.{k}" for k in range(1, 9))
-FRICTION = "2.7"
-"""The property of B, whose statement has no ranges; the others are about M, C and g."""
-_STATE_IT = "state it in an arm file that names this URDF"
-
-
 @dataclass(frozen=True)
 class PropertyResult:
     """One property with what was found out about it.
@@ -175,13 +179,6 @@ def _without_friction(model: RobotModel, assumed: bool) -> str:
     """The joints whose viscous friction is 0 because nobody stated it, or because the file says so."""
     rows = zip(model.joints, model.viscous, strict=True)
     return ", ".join(joint for joint, number in rows if number.value == 0 and number.assumed is assumed)
-
-
-SAYS = {
-    "C torque": "the printed C(q, q̇)q̇ is that of the Christoffel symbols of M",
-    "C rates": "Ṁ(q) = C(q, q̇) + C(q, q̇)ᵀ for the printed C",
-    "g": "the printed g(q) is the gradient of the potential",
-}
 
 
 def print_claims(model: RobotModel) -> tuple[PropertyResult, ...]:

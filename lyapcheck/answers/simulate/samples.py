@@ -18,6 +18,18 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.starts import Sweep
     from lyapcheck.tracking.run import TrackingRun
 
+SIGNALS = (("q", "rad"), ("w", "rad/s"), ("e", "rad"), ("tau", "N.m"))
+"""Angles, rates, errors, torques."""
+TRACKING_SIGNALS = (
+    ("q", "rad"),
+    ("qd", "rad"),
+    ("e", "rad"),
+    ("v", "rad/s"),
+    ("vd", "rad/s"),
+    ("tau", "N.m"),
+)
+"""Angles, reference, errors, rates, rates of the reference, torques."""
+
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
@@ -56,19 +68,6 @@ def quantities(result: Sweep) -> list[Quantity]:
             for i, joint in enumerate(result.joints)
         ),
     ]
-
-
-SIGNALS = (("q", "rad"), ("w", "rad/s"), ("e", "rad"), ("tau", "N.m"))
-"""Angles, rates, errors, torques."""
-TRACKING_SIGNALS = (
-    ("q", "rad"),
-    ("qd", "rad"),
-    ("e", "rad"),
-    ("v", "rad/s"),
-    ("vd", "rad/s"),
-    ("tau", "N.m"),
-)
-"""Angles, reference, errors, rates, rates of the reference, torques."""
 
 
 def runs_csv(runs: Sequence[Run]) -> str:

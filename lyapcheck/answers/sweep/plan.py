@@ -26,6 +26,10 @@ Gain = Fraction | tuple[Fraction, ...]
 LONGEST_NAME = 120
 WITHOUT_GAINS = ("robot",)
 """What is asked of an arm alone."""
+TEXTS = ("condition", "only")
+"""Options that are lists of texts; the others are lists of angles."""
+MOST = 100_000
+"""Values of one row of a grid."""
 
 
 @dataclass(frozen=True)
@@ -111,12 +115,6 @@ def _name(m: int, kp: tuple[Fraction, ...], kv: tuple[Fraction, ...]) -> str:
 def gain_text(gains: tuple[Fraction, ...]) -> str:
     """One number where it is the same in every joint, else one a joint."""
     return ",".join(map(decimal_text, gains[:1] if len(set(gains)) == 1 else gains))
-
-
-TEXTS = ("condition", "only")
-"""Options that are lists of texts; the others are lists of angles."""
-MOST = 100_000
-"""Values of one row of a grid."""
 
 
 def read_plan(path: str | Path) -> Plan:

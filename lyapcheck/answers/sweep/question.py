@@ -25,6 +25,37 @@ if TYPE_CHECKING:
 
 MOST = 16
 """Arms that a process keeps."""
+Row = dict[str, Any]
+COLUMNS: Mapping[str, str] = {
+    "index": "integer",
+    "question": "text",
+    "robot": "text",
+    "variation": "texts",
+    "ask": "text",
+    "name": "text",
+    "family": "text",
+    "m": "integer",
+    "kp": "texts",
+    "kv": "texts",
+    "verdict": "text",
+    "reason": "text",
+    "margin": "number",
+    "eps0": "text",
+    "falsified": "text",
+    "settling": "number",
+    "certificates": "texts",
+    "answer": "data",
+}
+"""The columns of a row, and what they hold; a cell that does not apply is empty."""
+VERDICTS: Mapping[Exit, str] = {
+    Exit.PROVED: Verdict.PROVED.value,
+    Exit.REFUTED: Verdict.REFUTED.value,
+    Exit.UNDECIDED: Verdict.UNDECIDED.value,
+    Exit.INTERNAL: Verdict.ERROR.value,
+}
+"""What the exit codes of commands say."""
+STEP = 45.0
+"""Degrees, of every joint of an arm that the paper's experiment does not fit."""
 
 
 @dataclass(frozen=True)
@@ -54,38 +85,6 @@ def arm(robot: str, variation: tuple[str, ...] = ()) -> UncertainArm:
     ranges = tuple(map(Vary.parsed, variation))
     model = load(robot, vary=ranges)
     return UncertainArm(model, ranges, store.exact(model))
-
-
-Row = dict[str, Any]
-COLUMNS: Mapping[str, str] = {
-    "index": "integer",
-    "question": "text",
-    "robot": "text",
-    "variation": "texts",
-    "ask": "text",
-    "name": "text",
-    "family": "text",
-    "m": "integer",
-    "kp": "texts",
-    "kv": "texts",
-    "verdict": "text",
-    "reason": "text",
-    "margin": "number",
-    "eps0": "text",
-    "falsified": "text",
-    "settling": "number",
-    "certificates": "texts",
-    "answer": "data",
-}
-"""The columns of a row, and what they hold; a cell that does not apply is empty."""
-
-VERDICTS: Mapping[Exit, str] = {
-    Exit.PROVED: Verdict.PROVED.value,
-    Exit.REFUTED: Verdict.REFUTED.value,
-    Exit.UNDECIDED: Verdict.UNDECIDED.value,
-    Exit.INTERNAL: Verdict.ERROR.value,
-}
-"""What the exit codes of commands say."""
 
 
 @dataclass(frozen=True)
@@ -187,10 +186,6 @@ def answered(
 def line_of(row: Row) -> str:
     """A row as one line of JSON, its columns in their order."""
     return json.dumps(row, ensure_ascii=False, allow_nan=False, separators=(",", ":")) + "\n"
-
-
-STEP = 45.0
-"""Degrees, of every joint of an arm that the paper's experiment does not fit."""
 
 
 def task_of(model: RobotModel, options: Mapping[str, Any]) -> Task:

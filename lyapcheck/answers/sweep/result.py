@@ -23,6 +23,18 @@ DIGITS = 3
 """Significant digits of a cell."""
 Arm = tuple[str, tuple[str, ...]]
 """A robot, and what varies."""
+ASKED = {
+    "margin": ("gate",),
+    "eps0": ("epsilon",),
+    "settling": ("simulate", "bounds"),
+}
+"""Which questions fill a column."""
+WRONG = ("refuted", "rejected")
+OPEN = ("undecided",)
+ERROR = "error"
+SIGNS = {Exit.PROVED: "✓", Exit.REFUTED: "✗", Exit.UNDECIDED: "?", Exit.INTERNAL: "!"}
+LEGEND = "Of cells that differ in K_p the worst is shown; empty: not every one has a value."
+OBSERVED = "observed: a simulation in floating point that broke no promise; it proves nothing."
 
 
 @dataclass(frozen=True)
@@ -51,12 +63,6 @@ MEASURES = (
     Measure("certified ε₀", "eps0", min),
     Measure("simulated settling time in s", "settling", max),
 )
-ASKED = {
-    "margin": ("gate",),
-    "eps0": ("epsilon",),
-    "settling": ("simulate", "bounds"),
-}
-"""Which questions fill a column."""
 
 
 @dataclass
@@ -131,14 +137,6 @@ def arm_text(arm: Arm) -> str:
     """An arm and what varies, in words."""
     robot, variation = arm
     return f"{robot}, {', '.join(variation)}" if variation else robot
-
-
-WRONG = ("refuted", "rejected")
-OPEN = ("undecided",)
-ERROR = "error"
-SIGNS = {Exit.PROVED: "✓", Exit.REFUTED: "✗", Exit.UNDECIDED: "?", Exit.INTERNAL: "!"}
-LEGEND = "Of cells that differ in K_p the worst is shown; empty: not every one has a value."
-OBSERVED = "observed: a simulation in floating point that broke no promise; it proves nothing."
 
 
 @dataclass(frozen=True)

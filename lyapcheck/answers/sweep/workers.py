@@ -28,6 +28,13 @@ TOGETHER = 100
 """So many of them: a worker is handed work for a tenth of a second at least."""
 
 Batch = tuple[Question, ...]
+AHEAD = 16
+"""Batches a worker that may be under way, or done and waiting for an earlier one that takes longer."""
+KILLED = "the process that worked on it was killed; is the memory enough?"
+PATIENCE = 30
+"""Seconds to wait for the scheduler."""
+RETRIES = 5
+"""How often a batch is asked again whose worker was lost."""
 
 
 def names() -> tuple[str, ...]:
@@ -94,11 +101,6 @@ def _alone(name: str, question: Question, jobs: int) -> Answered:
 def failed(question: Question, reason: str) -> Answered:
     """The row of a question that could not be asked."""
     return answered(question, ERROR, None, reason=reason)
-
-
-AHEAD = 16
-"""Batches a worker that may be under way, or done and waiting for an earlier one that takes longer."""
-KILLED = "the process that worked on it was killed; is the memory enough?"
 
 
 def answers_here(batches: Iterable[Batch], workers: int, jobs: int = 1) -> Iterator[list[Answered]]:
@@ -169,12 +171,6 @@ def _submitted(pool: ProcessPoolExecutor, batch: Batch, jobs: int) -> Future[lis
 def _pool(workers: int, place: str) -> ProcessPoolExecutor:
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     return ProcessPoolExecutor(workers, get_context("spawn"), work_in, (place,))
-
-
-PATIENCE = 30
-"""Seconds to wait for the scheduler."""
-RETRIES = 5
-"""How often a batch is asked again whose worker was lost."""
 
 
 def answers_of_cluster(batches: Iterable[Batch], scheduler: str, count: int) -> Iterator[list[Answered]]:

@@ -25,6 +25,23 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
 
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
+BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
+MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
+NONE_FOUND = {
+    INFEASIBLE: "no gains within (10p) and (19)",
+    UNDECIDED: "its limits are not known, so no gains",
+}
+LIMITS = ("(10p): k_p + k_v < (τmax − k_g)/(√n γ), N·m.", "(19): k_v < λmin(B)/(√n γ), N·m.")
+ENDS = "One unit more in the last place of a gain breaks what it ends at."
+DAMPED = (
+    "ζ: estimated: the least damping ratio of the joint alone over all ranges of the arm, with the steepest "
+    "secant of h in its place."
+)
+LIMIT_DIGITS = 6
+"""Significant digits of limits, as the gate shows them."""
+LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
+DIGITS = 20
+"""Of limits, for programs."""
 
 
 @dataclass(frozen=True)
@@ -103,27 +120,6 @@ class TunedSet:
             return None
         kp, kv = tuple(j.kp for j in self.joints), tuple(j.kv for j in self.joints)
         return GainSet(self.name, self.m, kp, kv, condition=DECIDING)
-
-
-BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
-MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
-NONE_FOUND = {
-    INFEASIBLE: "no gains within (10p) and (19)",
-    UNDECIDED: "its limits are not known, so no gains",
-}
-LIMITS = ("(10p): k_p + k_v < (τmax − k_g)/(√n γ), N·m.", "(19): k_v < λmin(B)/(√n γ), N·m.")
-ENDS = "One unit more in the last place of a gain breaks what it ends at."
-DAMPED = (
-    "ζ: estimated: the least damping ratio of the joint alone over all ranges of the arm, with the steepest "
-    "secant of h in its place."
-)
-LIMIT_DIGITS = 6
-"""Significant digits of limits, as the gate shows them."""
-LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
-
-
-DIGITS = 20
-"""Of limits, for programs."""
 
 
 def ends(value: Enclosure) -> dict[str, str]:

@@ -20,6 +20,8 @@ from lyapcheck.robots import load
 if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
 
+_GUARD_BITS = 32
+
 
 def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[Vary, ...] = ()) -> Limits:
     """The limits that the gate would judge gains for this arm by.
@@ -35,9 +37,6 @@ def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[V
     return limits_for(
         GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds or Bounds()), None, arms
     )
-
-
-_GUARD_BITS = 32
 
 
 def torque_budget(robot: str, table: Table) -> Budget:

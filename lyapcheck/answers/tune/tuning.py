@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
 
+WRITTEN_PLACES = 12
+
 
 def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> GainComparison | None:
     """The gains of the same member in another file, judged by the same limits; ``None`` where it has none."""
@@ -69,9 +71,6 @@ def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJo
 def _millionths(share: Fraction) -> Fraction:
     """A share to six decimal places, from below."""
     return Fraction(floor(share * 10**6), 10**6)
-
-
-WRITTEN_PLACES = 12
 
 
 def tune(

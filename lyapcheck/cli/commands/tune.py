@@ -28,6 +28,12 @@ if TYPE_CHECKING:
 
 PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 ONE = (Fraction(1),)
+COMPARED = range(2, 7)
+"""So many members are compared by runs of each."""
+WAYS = ("19", "proof")
+"""How stability may be shown."""
+FORMATS = (*Format, "toml")
+"""What every answer can be written in, and the gain file alone."""
 
 
 def trials_of(
@@ -156,14 +162,6 @@ def gains_beside(robot: str, compare: Path | None) -> GainFile | None:
     if robot != PAPERS_ARM:
         return None
     return replace(read_gain_file(paper_gain_file(PAPERS_GAINS)), path="the paper's Table 2")
-
-
-COMPARED = range(2, 7)
-"""So many members are compared by runs of each."""
-WAYS = ("19", "proof")
-"""How stability may be shown."""
-FORMATS = (*Format, "toml")
-"""What every answer can be written in, and the gain file alone."""
 
 
 def arguments(parser: Parser) -> None:

@@ -58,6 +58,13 @@ OPTIONS: dict[str, Any] = {
     "ipopt.max_iter": 120,
     "ipopt.tol": 1e-6,
 }
+MOST_TRIES, FEWER_TRIES = 36, 16
+"""Sets that are tried for up to three joints, and for more."""
+FACTORS = (1.3, 1.14, 1.06, 1.03)
+"""By which gains are moved, the next where the one before helps no more."""
+POSTURES = 21
+"""On the straight way of each task, for the inertia and gravity that a joint feels there."""
+Gains = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
@@ -157,16 +164,6 @@ def _motion(
     t = np.arange(STEPS + 1) * T / PER_SETTLING
     y = solve_ivp(rate, (0.0, float(t[-1])), [step, 0.0], "LSODA", t, rtol=1e-6, atol=1e-8).y
     return y[0], y[1], T
-
-
-MOST_TRIES, FEWER_TRIES = 36, 16
-"""Sets that are tried for up to three joints, and for more."""
-FACTORS = (1.3, 1.14, 1.06, 1.03)
-"""By which gains are moved, the next where the one before helps no more."""
-POSTURES = 21
-"""On the straight way of each task, for the inertia and gravity that a joint feels there."""
-
-Gains = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,6 +38,16 @@ MOST = 1e6
 """Per cent, s and degrees; who asks for more asks for nothing."""
 WAYS = (BY_19, BY_PROOF)
 """How stability is to be shown: by (19), or by a proof for the arm that does without."""
+TOLERANCE = 1e-7
+POINTS = 401
+LONGER, SHORTEST = 4.0, 3.0
+"""Times the settling time that is asked for, and s: how long a motion is watched at least."""
+FLAT = 8.0
+"""So many times as long where h is flat at the goal: what it brings late would not be seen."""
+DOUBLINGS = 6
+"""Of that time, until the energy that is left keeps every joint within its band for good."""
+NEVER = 1e3
+"""The ratio of what no time or gain reaches."""
 
 
 @dataclass(frozen=True)
@@ -94,18 +104,6 @@ class Trials:
     tasks: tuple[Task, ...]
     ways: tuple[str, ...] = WAYS
     digits: int = 3
-
-
-TOLERANCE = 1e-7
-POINTS = 401
-LONGER, SHORTEST = 4.0, 3.0
-"""Times the settling time that is asked for, and s: how long a motion is watched at least."""
-FLAT = 8.0
-"""So many times as long where h is flat at the goal: what it brings late would not be seen."""
-DOUBLINGS = 6
-"""Of that time, until the energy that is left keeps every joint within its band for good."""
-NEVER = 1e3
-"""The ratio of what no time or gain reaches."""
 
 
 @dataclass(frozen=True, eq=False)
