@@ -30,7 +30,7 @@ ROUNDING = ("round", "significant_text")
 TAKING = ("cell", "format")
 """Functions that take such a specification."""
 BESIDE_PROOF = {
-    "answers/bounds/answer.py:_times": "degrees that the user gave, of simulated runs",
+    "answers/bounds.py:_times": "degrees that the user gave, of simulated runs",
     "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
     "answers/robot/answer.py:constant_data": "the gap of numeric ends, for programs",
     "report/gain_map.py:_cell": "k_v as it was given, and simulated numbers",
@@ -56,8 +56,9 @@ SEEN = {
     "answers/simulate/tracking.py:module": "simulated",
     "answers/simulate/tracking.py:_headline": "times that the user gave or that were reached",
     "answers/simulate/tracking.py:section": "the band that the user gave",
-    "answers/tune/effect.py:effect_section": "simulated",
-    "answers/tune/effect.py:_six": "simulated",
+    "answers/tune/answer.py:effect_section": "simulated",
+    "answers/tune/answer.py:_six": "simulated",
+    "answers/tune/answer.py:module": "simulated",
     "answers/tune/response/answer.py:_missed_in_motions": "the time of a simulated motion",
     "answers/tune/response/answer.py:_angles": "angles that the user gave",
     "answers/tune/response/answer.py:_six": "simulated",

@@ -18,7 +18,6 @@ from lyapcheck.answers.epsilon.words import (
     title,
     witness_text,
 )
-from lyapcheck.answers.gain_place import gain_place
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import decimals
@@ -85,7 +84,7 @@ def _witness(witness: RisingState) -> dict[str, Any]:
 
 def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotation]:
     """Whether an ε₀ is certified; then, as remarks, what is falsified and what follows from the numbers."""
-    about = partial(Annotation, group=result.name, **gain_place(file, result.gains)._asdict())
+    about = partial(Annotation, group=result.name, **({} if file is None else file.spot(result.gains)))
     level = Level.UNDECIDED if result.promise is None else Level.PASSED
     message = f"no ε₀ is certified: {result.reasons.get(CERTIFIED, '')}" if result.promise is None else ""
     outcome = [about(level=level, rule=CERTIFIED, rule_text=RULES[CERTIFIED], case="ε₀", message=message)]

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
 
-from lyapcheck.answers.gain_place import GainPlace, gain_place
 from lyapcheck.output import fields
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
@@ -227,13 +226,9 @@ class Simulation(Answer, Generic[Result]):
         said = [*([] if breach is None else [breach.sentence]), *self.missing(name)]
         rule = PROMISES if self.watches(name) else FINISHED
         text = self.promised if rule == PROMISES else "the run reaches its end"
-        place = self._place(name)
-        return Annotation(self.level(name), rule, text, name, "", "; ".join(said), *place)
-
-    def _place(self, name: str) -> GainPlace:
-        known = () if self.file is None else self.file.gains
-        result = next((gain_set for gain_set in known if gain_set.name == name), None)
-        return GainPlace() if result is None else gain_place(self.file, result)
+        known = {} if self.file is None else {one.name: one for one in self.file.gains}
+        place = self.file.spot(known[name]) if self.file is not None and name in known else {}
+        return Annotation(self.level(name), rule, text, name, "", "; ".join(said), **place)
 
 
 def breach_record(breach: Breach | None) -> dict[str, Any]:

@@ -15,13 +15,13 @@ from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_least, decimals
+from lyapcheck.output.digits import at_least, at_most, decimals, shown
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section
 from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.effect import Effect
+    from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
@@ -42,6 +42,83 @@ LIMIT_DIGITS = 6
 LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
 DIGITS = 20
 """Of limits, for programs."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One member's run: degrees, the largest share of a motor's limit, rad/s; the worst joint each.
+
+    ``rest`` is how far from the goal dry friction may hold a joint; infinite where it holds it anywhere.
+    """
+
+    m: int
+    L2: float
+    final: float
+    share: float
+    speed: float
+    rest: float
+
+
+def _six(value: float) -> float | None:
+    """Six digits; none for infinity."""
+    return float(f"{value:.6g}") if math.isfinite(value) else None
+
+
+def _rest(value: float) -> str:
+    return "anywhere" if math.isinf(value) else at_most(value, 3) if value > 0 else "—"
+
+
+EFFECT = (
+    Field("m", "m", "m", align="l"),
+    Field("L2", "L2", "L2 [°]", ".2f", _six),
+    Field("final", "final", "error at the end [°]", ".2f", _six),
+    Field("share", "share", "torque share", ".2f", _six),
+    Field("speed", "speed", "top speed [rad/s]", ".2f", _six),
+    Field("rest", "rest", "friction leaves [°]", _rest, _six),
+)
+
+
+def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Effect, ...]:
+    """A run by the equations for each member; one that could not be finished is left out.
+
+    Soundness: floating point; one motion says nothing of others.
+    """
+    # what runs is loaded only by those who have no runs yet
+    import numpy as np
+
+    from lyapcheck.answers.gate.friction import rest_errors
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.run import SimulationFailed
+
+    result = []
+    for gains in sets:
+        try:
+            run = simulate(gains, model, task.q_d, task.q0, task.w0, task.T, stop=False)
+        except SimulationFailed:
+            continue
+        limits = np.array([np.nan if most is None else most for most in run.torque_limit])
+        share = float(np.nanmax(run.peak_torque / limits)) if not np.all(np.isnan(limits)) else math.nan
+        rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model))
+        final, speed = float(np.max(np.abs(run.indices.final_error))), float(np.max(np.abs(run.w)))
+        result.append(Effect(gains.m or 0, run.L2, final, share, speed, rest))
+    return tuple(result)
+
+
+def effect_section(result: Sequence[Effect], target: Sequence[float], time: float) -> Section:
+    """Runs to a target, degrees, in a time, s, beside each other, and what they show in one sentence."""
+    goal = ", ".join(shown(x, "g") for x in target)
+    first, last = result[0], result[-1]
+    L2, final, speed = (
+        f"from {shown(getattr(first, name), '.1f')}{unit} to {shown(getattr(last, name), '.1f')}{unit}"
+        for name, unit in (("L2", "°"), ("final", "°"), ("speed", ""))
+    )
+    says = (
+        f"Simulated by (11), without dry friction: in {shown(time, 'g')} s from rest to ({goal})°, from "
+        f"m = {first.m} to m = {last.m}: L2 goes {L2}, the error at the end {final}, the top speed {speed} "
+        "rad/s. For m ≥ 2 h is flat at the goal."
+    )
+    blocks: tuple[Block, ...] = (table(EFFECT, [(one,) for one in result]), Paragraph(says))
+    return Section("Simulated: what m does", blocks)
 
 
 @dataclass(frozen=True)
@@ -221,8 +298,6 @@ class Tuning(Answer):
         """A table a member, one for what it is compared with, and what it all rests on."""
         blocks: list[Block] = [_section(item, self.targets.digits) for item in self.sets]
         if self.task is not None and len(self.effects) > 1:
-            from lyapcheck.answers.tune.effect import effect_section
-
             blocks.append(effect_section(self.effects, [math.degrees(x) for x in self.task.q_d], self.task.T))
         return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
 
@@ -234,7 +309,7 @@ class Tuning(Answer):
             "limits": data(TUNED_TO, self.limits),
             "assumptions": list(self.limits.assumptions),
             "results": [self._set(item) for item in self.sets],
-            "effects": [one.data for one in self.effects],
+            "effects": [data(EFFECT, one) for one in self.effects],
         }
 
     def records(self) -> list[dict[str, Any]]:

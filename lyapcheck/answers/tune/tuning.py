@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import floor
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.words import advice
@@ -19,6 +19,7 @@ from lyapcheck.answers.tune.answer import (
     TunedJoint,
     TunedSet,
     Tuning,
+    effects,
 )
 from lyapcheck.answers.tune.largest import (
     Damping,
@@ -38,7 +39,7 @@ from lyapcheck.files.decimals import round_down
 from lyapcheck.robots import RobotModel, load
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.effect import Effect
+    from lyapcheck.answers.tune.answer import Effect
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
 
@@ -123,20 +124,16 @@ def tune(
     tuned = [item.gains for item in sets if item.gains is not None]
     seen: tuple[Effect, ...] = ()
     if task is not None and len(tuned) > 1:
-        from lyapcheck.answers.tune.effect import effects
-
         seen = effects(tuned, model, task)
     return Tuning(robot, model.title, wanted, limits, repeated, compared, task, seen)
 
 
 def _for_each_joint(targets: Targets, n: int) -> Targets:
-    return replace(
-        targets,
-        peak_share=joint_values(targets.peak_share, n),
-        kv_share=None if targets.kv_share is None else joint_values(targets.kv_share, n),
-        kv_min=None if targets.kv_min is None else joint_values(targets.kv_min, n),
-        damping=None if targets.damping is None else joint_values(targets.damping, n),
-    )
+    given = {name: getattr(targets, name) for name in ("peak_share", "kv_share", "kv_min", "damping")}
+    each: dict[str, Any] = {
+        name: joint_values(values, n) for name, values in given.items() if values is not None
+    }
+    return replace(targets, **each)
 
 
 def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:

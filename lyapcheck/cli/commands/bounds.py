@@ -17,7 +17,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from lyapcheck.answers.bounds.compare import BoundsComparison
+    from lyapcheck.answers.bounds import BoundsComparison
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
@@ -88,10 +88,10 @@ def run(
     with progress("bounds") as advance:
         result = _compare(gain_file.gains, model, task, (angle, dry), varied, advance)
     if folder is not None:
-        from lyapcheck.answers.bounds.answer import certificates as certificates_of
+        from lyapcheck.answers.bounds import certificates as certificates_of
 
         write_certificates(folder, *map(certificates_of, result))
-    from lyapcheck.answers.bounds.answer import Comparisons
+    from lyapcheck.answers.bounds import Comparisons
 
     show(Comparisons(tuple(result), gain_file), format)
     whole = all(one.proved for one in result)
@@ -127,7 +127,7 @@ def _compare(
     advance: Progress,
 ) -> list[BoundsComparison]:
     """The bounds of every gain set."""
-    from lyapcheck.answers.bounds.compare import compare
+    from lyapcheck.answers.bounds import compare
 
     result = []
     for done, gain_set in enumerate(gains):

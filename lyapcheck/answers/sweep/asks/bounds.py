@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from lyapcheck.answers.bounds.answer import certificates, comparison_data
-from lyapcheck.answers.bounds.compare import compare
+from lyapcheck.answers.bounds import certificates, compare, comparison_data
 from lyapcheck.answers.sweep.question import (
     VERDICTS,
     Answered,
