@@ -150,7 +150,8 @@ def compare(
     if varied is not None:
         unvaried = compare(gain_set, model, task, delta, dry, on_progress=part(progress, 0, 0.4))
     whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
-    most = _most(whole) if dry is None else tuple(dry)
+    known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
+    most = tuple(known_most if dry is None else dry)
     known = [f for f in most if f is not None]
     shown = resting(gain_set, known) if len(known) == len(most) else None
     promise, reason = (None, "") if shown is None else _promised(gain_set, known, shown)
@@ -182,8 +183,11 @@ def compare(
 def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
     """The promise of what is printed, in degrees and rounded up; or why there is none."""
     assert isinstance(shown.statement, Resting)
-    printed = [None if error is None else _rounded_up(error * DEGREES) for error in shown.statement.errors]
-    errors = [None if angle is None else angle / DEGREES for angle in printed]
+    unit = Fraction(1, 10**PLACES)
+    errors = [
+        None if error is None else ceil(error * DEGREES / unit) * unit / DEGREES
+        for error in shown.statement.errors
+    ]
     return promised(asked.resting(gains, dry, errors), shown)
 
 
@@ -193,16 +197,6 @@ def _errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
         return (None,) * n
     assert isinstance(promise.asked, Resting)
     return promise.asked.errors
-
-
-def _rounded_up(value: Fraction) -> Fraction:
-    """To so many places as are printed."""
-    return Fraction(ceil(value * 10**PLACES), 10**PLACES)
-
-
-def _most(model: RobotModel) -> tuple[Fraction | None, ...]:
-    """Dry friction of each joint at the upper end of its range, N·m."""
-    return tuple(None if number is None else number.bounds[1] for number in model.coulomb)
 
 
 def _reason(
@@ -370,15 +364,16 @@ def _behind(result: BoundsComparison) -> list[Table | Bullets]:
 def _times(results: Sequence[BoundsComparison]) -> Table:
     """When the simulated errors are small for good."""
     angles = ", ".join(dict.fromkeys(f"{math.degrees(result.delta):g}°" for result in results))
-    rows = tuple((result.gains.name, _time(result)) for result in results)
+    rows = tuple(
+        (
+            result.gains.name,
+            f"not within {result.task.T:g} s"
+            if result.simulated_time is None
+            else f"{shown(result.simulated_time, '.3g')} s",
+        )
+        for result in results
+    )
     return Table(("gains", "simulated time"), rows, f"Simulated: all |e_i| ≤ {angles} for good after:")
-
-
-def _time(result: BoundsComparison) -> str:
-    """When the run came to stay within δ."""
-    if result.simulated_time is None:
-        return f"not within {result.task.T:g} s"
-    return f"{shown(result.simulated_time, '.3g')} s"
 
 
 def _angle(value: float) -> str:

@@ -140,14 +140,11 @@ def _headline(one: Run) -> str:
 def _facts(one: Run) -> tuple[str, ...]:
     rates = f"initial rates {row(math.degrees(x) for x in one.task.w0)} °/s" if any(one.task.w0) else ""
     beyond = "‖τ‖ went BEYOND the bound (9)" if one.promises.inside_bound is False else ""
-    return tuple(filter(None, (rates, beyond, _checks(one), _beside(one))))
-
-
-def _checks(one: Run) -> str:
-    if math.isnan(one.accuracy):
-        return "accuracy unknown: the run was cut short"
     balance = "" if math.isnan(one.energy_balance) else f"; energy balance {sized(one.energy_balance)}"
-    return f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run{balance}"
+    checks = f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run{balance}"
+    if math.isnan(one.accuracy):
+        checks = "accuracy unknown: the run was cut short"
+    return tuple(filter(None, (rates, beyond, checks, _beside(one))))
 
 
 def _beside(one: Run) -> str:

@@ -18,7 +18,7 @@ Its answer is a proposal: the whole arm is tried with it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 import numpy as np
 
+from lyapcheck._types import Progress, silent
 from lyapcheck.answers.tune.response.trial import BY_19, Trial, Trials, Wishes, tried
 from lyapcheck.control.arm_limits import gravity_bounds
 from lyapcheck.control.conditions import gamma_of
@@ -205,7 +206,7 @@ class Search:
         """Whether there are gains at all."""
         return min(self.most_kv) >= 1
 
-    def run(self, on_try: Callable[[float], None] = lambda share: None) -> Found:
+    def run(self, progress: Progress = silent) -> Found:
         """The best set that was tried."""
         best, score = self._first()
         tries, level, most = 1, 0, MOST_TRIES if self.limits.n <= FEW_JOINTS else FEWER_TRIES
@@ -213,7 +214,7 @@ class Search:
             improved = False
             for moved in self._moves(best, FACTORS[level]):
                 tries += 1
-                on_try(tries / most)
+                progress(tries / most, "")
                 trial = self._tried(moved)
                 if self._score(trial) < score:
                     best, score, improved = Found(self.set_of(moved), trial, tries), self._score(trial), True

@@ -170,16 +170,12 @@ def tried(
     with np.errstate(invalid="ignore"):
         overshoot, share, late = (np.fmax.reduce([run[k] for run in runs]) for k in (0, 2, 3))
         settled = np.maximum.reduce([run[1] for run in runs])  # NaN where one of them does not settle
-    rest = np.max([_rest(gains, model) for model in models], axis=0)
+    rest = np.max([[*map(_degrees_above, rest_errors(gains, model))] for model in models], axis=0)
     return Trial(overshoot, settled, share, rest, late, T, kept)
 
 
-def _rest(gains: GainSet, model: RobotModel) -> Array:
-    """Degrees, rounded up to doubles."""
-    return np.array([_degrees_above(e) for e in rest_errors(gains, model)])
-
-
 def _degrees_above(error: Fraction | None) -> float:
+    """An error in degrees, rounded up to a double."""
     if error is None:
         return math.inf
     return math.nextafter(math.degrees(math.nextafter(float(error), math.inf)), math.inf) if error else 0.0
