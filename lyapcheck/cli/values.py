@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from lyapcheck.errors import InputError, Problem, argument_error
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
 
@@ -139,6 +141,21 @@ def robot_name(robot: str | None, gain_files: Iterable[GainFile]) -> str:
         rule = f"{', '.join(file.path for file in files)} names no arm and --robot is missing"
         raise argument_error("--robot", "", rule, "add --robot buap3, or robot = … to the file")
     return name
+
+
+def gains_on_arm(file: Path, robot: str | None, **numbers: Any) -> tuple[GainFile, str, RobotModel]:
+    """A gain file, the name of its arm or that of ``--robot``, and the arm; numbers are those of `load`.
+
+    Raises:
+        InputError: the file or the arm cannot be used.
+    """
+    from lyapcheck.control.gains import arm_named_in, read_gain_file
+    from lyapcheck.robots import load
+
+    gain_file = read_gain_file(file)
+    name = robot_name(robot, [gain_file])
+    with arm_named_in(gain_file, robot):
+        return gain_file, name, load(name, **numbers)
 
 
 def require_joints(gain_files: Iterable[GainFile], model: RobotModel) -> None:

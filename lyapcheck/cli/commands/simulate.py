@@ -15,7 +15,7 @@ from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, a
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
 from lyapcheck.cli.task import Eps0, check_options, check_places, eps0_of, request_of, starts_of, task_of
-from lyapcheck.cli.values import Complaints, robot_name
+from lyapcheck.cli.values import Complaints, gains_on_arm
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
@@ -309,15 +309,11 @@ def run(
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
       lyapcheck simulate gains.toml --eps0 1 --certificates breaches/
     """
-    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners, corners_text, outside
     from lyapcheck.tracking.reference import read_reference
 
-    gain_file = read_gain_file(file)
-    name = robot_name(robot, [gain_file])
-    with arm_named_in(gain_file, robot):
-        model = load(name)
+    gain_file, name, model = gains_on_arm(file, robot)
     wrong = Complaints()
     watched = wrong.reading(eps0_of, eps0) or Eps0(None)
     given = {
