@@ -107,7 +107,9 @@ def write_whole(path: Path, content: str | bytes) -> None:
         with pending(temporary):
             with os.fdopen(handle, "wb") as stream:
                 stream.write(data)
-            os.chmod(temporary, 0o666 & ~_umask())
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(temporary, 0o666 & ~mask)
             os.replace(temporary, target)
     except OSError as error:
         if temporary is not None and os.path.exists(temporary):
@@ -120,12 +122,6 @@ def write_whole(path: Path, content: str | bytes) -> None:
 def _is_device(path: Path) -> bool:
     """Whether a file in its place would take something else away: a device, a pipe, a socket."""
     return path.exists() and not path.is_file()
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def show(answer: Answer, format: str) -> None:  # noqa: A002

@@ -220,14 +220,21 @@ class ProofResult(Answer):
 
     def document(self) -> Document:
         """The tally, a list of what is not proved, then every claim, those that are not proved first."""
+        arm = f", robot {self.robot}" if self.robot else ""
+        known = {row.grade for row in self.claims}
+        notes = (WHOSE, *(text for grade, text in GRADES.items() if grade in known))
         blocks: tuple[Block, ...] = (
-            Paragraph(self._run()),
+            Paragraph(f"For m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}."),
             *self._index(),
             *self._of_nothing(),
             *self._sections(),
-            *self._assumed(),
+            *(
+                [Section(f"Assumed about {self.robot}", (Bullets(self.assumptions),))]
+                if self.assumptions
+                else []
+            ),
         )
-        return Document(self._title(), blocks, tuple(self._notes()))
+        return Document(self._title(), blocks, notes)
 
     def data(self) -> dict[str, Any]:
         """``claims: [{id, m, statement, verdict, …}]``, and what they were asked for."""
@@ -270,10 +277,6 @@ class ProofResult(Answer):
             return verdict.value
         return all_say((row.decision.promise for row in self._with(verdict)), verdict.value)
 
-    def _run(self) -> str:
-        arm = f", robot {self.robot}" if self.robot else ""
-        return f"For m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}."
-
     def _index(self) -> Iterator[Table]:
         """What is not proved, in a few lines; nothing where that is one claim at most."""
         rows = [
@@ -300,10 +303,6 @@ class ProofResult(Answer):
             if rows:
                 yield Section(f"{self._word(verdict).capitalize()} ({len(rows)})", tuple(self._parts(rows)))
 
-    def _assumed(self) -> Iterator[Section]:
-        if self.assumptions:
-            yield Section(f"Assumed about {self.robot}", (Bullets(self.assumptions),))
-
     def _parts(self, rows: Sequence[ClaimResult]) -> Iterator[Block]:
         for name in dict.fromkeys(row.section for row in rows):
             table = _table([row for row in rows if row.section == name], self.timings)
@@ -311,11 +310,6 @@ class ProofResult(Answer):
 
     def _with(self, verdict: Verdict) -> list[ClaimResult]:
         return [row for row in self.claims if row.verdict is verdict]
-
-    def _notes(self) -> Iterator[str]:
-        """Whose words are whose, and what the grades mean."""
-        yield WHOSE
-        yield from (text for grade, text in GRADES.items() if any(row.grade == grade for row in self.claims))
 
 
 def _ids(rows: Sequence[ClaimResult]) -> str:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly
 
-from lyapcheck.answers.check import ClaimResult, ProofResult
+from lyapcheck.answers.check import ProofResult
 from lyapcheck.answers.check.run import ProposedProof, proposed_proof
 from lyapcheck.asked import over_ranges
 from lyapcheck.certificate import Certificate
@@ -154,10 +154,11 @@ def properties(
 
     Friction that nobody has stated is not 0: then 2.7 is open, whatever follows for 0.
     """
-    rows = {
-        row.id: PropertyResult(row.id, row.statement, row.decision, _over(row, model))
-        for row in result.claims
-    }
+    rows = {}
+    for row in result.claims:
+        numbers = model.viscous if row.id == FRICTION else model.parameters.values()
+        over = about_ranges(row.stated, row.decision, numbers, model)
+        rows[row.id] = PropertyResult(row.id, row.statement, row.decision, over)
     made = dict(result.certificates)
     missing = _without_friction(model, assumed=True)
     if missing:
@@ -168,11 +169,6 @@ def properties(
         reason = f"the viscous friction of {none} is 0 in the file; where that means unknown, {_STATE_IT}"
         rows[FRICTION] = replace(rows[FRICTION], finding=replace(rows[FRICTION].finding, reason=reason))
     return tuple(rows[name] for name in IDS), made
-
-
-def _over(row: ClaimResult, model: RobotModel) -> Promise | None:
-    numbers = model.viscous if row.id == FRICTION else model.parameters.values()
-    return about_ranges(row.stated, row.decision, numbers, model)
 
 
 def _without_friction(model: RobotModel, assumed: bool) -> str:

@@ -39,8 +39,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_gain_file(parser)
     add_robot(parser)
-    about = "Only the gain sets of these members: 3, 1,2,5 or 1:12."
-    parser.add_argument("--m", metavar="M", help=about)
+    parser.add_argument("--m", metavar="M", help="Only the gain sets of these members: 3, 1,2,5 or 1:12.")
     parser.add_number("--max-boxes", int, "Budget of branch and bound.", default=400_000, least=1)
     parser.add_number(
         "--jobs",

@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "A built-in arm, or an arm file (.toml, .urdf)."
-    parser.add_argument("robot", metavar="NAME|FILE", help=about)
+    parser.add_argument("robot", metavar="NAME|FILE", help="A built-in arm, or an arm file (.toml, .urdf).")
     about = "For a URDF: the link that ends the chain; the longest chain if missing."
     parser.add_argument("--tip", metavar="LINK", help=about)
     about = "Budget of boxes for each constant; 200000/n² for n joints if missing."

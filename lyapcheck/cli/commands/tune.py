@@ -182,10 +182,8 @@ def arguments(parser: Parser) -> None:
     parser.add_choice("--stability", ("both", *WAYS), about, default="both")
     about = "Share that k_v takes, at least, of the largest that (19) admits; 1 if missing."
     parser.add_argument("--kv-share", metavar="SHARES", help=about)
-    about = "Lower bound of k_v, N·m, instead of a share."
-    parser.add_argument("--kv-min", metavar="TORQUES", help=about)
-    about = "Lower bound of each joint's damping ratio."
-    parser.add_argument("--damping", metavar="RATIOS", help=about)
+    parser.add_argument("--kv-min", metavar="TORQUES", help="Lower bound of k_v, N·m, instead of a share.")
+    parser.add_argument("--damping", metavar="RATIOS", help="Lower bound of each joint's damping ratio.")
     add_vary(parser)
     parser.add_argument("--torque", metavar="TORQUES", help="Torque limits instead of the arm's, N·m.")
     parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds instead of the arm's, N·m.")

@@ -150,7 +150,9 @@ class BenchTuning(Answer):
         tasks = "; ".join(f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks)
         arms = f", each on {self.arms}" if self.arms else ""
         asked = Paragraph(f"Asked: {self.bench.wishes.text()}. Simulated from rest, {tasks}{arms}.")
-        warning = Paragraph(f"Other motions and lower rates may miss the targets.{self._assumed()}")
+        assumed = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
+        friction = f" The viscous friction of {', '.join(assumed)} is assumed." if assumed else ""
+        warning = Paragraph(f"Other motions and lower rates may miss the targets.{friction}")
         lines = [*self._given_up(), *self.missing]
         said = (Bullets(tuple(lines)),) if lines else ()
         blocks = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
@@ -198,11 +200,6 @@ class BenchTuning(Answer):
     def _mark(self) -> str:
         """Of a set that meets the targets, perhaps only without the dry friction of the file."""
         return "!" if self.dry else "✓"
-
-    def _assumed(self) -> str:
-        """Which friction of the arm is only assumed, as a sentence."""
-        joints = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
-        return f" The viscous friction of {', '.join(joints)} is assumed." if joints else ""
 
     def missed(self, one: Candidate) -> list[str]:
         """The targets that a set misses, with the joints and by which factor; or what else it lacks."""
