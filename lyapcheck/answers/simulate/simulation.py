@@ -7,7 +7,7 @@ from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from lyapcheck.output import fields
 from lyapcheck.output.annotations import Annotation, Level
@@ -20,6 +20,9 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.simulate.breach import Breach
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.starts import Sweep
+    from lyapcheck.tracking.run import TrackingRun
 
 
 PROMISES, FINISHED = "promises", "finished"
@@ -38,35 +41,8 @@ BREACH = (
 """What broke, whole for programs and in a few cells for spreadsheets."""
 
 
-class Simulated(Protocol):
-    """What was found for one gain set."""
-
-    @property
-    def name(self) -> str:
-        """The name of the gain set."""
-
-    @property
-    def robot(self) -> str:
-        """The name of the arm."""
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """The names of its joints."""
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What the reader must know."""
-
-    @property
-    def breach(self) -> Breach | None:
-        """The first promise that it broke."""
-
-    @property
-    def without_dry_friction(self) -> bool:
-        """Whether the arm file gives dry friction that the run leaves out."""
-
-
-Result = TypeVar("Result", bound=Simulated)
+Result = TypeVar("Result", bound="Run | Sweep | TrackingRun")
+"""What was found for one gain set."""
 
 
 @dataclass(frozen=True)
