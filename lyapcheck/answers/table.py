@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from lyapcheck.certificate import Certificate
@@ -25,10 +26,11 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Document, Paragraph
 from lyapcheck.output.document import Table as Cells
+from lyapcheck.output.fields import Field, data, table
 
 TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x)"
 LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, not rounded."
-CONSTANTS = ("gamma", "rho", "L", "gamma_at", "rho_at", "L_at")
+CONSTANTS = {"gamma": "γ", "rho": "ρ", "L": "L", "gamma_at": "x of γ", "rho_at": "x of ρ", "L_at": "x of L"}
 ENDS = ("lower", "upper")
 INFINITY, NONE = "∞", "none"
 REST_DIGITS = 6
@@ -93,7 +95,7 @@ class Table(Answer):
 
     def document(self) -> Document:
         """The constants, where each is reached, what was asked for beside them; all digits correct."""
-        blocks = [self._constants(), self._asymptotes(), self._budget()]
+        blocks = [table(self._fields, [(row,) for row in self.rows]), self._asymptotes(), self._budget()]
         return Document(TITLE, (Paragraph(LEGEND), *filter(None, blocks)), tuple(self._notes()))
 
     def data(self) -> dict[str, Any]:
@@ -120,17 +122,16 @@ class Table(Answer):
             rows.append({**ends, **tails, **({"budget": budget} if budget else {}), "slope_at_0": slope})
         return rows
 
-    def _constants(self) -> Cells:
-        heads = ("m", "γ", "ρ", "L", "x of γ", "x of ρ", "x of L", "h′(0)")
-        rows = [
-            (
-                str(row.m),
-                *self._cells(*(getattr(row, name) for name in CONSTANTS)),
-                str(slope_at_zero(row.m)),
-            )
-            for row in self.rows
-        ]
-        return Cells(heads, tuple(rows), align="rlllllll")
+    @cached_property
+    def _fields(self) -> tuple[Field, ...]:
+        """What is said of a member, whatever else was asked."""
+
+        def shown(value: Enclosure | None) -> str:
+            return self._cells(value)[0]
+
+        constants = (Field(key, key, head, shown, self._ends, "l") for key, head in CONSTANTS.items())
+        slope = Field("slope_at_0", lambda row: str(slope_at_zero(row.m)), "h′(0)", align="l")
+        return Field("m", "m", "m"), *constants, slope, Field("gamma_printed", lambda row: _printed(row.m))
 
     def _asymptotes(self) -> Cells | None:
         if self.asymptotes is None:
@@ -174,14 +175,7 @@ class Table(Answer):
         return [INFINITY if value is None else correct_digits(value, shown) for value in values]
 
     def _row(self, index: int) -> dict[str, Any]:
-        row = self.rows[index]
-        result: dict[str, Any] = {"m": row.m}
-        result |= {name: self._ends(getattr(row, name)) for name in CONSTANTS}
-        printed = PRINTED_GAMMA.get(row.m)
-        result["slope_at_0"] = str(slope_at_zero(row.m))
-        result["gamma_printed"] = (
-            None if printed is None else {"value": decimal_text(printed), "bounds_h": printed_bounds(row.m)}
-        )
+        result = data(self._fields, self.rows[index])
         if self.asymptotes is not None:
             tail = self.asymptotes[index]
             result["asymptotics"] = {
@@ -246,6 +240,12 @@ def build_table(
 def slope_at_zero(m: int) -> int:
     """h_m'(0), from (8) at x = 0, where only its first term can be left: (2m − 1) sinh^(2m−2) 0."""
     return int((2 * m - 1) * 0 ** (2 * m - 2))
+
+
+def _printed(m: int) -> dict[str, Any] | None:
+    """What the paper prints of γ, and whether it bounds h."""
+    value = PRINTED_GAMMA.get(m)
+    return None if value is None else {"value": decimal_text(value), "bounds_h": printed_bounds(m)}
 
 
 def printed_bounds(m: int) -> bool:
