@@ -79,7 +79,7 @@ def torques(controlled: ControlledArm, at: Sample) -> list[arb]:
         spring = to_arb(controlled.gains.kp[i]) * unit * functions.h(e)
         damper = to_arb(controlled.gains.kv[i]) * unit * functions.h(x)
         lead = dot(mass[i], acceleration) + dot(coriolis[i], speed)
-        result.append(spring - damper + lead + gravity[i] + to_arb(controlled.arm.viscous[i]) * speed[i])
+        result.append(spring - damper + lead + gravity[i] + to_arb(model.viscous[i].value) * speed[i])
     return result
 
 

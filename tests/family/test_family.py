@@ -33,11 +33,18 @@ def in_casadi(f, x):
     return {form: out.full().ravel() for form, out in zip(FORMS, function(x.reshape(1, -1)), strict=True)}
 
 
+def accuracy(f):
+    """4m + 8 units in the last place, relative."""
+    return (4 * (f.m or 1) + 8) * np.finfo(float).eps
+
+
 @every_family
 def test_h_is_odd_and_the_others_are_even(f):
-    assert np.array_equal(f.h(-GRID), -f.h(GRID))
+    """To the promised accuracy: vector mathematics need not give sinh(−x) the bits of −sinh x."""
+    assert np.allclose(f.h(-GRID), -f.h(GRID), rtol=2 * accuracy(f), atol=0)
     for form in FORMS[1:]:
-        assert np.array_equal(getattr(f, form)(-GRID), getattr(f, form)(GRID))
+        left, right = getattr(f, form)(-GRID), getattr(f, form)(GRID)
+        assert np.allclose(left, right, rtol=2 * accuracy(f), atol=0), form
 
 
 @every_family
@@ -124,7 +131,7 @@ def test_wide_balls_contain_the_values_inside(f, form, middle, radius, inside):
 def test_casadi_gives_the_same_numbers(f):
     x = np.concatenate([GRID, [0.0, 1e-310, 1e5, -1e150]])
     for form, values in in_casadi(f, x).items():
-        assert np.allclose(values, getattr(f, form)(x), rtol=3e-15, atol=1e-320), form
+        assert np.allclose(values, getattr(f, form)(x), rtol=2 * accuracy(f), atol=1e-320), form
 
 
 @every_family

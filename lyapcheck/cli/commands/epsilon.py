@@ -58,7 +58,7 @@ def arguments(parser: Parser) -> None:
     parser.add_number("--seconds", float, about, least=0)
     about = "Also search weights Λ in y = w − εΛh, joint by joint."
     parser.add_argument("--weights", action="store_true", help=about)
-    parser.add_number("--starts", int, "Starts of each optimised search.", default=30, least=1)
+    parser.add_number("--starts", int, "Starts of each optimised search.", default=30, least=1, most=10_000)
     parser.add_number("--seed", int, "Seed of the sampled states.", default=20190301, least=0)
     add_certificates(parser)
     parser.add_argument("--timings", action="store_true", help="Add the seconds each gain set took.")

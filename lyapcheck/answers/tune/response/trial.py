@@ -73,9 +73,7 @@ class Wishes:
             if not 0 < value <= top:
                 rule = f"must be above 0, up to {top:g}"
                 option = "--" + name.replace("_", "-")
-                problems.append(
-                    Problem("argument", None, option, at_most(value, 6), rule, "correct the value")
-                )
+                problems.append(Problem("argument", None, option, f"{value:g}", rule, "correct the value"))
         if problems:
             raise InputError(problems)
 
