@@ -12,20 +12,18 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
-from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
-from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.robots.dynamics import TooManyTerms
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.inertia import mass_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
+    from lyapcheck.check.kinds.decreasing import Decreasing
+    from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.check.statement import Ends, Statement
     from lyapcheck.control.gains import Bounds, GainSet
     from lyapcheck.robots import RobotModel
@@ -60,6 +58,8 @@ def decreasing(
         coupling: the diagonal of Λ, where one is printed.
         nominal: the question is about the nominal numbers of the arm alone.
     """
+    from lyapcheck.check.kinds.decreasing import Decreasing
+
     arm = arm.fixed() if nominal else arm
     return Decreasing(
         mass=mass_of(arm),
@@ -76,6 +76,8 @@ def decreasing(
 
 def resting(gains: GainSet, dry: Sequence[Fraction], errors: Sequence[Fraction | None]) -> Resting:
     """Does each joint rest within its error under dry friction of this size, N·m? See `Resting`."""
+    from lyapcheck.check.kinds.resting import Resting
+
     return Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), tuple(errors))
 
 
@@ -96,12 +98,17 @@ def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -
     if name == "lambda_max":
         return MassBelow(mass_of(arm), ranges, end)
     if name == "k_c":
+        from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+
         return CoriolisBelow(mass_of(arm), ranges, end)
     gravity = tuple(tuple(to_terms(arm.gravity[i])) for i in _joints(name, arm))
     return GravityBelow(arm.n, gravity, ranges, end)
 
 
 def _of_links(name: str, arm: Plant, end: Fraction) -> Statement:
+    from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow
+    from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+
     chain = arm.chain
     assert chain is not None
     if name == "lambda_min":
@@ -192,9 +199,15 @@ def viscous_of(arm: Plant, viscous_min: Fraction | None = None, *, nominal: bool
 
 
 def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
-    """Is g the slope of the potential, and |g_i(q)| ≤ k_gi at every posture of every arm in the ranges?"""
+    """Is g the slope of the potential, and |g_i(q)| ≤ k_gi at every posture of every arm in the ranges?
+
+    Of exact links whose g is too long to be written out the second is asked.
+    """
+    try:
+        gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
+    except TooManyTerms:
+        return AllOf(tuple((f"g{i}", _of_links(f"k_g{i}", arm, k)) for i, k in enumerate(k_g, 1)))
     ranges = tuple(number.bounds for number in arm.parameters.values())
-    gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
     parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
     slope = GravityOfPotential(gravity, tuple(to_terms(arm.potential)), ranges)
     return AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(parts, 1))))

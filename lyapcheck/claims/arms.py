@@ -45,17 +45,17 @@ def _place(robot: RobotModel) -> ArmAtAngles:
 
 
 def torque_limits(robot: RobotModel) -> list[Fraction]:
-    """τmax of each joint, N·m.
+    """τmax of each joint, N·m; of one with a range the least.
 
     Raises:
         Lacking: the robot has none for some joint.
     """
-    result = [number.value for number in robot.torque_limit if number is not None]
+    result = [number.bounds[0] for number in robot.torque_limit if number is not None]
     if len(result) < robot.n:
         raise lacking("needs a torque limit for every joint; add it to the arm file")
     return result
 
 
 def gravity_bounds(robot: RobotModel) -> list[Fraction]:
-    """k_gi of each joint at nominal numbers, N·m: those that the gate takes, printed or not."""
-    return list(arm_limits.gravity_bounds(robot.fixed()))
+    """k_gi of each joint for all values of the ranges, N·m: printed by the source, else computed."""
+    return list(arm_limits.gravity_bounds(robot))

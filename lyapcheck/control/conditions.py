@@ -14,7 +14,7 @@ Each check is a statement about numbers and has the verdict of ``lyapcheck.check
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -59,6 +59,7 @@ class Check:
         reason: one sentence where ``limit`` is ``None`` or nothing was decided.
         promise: of a proof about the arm, that it is about the arm as it was given.
         admitted: that the largest value passes, where another was rejected.
+        threshold: what the value is compared with.
     """
 
     id: str
@@ -70,6 +71,7 @@ class Check:
     reason: str = ""
     promise: Promise | None = None
     admitted: JudgedStatement | None = None
+    threshold: Threshold | None = field(default=None, compare=False, repr=False)
 
     @property
     def verdict(self) -> str:
@@ -78,16 +80,18 @@ class Check:
 
     @property
     def own_promise(self) -> Promise:
-        """That a check holds which is accepted: of a proof about the arm, else of its own numbers.
+        """That a check holds which is accepted: of a proof about the arm, else of its value and its limit.
 
         Raises:
-            Refused: it is not accepted.
+            Refused: it is not accepted, or what was judged is about another value.
         """
         if self.promise is not None:
             return self.promise
-        require(self.judgement is not None, "check", self.id, "has no statement")
+        asked = None if self.threshold is None or self.value is None else self.threshold.asked(self.value)
+        require(asked is not None and self.judgement is not None, "check", self.id, "has no statement")
+        assert asked is not None
         assert self.judgement is not None
-        return Promise(self.judgement.statement, self.judgement)
+        return Promise(asked, self.judgement)
 
     @property
     def margin(self) -> Fraction | None:
@@ -174,7 +178,7 @@ class Conditions:
         reason = _UNTOLD.format(result.reason) if result.proof is None else ""
         largest = threshold.largest(places)
         passes = None if largest is None or result.shown == "proved" else threshold.judged(largest, places)
-        return Check(name, joint, result, value, limit, largest, reason, admitted=passes)
+        return Check(name, joint, result, value, limit, largest, reason, admitted=passes, threshold=threshold)
 
 
 def _fails(checks: Sequence[Check]) -> bool:

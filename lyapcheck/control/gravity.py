@@ -4,28 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import lru_cache
-from itertools import product
-from typing import TYPE_CHECKING
+from itertools import combinations, product
+from typing import TYPE_CHECKING, Any
 
-from flint import fmpq_mpoly
-
-from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, largest
+from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.field import size_of
+from lyapcheck.check.loop.links import lever_bound
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.robots.chain_bounds import chain_bounds
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.gravity import GravityBelow
+    from lyapcheck.check.kinds.gravity import GravityBelow, Levers
     from lyapcheck.control.judgement import JudgedStatement
     from lyapcheck.robots import RobotModel
 
 Point = tuple[Fraction, ...]
 FEW_POSTURES = 4
 """Up to so many joints all postures of quarter turns are looked at."""
+FEW_LEVERS = 7
+"""Up to so many joints each choice of moments along axes is tried."""
 FINEST = 1e-7
 DIGITS = 10**9
 
@@ -59,26 +61,56 @@ class Gravity:
 
 
 def computed_bounds(model: RobotModel) -> tuple[Fraction, ...]:
-    """The smaller of two bounds: coefficients of g_i in size, and for a chain masses and distances.
+    """The smaller of two bounds: sizes of the harmonics of g_i, and for a chain masses and distances.
 
     Raises:
         TooManyTerms: no links are known, and g is too long to be written out.
 
-    Soundness: every monomial is a product of sines and cosines, at most 1 in size, and of parameters, at
-        most the larger end of their range; see `lyapcheck.robots.chain_bounds` for the other, which grows
-        with each mass.
+    Soundness: of each the checker has a rule, ``HarmonicSizes`` and ``Levers``.
     """
-    along = model.chain_bounds
-    if along is None and model.heaviest is not None:
-        along = chain_bounds(model.heaviest)
-    chain = None if along is None else along.gravity
+    ranges = tuple(number.bounds for number in model.parameters.values())
+    known = None if (proofs := levers(model)) is None else [proof.bound(ranges) for proof in proofs]
     try:
-        sums = tuple(_coefficient_sum(model, torque) for torque in model.gravity)
+        sizes = [size_of(torque_of(model, i), ranges) for i in range(model.n)]
     except TooManyTerms:
-        if chain is None:
+        if known is None:
             raise
-        return chain
-    return tuple(map(min, sums, chain or sums))
+        return tuple(known)
+    return tuple(map(min, sizes, known or sizes))
+
+
+@lru_cache(maxsize=64)
+def levers(model: RobotModel) -> tuple[Levers, ...] | None:
+    """Links that show a bound of each g_i; ``None`` where they are unknown, or more than masses uncertain."""
+    from lyapcheck.check.kinds.gravity import Levers
+
+    heavy = model.heaviest
+    if heavy is None:
+        return None
+    dynamics = model.dynamics
+    assert isinstance(dynamics, Chain)
+    of = [{name: Fraction(int(name == one)) for name in model.parameters} for one in ("", *model.parameters)]
+    none, *units = ([link.mass for link in dynamics.fixed(values).links] for values in of)
+    shares = tuple(tuple(map(Fraction.__sub__, unit, none)) for unit in units)
+    links = tuple(replace(link, mass=mass) for link, mass in zip(heavy.links, none, strict=True))
+    return tuple(Levers(links, shares, heavy.fall, i, _along(heavy, i)) for i in range(model.n))
+
+
+def _along(chain: Chain, i: int) -> tuple[int, ...]:
+    """For which joints behind one `lever_bound` is least; beyond a few all or none."""
+    rough, fall = (_rough(chain.links), _rough(chain.fall))
+    behind = range(i + 1, chain.n)
+    few = chain.n - i <= FEW_LEVERS
+    choices = [(joint,) for joint in behind] if few else [tuple(behind)]
+    subsets = (sum(some, ()) for k in range(len(choices) + 1) for some in combinations(choices, k))
+    return min(subsets, key=lambda along: lever_bound(rough, fall, i, along, math.sqrt))
+
+
+def _rough(part: Any) -> Any:
+    """Links, vectors and numbers in floating point."""
+    if isinstance(part, RigidLink):
+        return replace(part, **{one.name: _rough(getattr(part, one.name)) for one in fields(part)})
+    return tuple(map(_rough, part)) if isinstance(part, tuple) else float(part)
 
 
 @lru_cache(maxsize=64)
@@ -90,14 +122,14 @@ def settled(model: RobotModel, stated: tuple[Fraction | None, ...], own: RobotMo
         stated: bounds in N·m; ``None`` where nobody states one.
         own: the arm as its file gives it.
 
-    Soundness: a stated bound counts where a computed one or the sizes of harmonics are not above it, or
-        ``lyapcheck.check.verify`` proves it.
+    Soundness: a stated bound counts where a computed one is not above it, or ``lyapcheck.check.verify``
+        proves it.
     """
     bounds: list[Fraction] = []
     notes: list[str] = []
     refuted: list[RefutedBound] = []
     for i, (bound, most) in enumerate(zip(stated, computed_bounds(model), strict=True)):
-        if bound is None or bound >= most or _kept_by_sizes(model, i, bound):
+        if bound is None or bound >= most:
             bounds.append(most if bound is None else bound)
             continue
         broken, why = _judged(model, i, bound, own)
@@ -111,33 +143,10 @@ def settled(model: RobotModel, stated: tuple[Fraction | None, ...], own: RobotMo
     return Gravity(tuple(bounds), tuple(notes), tuple(refuted))
 
 
-def _coefficient_sum(model: RobotModel, poly: fmpq_mpoly) -> Fraction:
-    sizes = [Fraction(1)] * (2 * model.n)
-    sizes += [max(map(abs, number.bounds)) for number in model.parameters.values()]
-    total = Fraction(0)
-    for powers, coefficient in poly.terms():
-        size = abs(Fraction(int(coefficient.p), int(coefficient.q)))
-        for base, power in zip(sizes, powers, strict=True):
-            size *= base ** int(power)
-        total += size
-    return total
-
-
 @lru_cache(maxsize=64)
 def torque_of(model: RobotModel, i: int) -> Uncertain:
     """g_i as harmonics, by the powers of the parameters."""
     return by_parameters(to_terms(model.gravity[i]), model.n)
-
-
-def _kept_by_sizes(model: RobotModel, i: int, bound: Fraction) -> bool:
-    """Whether the harmonics of g_i are together not larger than a bound."""
-    sizes = [max(map(abs, number.bounds)) for number in model.parameters.values()]
-    try:
-        parts = torque_of(model, i).items()
-    except TooManyTerms:
-        return False
-    rows = (largest(part) * math.prod(map(pow, sizes, powers), start=Fraction(1)) for powers, part in parts)
-    return sum(rows, Fraction(0)) <= bound
 
 
 def _judged(model: RobotModel, i: int, bound: Fraction, own: RobotModel) -> tuple[RefutedBound | None, str]:

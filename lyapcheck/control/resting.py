@@ -14,7 +14,8 @@ from lyapcheck.files.decimals import decimal_text, significant_up
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
-HALVINGS = 50
+HALVINGS = 26
+"""Of an error that is known to a factor of 2: finer than the six digits that are kept."""
 FARTHEST = 2**10
 """rad: larger bounds are as good as none."""
 DEGREES = Fraction("57.295779513082321")
@@ -42,6 +43,9 @@ def rest_error(family: str, m: int | None, ratio: Fraction) -> Fraction | None:
         low, high = high, 2 * high
         if high > FARTHEST:
             return None
+    while not low and rests_within(h, ratio, high / 2):
+        high /= 2
+    low = high / 2
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         low, high = (low, middle) if rests_within(h, ratio, middle) else (middle, high)

@@ -56,14 +56,18 @@ class Threshold:
         key = value.as_integer_ratio()  # hashing a fraction takes longer
         known = self._known.get(key)
         if known is None:
-            if self.bounded:
-                known = judged_statement(
-                    Constant(Relation(number(value), self.operator, self.limit)), _proofs(places)
-                )
-            else:
-                known = judged_statement(*self._against(value))
-            self._known[key] = known
+            proofs = _proofs(places) if self.bounded else self._against(value)
+            known = self._known[key] = judged_statement(self.asked(value), proofs)
         return known
+
+    def asked(self, value: Fraction) -> Constant | ForAll:
+        """That a positive value passes; where h is unbounded, that value·h(x) = value·x does for all x."""
+        if self.bounded:
+            return Constant(Relation(number(value), self.operator, self.limit))
+        from lyapcheck.check.kinds.for_all import ForAll
+
+        product = ("mul", number(value), ("var", "x"))
+        return ForAll(Relation(product, self.operator, self.limit), Fraction(0))
 
     def admits(self, value: Fraction, places: int = 0) -> bool:
         """Whether the checker proves that a positive value passes."""
@@ -119,15 +123,11 @@ class Threshold:
         with precision(bits):
             return Enclosure.from_arb(ball(self.limit))
 
-    def _against(self, value: Fraction) -> tuple[ForAll, list[Proof]]:
-        """That value·h(x) = value·x keeps to the limit for all x, and an x where it does not."""
-        from lyapcheck.check.kinds.for_all import ForAll
+    def _against(self, value: Fraction) -> list[Proof]:
+        """An x where value·h(x) = value·x is above the limit."""
         from lyapcheck.check.statement import Witness
 
-        product = ("mul", number(value), ("var", "x"))
-        statement = ForAll(Relation(product, self.operator, self.limit), Fraction(0))
-        x = Fraction(max(0, self.near().upper // value) + 1)
-        return statement, [Witness((("x", x),))]
+        return [Witness((("x", Fraction(max(0, self.near().upper // value) + 1)),))]
 
 
 def scaled(budget: Fraction, n: int, gamma: Tree | None, operator: str = "<") -> Threshold:

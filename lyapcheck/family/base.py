@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb
 
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.errors import argument_error
+from lyapcheck.family.arithmetic import Arithmetic, arrays, graphs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -27,6 +28,26 @@ class SymbolicForms:
     h: Any
     dh: Any
     potential: Any
+
+
+class Forms(Protocol):
+    """h(x), h'(x), U(x) and h(x)/x in one arithmetic; each may be worked out when it is asked for."""
+
+    @property
+    def h(self) -> Any:
+        """h(x)."""
+
+    @property
+    def dh(self) -> Any:
+        """h'(x)."""
+
+    @property
+    def potential(self) -> Any:
+        """U(x)."""
+
+    @property
+    def secant(self) -> Any:
+        """h(x)/x, continued by h'(0) at 0."""
 
 
 @dataclass(frozen=True)
@@ -87,17 +108,26 @@ class Family(ABC):
         """h(x)/x, continued by h'(0) at x = 0."""
         return self.values(x, "secant")
 
-    @abstractmethod
     def values(self, x: ArrayLike, form: str) -> Doubles:
-        """One of ``NumericForms`` at each element; NaN stays NaN."""
+        """One of ``Forms`` at each element; NaN stays NaN."""
+        import numpy as np
+
+        x = np.asarray(x, dtype=float)
+        with np.errstate(all="ignore"):
+            values = getattr(self.numeric(arrays(), x), form)
+        return np.where(np.isnan(x), x, values)
+
+    @abstractmethod
+    def numeric(self, of: Arithmetic, x: Any) -> Forms:
+        """h, h', U and h(x)/x in any arithmetic, accurate to a few units in the last place."""
 
     @abstractmethod
     def sympy(self, x: Any) -> SymbolicForms:
         """h, h' and U at a SymPy expression."""
 
-    @abstractmethod
-    def casadi(self, x: Any) -> NumericForms:
-        """h, h', U and h(x)/x, elementwise, at a CasADi SX expression, as accurate as the NumPy forms."""
+    def casadi(self, x: Any) -> Forms:
+        """The same, elementwise, at a CasADi SX expression."""
+        return self.numeric(graphs(), x)
 
     @property
     def checked(self) -> Member:

@@ -5,6 +5,7 @@ References: ``reyes2019family`` (6), (8), (12).
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from lyapcheck.family.base import SymbolicForms
@@ -24,3 +25,12 @@ def hyperbolic_symbolic(x: Any, m: Any) -> SymbolicForms:
     h = sp.diff(potential, symbol)
     dh = sp.diff(h, symbol)
     return SymbolicForms(*(form.subs(symbol, x) for form in (h, dh, potential)))
+
+
+@lru_cache(maxsize=64)
+def slope_terms(m: int) -> tuple[tuple[int, int], ...]:
+    """(c, k) of the terms c sinh^(2k)x of h_m' times (1 + sinh^(2m)x)², as SymPy derives them."""
+    from lyapcheck.derive.family import member
+
+    known = member(m)
+    return tuple((int(c), power // 2) for (_, power), c in known.top(known.dh, 2).terms())

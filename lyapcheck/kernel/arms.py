@@ -25,10 +25,11 @@ from lyapcheck.check.kinds.decreasing import (
 )
 from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
 from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
-from lyapcheck.check.loop.closed_loop import ClosedLoop, root_above
+from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.proof import MORE_HALVINGS
 from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.numbers.enclosure import root_above
 from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list

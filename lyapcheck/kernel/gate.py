@@ -48,7 +48,7 @@ def gate_script(statement: GateAccepted, proof: Proof) -> str:
     """
     sizes = isinstance(proof, GateParts) and all(isinstance(own, HarmonicSizes) for own in proof.gravity)
     if not sizes:
-        raise NotPrinted("a bound of gravity by boxes")
+        raise NotPrinted("a bound of gravity by boxes or levers")
     m = _m(statement)
     _, most = between("gamma", m)
     root = Fraction(isqrt(statement.joints * DIGITS**2 - 1) + 1, DIGITS)

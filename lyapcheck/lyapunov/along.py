@@ -13,8 +13,8 @@ from functools import cached_property
 from typing import Any
 
 from lyapcheck.derive.evaluate import function, values_of
-from lyapcheck.derive.plain import Forms
 from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.family.base import Forms
 from lyapcheck.robots.dynamics import ArmAtAngles
 from lyapcheck.robots.elimination import solve_definite
 from lyapcheck.robots.plant import Plant
@@ -66,14 +66,14 @@ class AtState:
         a0, a1, a2 = self.coefficients()
         return (a1 + a2 * eps0) * eps0 - a0
 
-    def fast(self, joint: int | None = None) -> list[list[Any]]:
+    def fast(self, scales: Vector | None = None) -> list[list[Any]]:
         """F, (n, n), with a₁ = wᵀ F w + …: what decides for fast states; not symmetric.
 
-        It is linear in h and h' together; the part that one joint has in it if that is named.
+        It is linear in h and h' together; with ``scales`` these are Λh and Λh', Λ their diagonal.
         """
         known, n = self._terms, self.model.n
-        if joint is not None:
-            h, d = ([0.0 * x if i != joint else x for i, x in enumerate(known[name])] for name in "hd")
+        if scales is not None:
+            h, d = ([k * x for k, x in zip(scales, known[name], strict=True)] for name in "hd")
             known = known | {"h": h, "d": d, "G": self.arm.coriolis(h)}
         entries = self._of("fast", known)
         return [entries[i * n : (i + 1) * n] for i in range(n)]

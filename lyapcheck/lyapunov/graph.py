@@ -14,9 +14,9 @@ from typing import Any
 
 import casadi as ca
 
-from lyapcheck.derive.plain import Forms
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic, graphs
+from lyapcheck.family.base import Forms
 from lyapcheck.lyapunov.along import AtState
 from lyapcheck.robots.plant import Plant
 

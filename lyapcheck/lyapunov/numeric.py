@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import Any, Literal
@@ -14,7 +13,6 @@ import numpy as np
 from lyapcheck import store
 from lyapcheck._types import Array
 from lyapcheck.compiled.loop import Loop, loop
-from lyapcheck.derive.plain import Forms, has_plain_forms, plain_forms
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt
@@ -33,41 +31,9 @@ OUTPUTS: dict[str, tuple[int, Callable[[AtState, Any], list[Any]]]] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class OwnForms:
-    """The forms of a family by its own functions on arrays."""
-
-    family: Family
-    x: Array
-
-    @property
-    def h(self) -> Array:
-        """h(x)."""
-        return self.family.h(self.x)
-
-    @property
-    def dh(self) -> Array:
-        """h'(x)."""
-        return self.family.dh(self.x)
-
-    @property
-    def potential(self) -> Array:
-        """U(x)."""
-        return self.family.potential(self.x)
-
-
-def array_forms(family: Family) -> FormsAt:
-    """The forms of the compiled loops on arrays, or a family's own where it has none."""
-    return forms_in(family, arrays()) if has_plain_forms(family) else partial(OwnForms, family)
-
-
 def forms_in(family: Family, of: Arithmetic) -> FormsAt:
-    """The forms of compiled loops in an arithmetic."""
-
-    def forms(x: Any) -> Forms:
-        return plain_forms(family, of, x)
-
-    return forms
+    """The forms of a family in an arithmetic."""
+    return partial(family.numeric, of)
 
 
 class LyapunovNumeric:
@@ -113,21 +79,22 @@ class LyapunovNumeric:
 
     def at_columns(self, q: Array, e: Array, w: Array) -> AtState:
         """What else is known at states (count, n), as columns of NumPy."""
-        forms, columns = array_forms(self.family), [list(np.ascontiguousarray(x.T)) for x in (q, e, w)]
+        forms, columns = forms_in(self.family, arrays()), [list(np.ascontiguousarray(x.T)) for x in (q, e, w)]
         gains = self.kp, self.kv, self.viscous
         return AtState(self.model, arrays(), forms, columns[0], columns[1], columns[2], *gains)
 
     def engine(self, count: int = LARGE) -> Literal["compiled", "numpy"]:
         """What serves a batch of ``count`` states; asking about a large one compiles what it needs."""
-        known = count >= LARGE and all(self._loop(name) is not None for name in ("value", "rate"))
-        return "compiled" if known else "numpy"
+        loops = (_compiled(self.model, self.family, name) for name in ("value", "rate"))
+        return "compiled" if count >= LARGE and all(one is not None for one in loops) else "numpy"
 
     def _at(self, name: str, q: Array, e: Array, w: Array, large: int | None = None) -> Array:
         states = [np.asarray(x, dtype=np.float64) for x in np.broadcast_arrays(q, e, w)]
         shape = states[0].shape[:-1]
         columns = [x.reshape(-1, self.model.n).T for x in states]
         count = columns[0].shape[1]
-        known = self._loop(name) if count >= (LARGE if large is None else large) else None
+        many = count >= (LARGE if large is None else large)
+        known = _compiled(self.model, self.family, name) if many else None
         numbers = np.array([*self.kp, *self.kv, *self.viscous, self.eps0])[:, None]
         if known is not None:
             values = known(*columns, np.broadcast_to(numbers, (len(numbers), count)))
@@ -139,9 +106,6 @@ class LyapunovNumeric:
                     at = self.at_columns(*(x[:, block].T for x in columns))
                     values[:, block] = np.stack(OUTPUTS[name][1](at, self.eps0))
         return values.reshape(-1, *shape)
-
-    def _loop(self, name: str) -> Loop | None:
-        return _compiled(self.model, self.family, name) if has_plain_forms(self.family) else None
 
 
 def _compiled(model: Plant, family: Family, name: str) -> Loop | None:

@@ -45,6 +45,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         robot=model,
         ms=subject.ms,
         table=build_table(subject.ms),
+        derived=result.derived,
         gate=gate,
         epsilon=result.epsilon,
         claims=result.claims,

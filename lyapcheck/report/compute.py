@@ -24,7 +24,7 @@ from lyapcheck.report.drawings import (
 )
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
-from lyapcheck.report.jobs import Done, done, gains_job, map_job, proofs_job, with_the_map
+from lyapcheck.report.jobs import Done, derive_job, done, gains_job, map_job, proofs_job, with_the_map
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending, work_in
 
@@ -80,6 +80,7 @@ def compute(subject: Subject, notes: Notes, gate: Sequence[GateResult], progress
         epsilon=epsilon,
         runs=runs,
         sensitivity=study,
+        derived=jobs.derived.result().result,
         cells=tuple(one.cell for one in mapped.cells),
         figures=figures,
         certificates=certificates,
@@ -94,6 +95,7 @@ class Jobs:
     Args:
         sets: ε₀ and simulation of each gain set.
         proofs: the claims of the paper and of the other proofs, with small witnesses.
+        derived: what SymPy derives.
         map: the map over m and k_v, computed where that is asked for.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.
@@ -101,6 +103,7 @@ class Jobs:
 
     sets: list[Job]
     proofs: Job
+    derived: Job
     map: Job
     labels: dict[Job, str]
     drawings: dict[Job, Callable[[Any], Files]]
@@ -119,8 +122,9 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     proofs = start("claims", proofs_job, *about, notes, subject.own)
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
+    derived = start("derivation", derive_job, subject.ms, subject.robot)
     cells = start("map", map_job, subject.robot, subject.of_family, subject.map)
-    return Jobs(sets, proofs, cells, labels, dict.fromkeys(sets, draw_set))
+    return Jobs(sets, proofs, derived, cells, labels, dict.fromkeys(sets, draw_set))
 
 
 def _drawn(jobs: Jobs, progress: Progress) -> Files:

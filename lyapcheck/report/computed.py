@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from lyapcheck.answers.derive import Derivation
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import EpsilonRow, RunRow
 from lyapcheck.report.map_cell import MapCell
@@ -22,6 +23,7 @@ class Computed:
     epsilon: tuple[EpsilonRow, ...]
     runs: tuple[RunRow, ...]
     sensitivity: StudyRow | None
+    derived: Derivation
     cells: tuple[MapCell, ...]
     figures: Mapping[str, str | bytes]
     certificates: Mapping[str, str]

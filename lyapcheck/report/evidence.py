@@ -11,7 +11,7 @@ from lyapcheck.kernel.record import GRADE
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.gain_rows import KINDS, RunRow
+from lyapcheck.report.gain_rows import KINDS, EpsilonRow, RunRow
 from lyapcheck.report.model import Report
 from lyapcheck.report.study import StudyRow
 from lyapcheck.report.text import bracket, fixed, joined
@@ -37,19 +37,30 @@ def figure(report: Report, name: str, caption: str) -> Iterator[Figure]:
 def four_epsilons(report: Report) -> Iterator[Block]:
     """The four ε₀ of each gain set, why one is missing, and their drawing."""
     rows = tuple(
-        (row.name, *(row.eps0(kind) or "–" for kind in KINDS), row.ratio or "–") for row in report.epsilon
+        (row.name, *(row.eps0(kind) or "–" for kind in KINDS), row.ratio or "–", _weighted(row))
+        for row in report.epsilon
     )
-    heads = ("gains", "published (18)", "scalar", "certified", "falsified", "certified/falsified")
+    heads = ("gains", "published (18)", "scalar", "certified", "falsified", "certified/falsified", "ε₀Λ")
     yield Table(
         heads,
         rows,
         "Published: the end of (18). Scalar: from two norms. The next has a certificate for this arm; of the "
-        "last a state with dV/dt > 0 is known. Rounded to the safe side, at nominal numbers.",
+        "last a state with dV/dt > 0 is known. ε₀Λ: with weights, y = w − εΛh, the largest product with a "
+        "certificate. Rounded to the safe side, at nominal numbers.",
     )
     missing = [(row.name, kind, text) for row in report.epsilon for kind, text in row.reasons.items()]
     if missing:
-        yield Bullets(tuple(f"{name}, no {kind} ε₀: {text}" for name, kind, text in missing))
+        what = {"weighted": "larger ε₀Λ"}
+        said = (f"{name}, no {what.get(kind, f'{kind} ε₀')}: {text}" for name, kind, text in missing)
+        yield Bullets(tuple(said))
     yield from figure(report, "epsilon", "The four ε₀ of each gain set")
+
+
+def _weighted(row: EpsilonRow) -> str:
+    """ε₀Λ of a gain set in a cell; a dash where no weights were sought."""
+    if not row.weighted:
+        return "–"
+    return f"diag({', '.join(row.weighted)})" if "weighted" in row.certificates else "Λ = I"
 
 
 def evidence(report: Report) -> Iterator[Section]:

@@ -66,7 +66,7 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
     served: DecreaseProof | None = None
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
-        result = kept_epsilon(gains, model, Options(max_boxes=BOXES))
+        result = kept_epsilon(gains, model, Options(max_boxes=BOXES, weights=False))
         known = None if served is None else served.for_smaller(gains.kv).accepted()
         if known is not None and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
             promise, _ = answers(known, gains, model, ranges=False)

@@ -11,6 +11,7 @@ from lyapcheck.promise import Promise
 BOTH_ENDS = ("certified", "falsified")
 """The ε₀ that rest on certificates."""
 KINDS = ("published", "scalar", *BOTH_ENDS)
+LINKED = (*BOTH_ENDS, "weighted")
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,8 @@ class EpsilonRow:
         ratio: certified/falsified.
         boxes: the budget of branch and bound.
         reasons: why an ε₀ is missing, by its name.
-        certificates: their paths in the report, by the names of ``BOTH_ENDS``.
+        certificates: their paths in the report, by the names of ``LINKED``.
+        weighted: ε₀Λ with the largest product that is accepted, joint by joint; empty where none was sought.
         promise: that V falls at every state of the arm at its nominal numbers, with the certified ε₀.
     """
 
@@ -42,6 +44,7 @@ class EpsilonRow:
     boxes: int
     reasons: Mapping[str, str]
     certificates: Mapping[str, str]
+    weighted: tuple[str, ...] = ()
     promise: Promise | None = None
 
     def eps0(self, kind: str) -> str | None:

@@ -14,11 +14,12 @@ from lyapcheck.errors import InputError
 from lyapcheck.files.names import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.gain_rows import BOTH_ENDS, KINDS, EpsilonRow, RunRow
+from lyapcheck.report.gain_rows import KINDS, LINKED, EpsilonRow, RunRow
 from lyapcheck.report.plain import read
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.derive import Derivation
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
@@ -197,10 +198,8 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
     if lacking := without_friction(gain_set, model):
         blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(EpsilonRow))
         blank |= {"name": gain_set.name, "m": gain_set.m, "robot": model.name, "seed": seed, "boxes": BOXES}
-        reasons = dict.fromkeys(KINDS, lacking)
-        return EpsilonRow(
-            **blank | {"assumptions": model.assumptions, "reasons": reasons, "certificates": {}}
-        ), {}
+        blank |= {"assumptions": model.assumptions, "reasons": dict.fromkeys(KINDS, lacking)}
+        return EpsilonRow(**blank | {"certificates": {}, "weighted": ()}), {}
     result = kept_epsilon(gain_set, model, Options(max_boxes=BOXES, seed=seed))
     low, high = rounded(result.certified, up=False), rounded(result.falsified, up=True)
     files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
@@ -218,10 +217,14 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
         ratio=f"{float(Fraction(low) / Fraction(high)):.{DIGITS}g}" if low and high else None,
         boxes=BOXES,
         reasons=dict(result.reasons),
-        certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in BOTH_ENDS},
+        certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in LINKED},
+        weighted=tuple(at_least(x, DIGITS) for x in result.weighted.products) if result.weighted else (),
         promise=result.promise,
     )
-    return replace(row, reasons={k: text for k, text in row.reasons.items() if row.eps0(k) is None}), files
+    known = {kind for kind in KINDS if row.eps0(kind) is not None}
+    return replace(
+        row, reasons={kind: text for kind, text in row.reasons.items() if kind not in known}
+    ), files
 
 
 def without_friction(gain_set: GainSet, model: RobotModel) -> str:
@@ -266,6 +269,14 @@ class MapData:
 
     cells: list[JudgedCell]
     for_sets: Mapping[str, Certificate]
+
+
+def derive_job(ms: Sequence[int], robot: str) -> Derivation:
+    """What SymPy derives of the members and for as many joints as the arm has, and the checker judges."""
+    from lyapcheck.answers.derive import LARGEST_M, MOST_JOINTS, derivation
+    from lyapcheck.robots import load
+
+    return derivation([m for m in ms if m <= LARGEST_M], min(load(robot).n, MOST_JOINTS))
 
 
 def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:

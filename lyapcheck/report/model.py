@@ -10,6 +10,7 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.report.claim_row import ClaimRow
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.derive import Derivation
     from lyapcheck.answers.gate.answer import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
@@ -105,6 +106,7 @@ class Report:
         robot: the arm.
         ms: the members of the family that were asked for.
         table: the constants of these members.
+        derived: what SymPy derives of them and of V, and what the checker says of it.
         gate: what the gate says of each gain set.
         epsilon: the four ε₀ of each gain set.
         claims: decided claims of the paper, one row a claim and m.
@@ -124,6 +126,7 @@ class Report:
     robot: RobotModel
     ms: tuple[int, ...]
     table: Table
+    derived: Derivation
     gate: GateAnswer
     epsilon: tuple[EpsilonRow, ...]
     claims: tuple[ClaimRow, ...]

@@ -6,7 +6,7 @@ distance of its centre of mass from the axis of joint i:
 
     xᵀMx ≥ Σ j_k y_k²,          x_i² ≤ (y_i + y_{i−1})²,
     xᵀMx ≤ |x|ᵀ B |x|,          B_ij = Σ_{k≥i,j} (m_k ρ_ik ρ_jk + J_k),
-    |g_i| ≤ |γ| Σ_{k≥i} m_k ρ_ik,    |c_ijk| ≤ N_ijk = Σ_{l≥i,j,k} (m_l ρ_il ρ_{max(j,k),l} + J_l).
+    |c_ijk| ≤ N_ijk = Σ_{l≥i,j,k} (m_l ρ_il ρ_{max(j,k),l} + J_l).
 
 The last one is c_ijk = ∫ ∂p/∂q_i · ∂²p/∂q_j∂q_k dm over the points p of the links, where the second
 derivative is a_j × (a_k × (p − o_k)) for j ≤ k; it takes bodies whose mass is nowhere negative.
@@ -20,7 +20,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.numbers.matrices import is_positive_definite, is_positive_semidefinite
+from lyapcheck.check.loop.links import lever_bound
+from lyapcheck.check.numbers.matrices import is_positive_semidefinite
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.robots.dynamics import Chain
 
@@ -67,10 +68,7 @@ def chain_bounds(chain: Chain) -> ChainBounds:
         tuple(link.about_axis for link in links),
         _smallest([low for low, _ in spectra]),
         _largest(masses, [high for _, high in spectra], distances),
-        tuple(
-            _norm(chain.fall) * sum((m * r for m, r in zip(masses, row, strict=True)), Fraction(0))
-            for row in distances
-        ),
+        tuple(lever_bound(links, chain.fall, i, ()) for i in range(chain.n)),
         _coriolis(masses, [high for _, high in spectra], distances) if all(map(bodily, tensors)) else None,
     )
 
@@ -175,8 +173,8 @@ def _spectrum(tensor: Tensor) -> tuple[Fraction, Fraction]:
 
 
 def _definite(tensor: Tensor, shift: Fraction, sign: int) -> bool:
-    """Whether ±(A − shift I) is positive definite."""
-    return is_positive_definite(
+    """Whether ±(A − shift I) is positive semidefinite."""
+    return is_positive_semidefinite(
         [[sign * (x - (shift if i == k else 0)) for k, x in enumerate(row)] for i, row in enumerate(tensor)]
     )
 

@@ -76,7 +76,7 @@ class Plant:
 
     @cached_property
     def heaviest(self) -> Chain | None:
-        """The links with their largest masses, where those are known and nothing else is uncertain."""
+        """The links with their largest masses, where those are known and g depends on nothing else."""
         if not isinstance(self.dynamics, Chain) or not self.parameters:
             return self.chain
         light, heavy = (
@@ -84,7 +84,8 @@ class Plant:
             for end in (0, 1)
         )
         masses_alone = light.fall == heavy.fall and all(
-            replace(a, mass=b.mass) == b for a, b in zip(light.links, heavy.links, strict=True)
+            replace(a, mass=b.mass, inertia=b.inertia) == b
+            for a, b in zip(light.links, heavy.links, strict=True)
         )
         return heavy if masses_alone else None
 

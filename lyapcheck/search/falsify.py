@@ -32,6 +32,7 @@ from lyapcheck.search.worst_states import (
     fast_states,
     finite_states,
     level_states,
+    require_one_rate,
     slow_states,
 )
 
@@ -122,6 +123,7 @@ def _candidates(
     """States that refute a small ε₀, from plain sampling to the optimised programs."""
     states = sample(controlled, samples, seed)
     chosen = promising(controlled, states, starts)
+    require_one_rate(controlled, chosen)
     yield "sampled", chosen
     speed, directions = fastest_directions(controlled, states.q, states.e)
     picked = spread(states, speed, starts)

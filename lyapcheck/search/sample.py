@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.lyapunov.along import AtState
@@ -35,7 +36,7 @@ class States:
     e: Array
     w: Array
 
-    def take(self, chosen: Array) -> States:
+    def take(self, chosen: NDArray[Any]) -> States:
         """The states at the given indices."""
         return States(self.q[chosen], self.e[chosen], self.w[chosen])
 
@@ -177,10 +178,10 @@ def size(controlled: ControlledArm, eps0: float, states: States) -> Array:
     return np.asarray(eps0 * near * np.sum(h * h, axis=1) + np.sum(states.w * states.w, axis=1))
 
 
-def fast(at: AtState, joint: int | None = None) -> Array:
-    """F of each state, (count, n, n); of h(e) with all but one joint left out if that is named."""
+def fast(at: AtState, scales: Array | None = None) -> Array:
+    """F of each state, (count, n, n); with Λh(e) in place of h(e) if a diagonal of Λ is given."""
     count = np.size(at.near)
-    return np.stack([_rows(row, count) for row in at.fast(joint)], axis=1)
+    return np.stack([_rows(row, count) for row in at.fast(None if scales is None else list(scales))], axis=1)
 
 
 def _symmetric(at: AtState) -> Array:

@@ -5,8 +5,10 @@ P of ``lyapcheck.check.loop`` is, but for its last part, linear in λ = ε₀Λ:
     P(λ) = B + ½ s (S(λ) + S(λ)ᵀ) − ¼ s Σ_i (λ_i/k_i) x_i x_iᵀ,   x_i the rows of B + s S,
 
 so with the x_i of the last turn it is a linear matrix inequality at each state. The program makes Σ ln λ_i as
-large as it can under those of the states at hand; states where the result fails join them, until none is
-found. What comes out is a proposal: branch and bound, and then the checker, decide.
+large as it can under those of the states at hand; from where the result is nearest to failing, CasADi and
+IPOPT climb, and what they find joins them, until nothing fails. What comes out is a proposal: branch and
+bound, and then the checker, decide. Λ = I is where the program begins, and the answer where nothing with a
+larger product of λ is accepted.
 
 References: ``boyd1994lmi``, section 2.5 (cutting planes).
 """
@@ -15,194 +17,229 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck._types import Array, Progress, part, silent
+from lyapcheck._types import SEED, Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.convex import solved
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import MAX_BOXES
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.proof import DecreaseProof
-from lyapcheck.search.sample import fast
+from lyapcheck.search.sample import States, fast
 from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.worst_states import SOFTEST, resisting_program
 
 SAMPLES = 20_000
 KEPT = 12
 TURNS = 12
-CLIMBS = 40
 MARGIN = 0.02
 """P(λ) ⪰ MARGIN·B is asked for: what lies between the sampled states needs some room."""
-SHARES = tuple(Fraction(n, 100) for n in (100, 98, 95, 90, 80, 60, 40))
-"""Shares of the proposed λ that are tried one after the other, from the largest."""
+SHARES = tuple(Fraction(n, 100) for n in (60, 80, 90, 95, 100))
+"""Shares of the proposed λ that are tried one after the other; boxes are few for small ones."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How long weights are sought: turns of the program and boxes of all attempts together."""
+
+    turns: int = TURNS
+    boxes: int = MAX_BOXES
+
+
+def usual_effort(n: int, most: int) -> Effort:
+    """Where nobody has asked for weights by name; of more than a few joints each turn and box takes long."""
+    few = n <= FEW_JOINTS
+    return Effort(TURNS if few else 4, min(most, 20_000 if few else 400))
 
 
 @dataclass(frozen=True)
 class Weighted:
-    """A proof with weights, and what Λ = I would have to give up for it.
+    """The proof with the largest product of ε₀Λ that the checker accepted, that of Λ = I perhaps.
 
     Args:
-        proof: accepted by the checker; its closure holds ε₀ and Λ, the smallest entry of Λ being 1.
+        proof: its closure holds ε₀ and Λ, the smallest entry of Λ being 1.
         states: how many states the program saw.
         looked_at: boxes of all attempts.
+        reason: why the product is not larger.
     """
 
     proof: DecreaseProof
     states: int
     looked_at: int
+    reason: str = ""
 
     @property
     def products(self) -> tuple[Fraction, ...]:
         """ε₀Λ, joint by joint."""
-        loop = self.proof.loop
-        return tuple(loop.eps0 * scale for scale in loop.Lambda)
+        return products(self.proof)
+
+
+def products(proof: DecreaseProof) -> tuple[Fraction, ...]:
+    """ε₀Λ of a proof, joint by joint."""
+    return tuple(proof.loop.eps0 * scale for scale in proof.loop.Lambda)
 
 
 @dataclass(frozen=True)
-class WeightedStates:
-    """States (q, e) with what P needs there: S of each unit weight (count, joint, n, n), and s (count,)."""
+class Seen:
+    """States with what P needs there.
 
+    Args:
+        states: without rates.
+        S: of each unit weight, (count, joint, n, n).
+        s: 1/(1 + r), (count,).
+    """
+
+    states: States
     S: Array
     s: Array
 
-    def at(self, chosen: NDArray[np.intp]) -> WeightedStates:
-        """Some of the states."""
-        return WeightedStates(self.S[chosen], self.s[chosen])
-
-    def joined(self, other: WeightedStates) -> WeightedStates:
+    def joined(self, other: Seen) -> Seen:
         """Both lists of states."""
-        return WeightedStates(np.concatenate([self.S, other.S]), np.concatenate([self.s, other.s]))
+        states = States(*(np.vstack([getattr(x.states, name) for x in (self, other)]) for name in "qew"))
+        return Seen(states, np.concatenate([self.S, other.S]), np.concatenate([self.s, other.s]))
 
 
 def weighted_epsilon(
     controlled: ControlledArm,
-    eps0: Fraction,
-    max_boxes: int = MAX_BOXES,
+    certified: DecreaseProof,
+    effort: Effort = Effort(),
     jobs: int = 1,
-    seed: int = 20190301,
+    seed: int = SEED,
     on_progress: Progress | None = None,
-) -> Weighted | None:
-    """Weights whose ε₀Λ is as large as possible in the sense of Σ ln(ε₀λ_i), with a proof; ``None`` if none.
+) -> Weighted:
+    """The weights with a proof whose ε₀Λ has the largest product.
 
     Args:
         controlled: gains and arm, at its nominal numbers.
-        eps0: an ε₀ certified with Λ = I, where the search begins.
-        max_boxes: budget of all attempts together.
+        certified: what is proved with Λ = I, where the search begins.
+        effort: how long to search.
         jobs: processes for the checker.
         seed: of the sampled states.
         on_progress: receives the share done.
 
-    Soundness: ``lyapcheck.check.verify`` has accepted what is handed back.
+    Soundness: ``lyapcheck.check.verify`` has accepted what is handed back, if it has accepted ``certified``.
     """
     progress = on_progress or silent
-    result, states = _proposal(controlled, float(eps0), seed, part(progress, 0, 0.5))
-    looked_at = 0
+    proposal = _Proposal(controlled, seed)
+    weights, states = proposal.made(float(certified.loop.eps0), effort.turns, part(progress, 0, 0.5))
+    found: list[DecreaseProof] = []
+    looked_at, reason = 0, ""
     for index, share in enumerate(SHARES):
         progress(0.5 + 0.5 * index / len(SHARES), f"{float(share):.0%} of the proposed weights")
-        loop = controlled.loop(*_rounded([Fraction(float(x)) * share for x in result]))
-        if not loop.admissible:
+        loop = controlled.loop(*_rounded([Fraction(float(x)) * share for x in weights]))
+        if not _larger(loop.eps0, loop.Lambda, certified.loop.eps0):
+            reason = "the convex program proposes none with a larger product"
             continue
-        outcome = certify(SchurProblem(loop), max(0, max_boxes // len(SHARES)))
-        looked_at += outcome.boxes
-        proof = (
-            DecreaseProof(loop, BoxTree(outcome.tree), controlled.inertia_proof) if outcome.proved else None
-        )
-        accepted = None if proof is None else proof.accepted(jobs)
-        if accepted is not None:
-            return Weighted(accepted, states, looked_at)
-    return None
-
-
-def _rounded(products: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
-    """ε₀ and Λ from ε₀Λ, as short decimals from below; the smallest entry of Λ is 1."""
-    eps0 = Fraction(int(min(products) * 10**6), 10**6)
-    return eps0, tuple(max(Fraction(1), Fraction(int(x / eps0 * 1000), 1000)) for x in products)
-
-
-def _proposal(controlled: ControlledArm, eps0: float, seed: int, progress: Progress) -> tuple[Array, int]:
-    """λ = ε₀Λ, and how many states it was made for."""
-    random = np.random.default_rng(seed)
-    q, e = _sample(controlled, random)
-    states = _evaluated(controlled, q, e)
-    result = np.full(controlled.n, eps0)
-    active = states.at(_worst(controlled, states, result))
-    for turn in range(TURNS):
-        progress(turn / TURNS, f"convex program over {len(active.s)} states")
-        result = _program(controlled, active, result)
-        chosen = _worst(controlled, states, result)
-        climbed = _climbed(controlled, q[chosen], e[chosen], result, random)
-        seen = states.at(chosen).joined(climbed)
-        failing = _smallest(controlled, seen, result) < MARGIN / 2
-        if not failing.any() and turn > 2:
+        if not loop.admissible:
+            reason = f"{float(share):.0%} of what the convex program proposes is too much for K_p"
             break
-        active = active.joined(seen.at(np.flatnonzero(failing)))
-    return result, len(active.s)
+        outcome = certify(SchurProblem(loop), max(0, effort.boxes - looked_at))
+        looked_at += outcome.boxes
+        if not outcome.proved:
+            reason = f"{float(share):.0%} of what the convex program proposes: {outcome.reason}"
+            break
+        reason = ""
+        found.append(controlled.proof(loop, BoxTree(outcome.tree)))
+    while found:
+        accepted = found.pop().accepted(jobs)
+        if accepted is not None:
+            return Weighted(accepted, states, looked_at, reason)
+        reason = "the boxes found were refused by the checker"
+    return Weighted(certified, states, looked_at, reason)
 
 
-def _program(controlled: ControlledArm, states: WeightedStates, near: Array) -> Array:
-    """The weights that the convex program gives for some states, starting from ``near``."""
-    import cvxpy as cp
-
-    B, k = np.diag(controlled.viscous), controlled.kp
-    x = B + states.s[:, None, None] * np.einsum("i,cijk->cjk", near, states.S)
-    weights = cp.Variable(controlled.n, pos=True)
-    constraints: list[Any] = [weights <= 3 * near, weights >= near / 3]
-    root = np.sqrt(controlled.viscous)
-    for S, s, rows in zip(states.S, states.s, x, strict=True):
-        P = B
-        for i in range(controlled.n):
-            linear = s * (S[i] + S[i].T) / 2 - s / (4 * k[i]) * np.outer(rows[i], rows[i])
-            P = P + weights[i] * linear
-        constraints.append((P / np.outer(root, root)) - MARGIN * np.eye(controlled.n) >> 0)
-    # almost solved is good enough for a proposal; without one the next turn begins a bit nearer to 0
-    found = solved(cp.sum(cp.log(weights)), constraints, [weights]).values
-    return found[0] if found else near * 0.9
+def _larger(eps0: Fraction, scales: tuple[Fraction, ...], than: Fraction) -> bool:
+    """Whether the product of ε₀Λ is larger than with Λ = I and another ε₀."""
+    product = Fraction(1)
+    for scale in scales:
+        product *= eps0 * scale / than
+    return product > 1
 
 
-def _smallest(controlled: ControlledArm, states: WeightedStates, weights: Array) -> Array:
-    """λmin(B^−½ P B^−½) at each state."""
-    B, root = np.diag(controlled.viscous), np.sqrt(controlled.viscous)
-    S = np.einsum("i,cijk->cjk", weights, states.S)
-    s = states.s[:, None, None]
-    X = B + s * S
-    L = float(controlled.family.constants().L.upper)
-    compliance = 1 / np.maximum(controlled.kp / weights - L * controlled.kv / 4, 1e-12)
-    P = B + s * (S + np.swapaxes(S, 1, 2)) / 2 - s / 4 * np.einsum("cki,k,ckj->cij", X, compliance, X)
-    return np.asarray(np.linalg.eigvalsh(P / np.outer(root, root))[:, 0])
+def _rounded(weights: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
+    """ε₀ and Λ from ε₀Λ, as short decimals from below; the smallest entry of Λ is 1."""
+    eps0 = Fraction(int(min(weights) * 10**6), 10**6)
+    return eps0, tuple(max(Fraction(1), Fraction(int(x / eps0 * 1000), 1000)) for x in weights)
 
 
-def _worst(controlled: ControlledArm, states: WeightedStates, weights: Array) -> NDArray[np.intp]:
-    return np.asarray(np.argsort(_smallest(controlled, states, weights), kind="stable")[:KEPT])
+class _Proposal:
+    """λ = ε₀Λ by turns of the convex program and of looking for states where its answer fails."""
 
+    def __init__(self, controlled: ControlledArm, seed: int) -> None:
+        self.controlled, self.n = controlled, controlled.n
+        self.B, self.root = np.diag(controlled.viscous), np.sqrt(controlled.viscous)
+        random, shape = np.random.default_rng(seed), (SAMPLES, self.n)
+        e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 0.7, shape)
+        self.sampled = States(random.uniform(-np.pi, np.pi, shape), e, np.zeros(shape))
+        self.resisting = resisting_program(controlled)
 
-def _climbed(
-    controlled: ControlledArm, q: Array, e: Array, weights: Array, random: np.random.Generator
-) -> WeightedStates:
-    """The states after random steps towards smaller eigenvalues; the steps shrink."""
-    value = _smallest(controlled, _evaluated(controlled, q, e), weights)
-    for step in range(CLIMBS):
-        size = 0.3 * 0.85**step
-        moved = q + size * random.normal(size=q.shape), e * np.exp(size * random.normal(size=e.shape))
-        moved = moved[0], moved[1] + 0.1 * size * random.normal(size=e.shape)
-        result = _smallest(controlled, _evaluated(controlled, *moved), weights)
-        better = result < value
-        q, e = np.where(better[:, None], moved[0], q), np.where(better[:, None], moved[1], e)
-        value = np.where(better, result, value)
-    return _evaluated(controlled, q, e)
+    def made(self, eps0: float, turns: int, progress: Progress) -> tuple[Array, int]:
+        """λ, and how many states it was made for."""
+        weights = np.full(self.n, eps0)
+        active = self._worst(weights)
+        for turn in range(turns):
+            progress(turn / turns, f"convex program over {len(active.s)} states")
+            weights = self._program(active, weights)
+            seen = self._worst(weights)
+            failing = self.smallest(seen, weights) < MARGIN / 2
+            if not failing.any() and turn > 2:
+                break
+            chosen = np.flatnonzero(failing)
+            active = active.joined(Seen(seen.states.take(chosen), seen.S[chosen], seen.s[chosen]))
+        return weights, len(active.s)
 
+    def _worst(self, weights: Array) -> Seen:
+        """The worst of the samples, and where CasADi climbs from them."""
+        values, vectors = self._spectrum(*self._at(self.sampled, weights), weights)
+        chosen: NDArray[np.intp] = np.argsort(values[:, 0], kind="stable")[:KEPT]
+        worst, directions = self.sampled.take(chosen), vectors[chosen, :, 0] / self.root
+        starts = np.hstack([worst.q, worst.e, directions / np.linalg.norm(directions, axis=1)[:, None]])
+        ends = self.resisting.climb(starts, weights)
+        return self._seen(States(*np.split(np.vstack([starts, ends]), 3, axis=1)))
 
-def _sample(controlled: ControlledArm, random: np.random.Generator) -> tuple[Array, Array]:
-    """Random states, errors of all sizes in each joint."""
-    shape = (SAMPLES, controlled.n)
-    e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 0.7, shape)
-    return random.uniform(-np.pi, np.pi, shape), e
+    def _program(self, seen: Seen, near: Array) -> Array:
+        """The weights that the convex program gives for some states, starting from ``near``."""
+        import cvxpy as cp
 
+        n, B = self.n, self.B
+        x = B + seen.s[:, None, None] * np.einsum("i,cijk->cjk", near, seen.S)
+        weights = cp.Variable(n, pos=True)
+        constraints = [weights <= 3 * near, weights >= near / 3]
+        scale = np.outer(self.root, self.root)
+        for S, s, rows in zip(seen.S, seen.s, x, strict=True):
+            softer = np.einsum("ij,ik->ijk", rows, rows) / (4 * self.controlled.kp[:, None, None])
+            linear = s * ((S + np.swapaxes(S, 1, 2)) / 2 - softer) / scale
+            P = cp.reshape(linear.reshape(n, n * n).T @ weights, (n, n), order="C") + B / scale
+            constraints.append(P - MARGIN * np.eye(n) >> 0)
+        # almost solved is good enough for a proposal; without one the next turn begins a bit nearer to 0
+        found = solved(cp.sum(cp.log(weights)), constraints, [weights]).values
+        return found[0] if found else near * 0.9
 
-def _evaluated(controlled: ControlledArm, q: Array, e: Array) -> WeightedStates:
-    """S of each unit weight: (M e_i h_i) êᵀ s + C(q, e_i h_i) − M e_i h_i' e_iᵀ, −Fᵀ/s of h_i alone."""
-    at = controlled.lyapunov.at_columns(q, e, np.zeros_like(e))
-    parts = [np.swapaxes(fast(at, joint), 1, 2) for joint in range(controlled.n)]
-    return WeightedStates(-np.stack(parts, axis=1) / at.near[:, None, None, None], at.near)
+    def smallest(self, seen: Seen, weights: Array) -> Array:
+        """λmin(B^−½ P B^−½) at each state."""
+        sS = seen.s[:, None, None] * np.einsum("i,cijk->cjk", weights, seen.S)
+        return np.asarray(self._spectrum(sS, seen.s, weights)[0][:, 0])
+
+    def _spectrum(self, sS: Array, s: Array, weights: Array) -> tuple[Array, Array]:
+        """Eigenvalues and vectors of B^−½ P B^−½, from s S(λ) and s."""
+        known = self.controlled
+        X, L = self.B + sS, float(known.family.constants().L.upper)
+        compliance = 1 / np.maximum(known.kp / weights - L * known.kv / 4, SOFTEST)
+        slow = np.einsum("cki,k,ckj->cij", X, compliance, X)
+        P = self.B + (sS + np.swapaxes(sS, 1, 2)) / 2 - s[:, None, None] / 4 * slow
+        values, vectors = np.linalg.eigh(P / np.outer(self.root, self.root))
+        return values, vectors
+
+    def _at(self, states: States, scales: Array) -> tuple[Array, Array]:
+        """s S at each state, (M Λh) êᵀ s² + s C(q, Λh) − s M Λh', and s."""
+        at = self.controlled.lyapunov.at_columns(states.q, states.e, states.w)
+        return -np.swapaxes(fast(at, scales), 1, 2), np.asarray(at.near)
+
+    def _seen(self, states: States) -> Seen:
+        parts = [self._at(states, unit) for unit in np.eye(self.n)]
+        s = parts[0][1]
+        return Seen(states, np.stack([sS for sS, _ in parts], axis=1) / s[:, None, None, None], s)

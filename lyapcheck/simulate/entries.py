@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly
 
-from lyapcheck.check.loop.closed_loop import root_above
+from lyapcheck.check.numbers.enclosure import root_above
 from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.robots.plant import Plant
 from lyapcheck.robots.trig import to_terms

@@ -13,7 +13,6 @@ from lyapcheck._types import Array
 from lyapcheck.compiled.compiler import prelude
 from lyapcheck.compiled.loop import compiled
 from lyapcheck.compiled.writer import TooLong, Writer
-from lyapcheck.derive.plain import has_plain_forms, plain_forms
 from lyapcheck.family import Family
 from lyapcheck.lyapunov.numeric import arm_digest
 from lyapcheck.robots import RobotModel
@@ -42,8 +41,6 @@ def compiled_bench(
     model: RobotModel, family: Family, period: float, substeps: int, sweeps: int
 ) -> CompiledBench | None:
     """Compile the bench; none where there is no compiler or the arm's formulas are too long."""
-    if not has_plain_forms(family):
-        return None
     question = (
         arm_digest(model),
         model.encoder,
@@ -99,7 +96,7 @@ def _arm(model: RobotModel, family: Family, period: float, substeps: int, sweeps
 
 def _step(model: RobotModel, family: Family, writer: Writer, period: float, sweeps: int) -> BenchStep:
     parameters, of = _names(writer, "p", parameter_count(model)), writer.arithmetic
-    return BenchStep(model, of, lambda x: plain_forms(family, of, x).h, parameters, period, sweeps)
+    return BenchStep(model, of, lambda x: family.numeric(of, x).h, parameters, period, sweeps)
 
 
 def _names(writer: Writer, array: str, count: int) -> list[Any]:

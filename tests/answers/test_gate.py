@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
+from lyapcheck.answers.gate.words import margin_text
+from lyapcheck.check.refusal import Refused
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
@@ -44,6 +47,25 @@ def gain_file(
 ) -> Path:
     path.write_text(f"{top}\n[[gains]]\nname = 'a'\nm = 2\nkp = {kp}\nkv = {kv}\n{end}")
     return path
+
+
+# --- what a row says ---------------------------------------------------------------------------------
+
+
+def test_a_margin_of_nothing_is_0(tmp_path: Path) -> None:
+    file = tmp_path / "edge.toml"
+    gains = "[[gains]]\nname = 'a'\nfamily = 'tanh'\nkp = [9]\nkv = [1]\n"
+    file.write_text(f"{gains}[bounds]\nviscous_min = 2\ntorque = [10]\ngravity = [0]\n")
+    (result,) = gate(file, deciding=["10i"])
+    (row,) = (check for check in result.checks if check.id == "10i")
+    assert (row.verdict, row.margin, margin_text(row)) == ("accepted", 0, "0")
+
+
+def test_a_row_promises_nothing_about_another_value() -> None:
+    row = next(check for check in table2()["tau_m1"].checks if check.verdict == "accepted")
+    assert row.own_promise.says("accepted") == "accepted"
+    with pytest.raises(Refused, match="has no directions"):
+        _ = replace(row, value=row.value / 2).own_promise
 
 
 # --- the paper's gains -------------------------------------------------------------------------------

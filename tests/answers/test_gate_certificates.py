@@ -478,7 +478,8 @@ def test_bounds_of_the_gain_file_and_those_that_nothing_shows_are_said(tmp_path:
     assert not [path for path in (tmp_path / "own").iterdir() if ".k_g" in path.name]
     gains = Path(__file__).parents[2] / "examples" / "panda_gains.toml"
     done = judged_by_command(str(gains), "--certificates", str(tmp_path / "made"))
-    assert "no certificate shows |g_2| ≤ 69.59" in done.stderr
+    assert done.stderr == ""
+    assert "premise" not in done.stdout
     assert recheck(tmp_path / "made")[0] == 0
 
 

@@ -12,8 +12,6 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
@@ -21,17 +19,12 @@ from lyapcheck.answers.robot.answer import RobotReport
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.numbers.harmonics import derivative, harmonics
 from lyapcheck.claims.decision import undecided
 from lyapcheck.constants import ConstantResult, arm_constants
-from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.basis import basis_of
-from lyapcheck.constants.spectrum import largest_eigenvalue, largest_norm, smallest_eigenvalue
 from lyapcheck.errors import InputError
 from lyapcheck.output import text as plain
 from lyapcheck.output.annotations import Level
 from lyapcheck.output.formats import JudgedFormat
-from lyapcheck.robots import trig
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary
 from tests.helpers.command import invoke
@@ -39,8 +32,6 @@ from tests.helpers.shares import but
 from tests.helpers.urdf_texts import ARMS, TWO, generic
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
-
-SEEDS = st.integers(0, 10**6)
 
 
 def run(*arguments: str) -> tuple[int, str]:
@@ -51,69 +42,6 @@ def run(*arguments: str) -> tuple[int, str]:
 
 
 # Bounds over boxes -----
-
-
-def test_reach_holds_what_happens_in_the_box() -> None:
-    """M at random states of random boxes lies within middle + linear part ± radius."""
-    arm = robots.load(ARMS / "ur5.urdf")
-    harmonics_of_arm = ArmHarmonics(arm)
-    torus = harmonics_of_arm.mass
-    numeric, rng = NumericModel(arm), np.random.default_rng(1)
-    rows, columns = zip(*harmonics_of_arm.places, strict=True)
-    for size in (0.001, 0.1, 1.0, 3.0):
-        middle, half = rng.uniform(-3, 3, (1, arm.n)), rng.uniform(0, size, (1, arm.n))
-        reach = torus.on(middle, half)
-        t = rng.uniform(-1, 1, (40, arm.n))
-        exact = numeric.mass((middle + half * t) @ torus._basis.back.T)[:, rows, columns]
-        linear = reach.middle + np.einsum("ti,ie->te", t[:, list(torus.angles)], reach.linear[0])
-        assert np.all(np.abs(exact - linear) <= reach.radius)
-
-
-def test_a_radius_is_not_wider_than_its_order() -> None:
-    """Small boxes leave an error of second order: a tenth of the width is a hundredth of the radius."""
-    torus = ArmHarmonics(robots.load(ARMS / "ur5.urdf")).mass
-    middle = np.full((1, torus.n), 0.7)
-    wide, narrow = (torus.on(middle, np.full((1, torus.n), size)).radius.max() for size in (1e-2, 1e-3))
-    assert narrow < wide / 50
-
-
-def test_harmonics_are_the_same_polynomial() -> None:
-    """sin²q1 cos q2 …, its harmonics and their derivative, at random states."""
-    ring = trig.trig_ring(2)
-    s1, s2, c1, c2 = ring.gens()
-    poly = 3 * s1**3 * c2 + s1 * c1**2 * s2 * c2 - c2**4 + 7
-    parts = harmonics(trig.to_terms(poly), 2)
-    rng = np.random.default_rng(2)
-    q = rng.uniform(-3, 3, (20, 2))
-    for entry, exact in ((parts, poly), (derivative(parts, 1), trig.derivative(poly, 1))):
-        basis, rows = basis_of([entry], 2)
-        p = q @ np.linalg.inv(basis.back).T
-        result = sum(float(x) * basis.at(p).values[:, row] for row, x in rows[0].items())
-        expected = [float(trig.evaluate(exact, [*np.sin(x), *np.cos(x)], float)) for x in q]
-        assert np.allclose(result, expected, atol=1e-12)
-
-
-@given(SEEDS, st.integers(1, 6), st.floats(0, 2))
-def test_eigenvalue_bounds_hold_for_every_matrix_in_reach(seed: int, n: int, size: float) -> None:
-    rng = np.random.default_rng(seed)
-    a, radius = rng.normal(size=(n, n)), size * rng.uniform(size=(n, n))
-    a, radius = a @ a.T, radius + radius.T
-    top, bottom = largest_eigenvalue(a, radius), smallest_eigenvalue(a, radius)
-    for _ in range(20):
-        t = np.triu(rng.choice([-1.0, 1.0], (n, n)))
-        other = np.linalg.eigvalsh(a + radius * (t + np.triu(t, 1).T))
-        assert bottom - 1e-9 <= other[0]
-        assert other[-1] <= top + 1e-9
-
-
-@given(SEEDS, st.integers(1, 9), st.integers(1, 4), st.floats(0, 2))
-def test_norm_bounds_hold_for_every_matrix_in_reach(seed: int, rows: int, columns: int, size: float) -> None:
-    rng = np.random.default_rng(seed)
-    a, radius = rng.normal(size=(rows, columns)), size * rng.uniform(size=(rows, columns))
-    bound = largest_norm(a, radius)
-    for _ in range(20):
-        other = a + radius * rng.choice([-1.0, 1.0], a.shape)
-        assert np.linalg.norm(other, 2) <= bound * (1 + 1e-9)
 
 
 # Constants -----
@@ -139,21 +67,6 @@ def test_no_state_lies_outside_the_constants(tmp_path: Path, name: str) -> None:
     assert np.linalg.norm(gravity, axis=1).max() <= result["k_g"].enclosure.upper
     for i in range(arm.n):
         assert gravity[:, i].max() <= result[f"k_g{i + 1}"].enclosure.upper
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_masses_and_distances_bound_every_chain(tmp_path: Path, seed: int) -> None:
-    (tmp_path / "arm.urdf").write_text(generic(1 + seed % 4, seed))
-    arm = robots.load(tmp_path / "arm.urdf")
-    model, bounds = NumericModel(arm), arm.chain_bounds
-    assert bounds is not None
-    q = np.random.default_rng(seed).uniform(-np.pi, np.pi, (500, arm.n))
-    values = np.linalg.eigvalsh(model.mass(q))
-    assert 0 < bounds.lambda_min <= values[:, 0].min()
-    assert values[:, -1].max() <= bounds.lambda_max
-    x = np.random.default_rng(seed + 1).normal(size=(500, arm.n))
-    assert bounds.k_c is None or coriolis(model, q, x).max() <= bounds.k_c
-    assert all(np.abs(model.gravity(q)).max(axis=0) <= [float(x) + 1e-9 for x in bounds.gravity])
 
 
 @pytest.mark.parametrize("name", but(["pelican2"], [*robots.names(), "ur5"]))

@@ -183,6 +183,7 @@ def test_random_starts_tell_how_the_indices_spread(lyapcheck):
     assert other != done.stdout
 
 
+@pytest.mark.slow
 def test_random_starts_in_words_and_rows(lyapcheck):
     text = lyapcheck(TABLE2, "--runs", 12).stdout
     assert "12 starts within ±45° of (0, 0, 0)°, seed 0" in text

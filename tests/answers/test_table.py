@@ -104,13 +104,6 @@ def test_csv_has_a_line_for_each_member(table):
     assert Fraction(rows[1]["L_lower"]) < Fraction(rows[1]["L_upper"])
 
 
-def test_markdown_and_latex_have_as_many_cells_in_every_row(table):
-    lines = [line for line in table.written("markdown").splitlines() if line.startswith("|")]
-    assert {line.count("|") for line in lines} == {9}
-    rows = [line for line in table.written("latex").splitlines() if line.endswith(r"\\")]
-    assert {line.count("&") for line in rows} == {7}
-
-
 @pytest.mark.parametrize("name", Format)
 def test_every_format_is_reproducible_and_ends_its_last_line(name, table):
     once, again = table.written(name), build_table((1, 2, 3, 12), 30).written(name)
@@ -123,13 +116,6 @@ def test_fewer_digits_are_a_prefix_of_more():
     few, many = (build_table((2,), digits).document().blocks[1].rows[0] for digits in (5, 25))
     assert all(b.startswith(a) for a, b in zip(few, many, strict=True))
     assert sum(map(len, few)) < sum(map(len, many))
-
-
-def test_progress_is_told():
-    printed = []
-    build_table(range(1, 31), 5, lambda fraction, note: printed.append((fraction, note)))
-    assert printed
-    assert [fraction for fraction, _ in printed] == sorted(fraction for fraction, _ in printed)
 
 
 def test_the_command_prints_and_leaves_with_zero():

@@ -7,7 +7,6 @@ import sys
 from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -99,40 +98,6 @@ def test_a_urdf_without_friction_says_what_to_measure():
     result = run(UR5)
     assert result.exit_code == 2
     assert "give --viscous-min" in result.stdout
-
-
-class Seen(HTMLParser):
-    """The tags and the text."""
-
-    def __init__(self):
-        super().__init__()
-        self.tags, self.text = [], []
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.append(tag)
-
-    def handle_data(self, data):
-        self.text.append(data)
-
-
-def test_a_notebook_shows_tables_and_no_markup_of_names():
-    bad = "<img src=x onerror=alert(1)>\u202e"
-    tuning = tune("buap3", [1, 2], against=replace(TABLE2, path=bad))
-    seen = Seen()
-    seen.feed(tuning._repr_html_())
-    assert seen.tags.count("table") == 4
-    assert "img" not in seen.tags
-    assert any("<img src=x onerror=alert(1)>\\u202e" in text for text in seen.text)
-    assert {"63.112", "59.903", "16.53 %"} <= set(seen.text)
-    assert "<img" not in tuning.written("markdown")
-
-
-def test_where_there_are_no_gains_a_notebook_says_why():
-    assert "give --torque" in tune("pelican2", [2])._repr_html_()
-
-
-def test_printing_prints_what_the_command_prints():
-    assert f"{tune('reyes-kelly2', [5])}\n" == run("reyes-kelly2", "--m", "5").stdout
 
 
 @pytest.mark.slow

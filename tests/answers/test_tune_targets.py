@@ -190,6 +190,7 @@ def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
         assert Fraction(1, 1000) <= min(one.gains.kp)
 
 
+@pytest.mark.slow
 def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None:
     """1000 is met by every set, 10⁻⁹ by none; then ``--best`` writes one, marked."""
     arm, out = tmp_path / "arm.toml", tmp_path / "gains.toml"

@@ -72,7 +72,7 @@ from lyapcheck.constants.storage.bounds import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along
-from tests.statement_fuzz.generators.properties import property_of
+from tests.statement_fuzz.generators.loops import property_of
 
 Row = tuple[str, Statement, Proof | None]
 

@@ -22,7 +22,14 @@ from lyapcheck.check.kinds.agrees import Agrees, OutsideRounding
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
-from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, OwnMoments
+from lyapcheck.check.kinds.chain import (
+    ChainAbove,
+    ChainBelow,
+    ChainGravityBelow,
+    NoTorque,
+    OwnLevers,
+    OwnMoments,
+)
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.chain_identity import ByDefinition, ChainIdentity
 from lyapcheck.check.kinds.compared import MovingPosture, SameHarmonics
@@ -35,7 +42,7 @@ from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall, SmallWitness
 from lyapcheck.check.kinds.gate_accepted import BrokenCondition, GateAccepted, GateParts, SaturatingState
-from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import (
@@ -532,6 +539,42 @@ def broken_gates() -> Iterator[tuple[str, Statement, Proof]]:
     yield "no-stability", GATE, replace(PASSED, stability=())
 
 
+FALL = vector(1, 0, 0)
+SWING = (
+    *(((1, 0, 0, 0, k), F(1)) for k in (0, 1)),
+    *((powers, F(1)) for powers in ((1, 0, 0, 1, 1), (0, 1, 1, 0, 1))),
+)
+"""g1 = (1 + p) sin q1 + p sin(q1 + q2) of two links, p the mass of the second; at most 1 + 2p."""
+SWUNG = GravityBelow(2, (SWING,), ((F(1), F(2)),), F(5))
+EMPTY = (LINKS[0], replace(LINKS[1], mass=F(0)))
+BY_LEVERS = Levers(EMPTY, (vector(0, 1),), FALL, 0, (1,))
+HANGING = ChainGravityBelow(LINKS, FALL, (1,), F(3))
+NEAR = F(1, 10**9)
+
+
+def broken_levers() -> Iterator[tuple[str, Statement, Proof]]:
+    """Bounds of gravity that are false, or are not shown by these links."""
+    yield "near", replace(SWUNG, high=5 - NEAR), BY_LEVERS
+    yield "range", replace(SWUNG, parameters=((F(1), F(2) + NEAR),)), BY_LEVERS
+    yield "below-zero", replace(SWUNG, parameters=((F(-9), F(2)),)), BY_LEVERS
+    yield "lighter", replace(SWUNG, high=F(4)), replace(BY_LEVERS, shares=((F(0), F(1, 2)),))
+    yield "weightless", replace(SWUNG, high=F(0)), replace(BY_LEVERS, fall=vector(0, 0, 0))
+    yield "no-share", SWUNG, replace(BY_LEVERS, shares=())
+    yield "no-link", SWUNG, replace(BY_LEVERS, links=EMPTY[:1], shares=(vector(1),))
+    yield "flat-fall", SWUNG, replace(BY_LEVERS, fall=vector(1, 0))
+    yield "other-joint", replace(SWUNG, high=F(2)), replace(BY_LEVERS, joint=1)
+    yield "no-joint", SWUNG, replace(BY_LEVERS, joint=-1)
+    yield (
+        "short-axis",
+        SWUNG,
+        replace(BY_LEVERS, links=(replace(EMPTY[0], axis=(F(0), F(0), F(1, 2))), EMPTY[1])),
+    )
+    yield "square", replace(SWUNG, gravity=((*SWING, ((1, 0, 0, 0, 2), F(1))),), high=F(9)), BY_LEVERS
+    yield "two", replace(SWUNG, gravity=(SWING, SWING)), BY_LEVERS
+    yield "own-near", replace(HANGING, high=3 - NEAR), OwnLevers((1,))
+    yield "own-both", replace(HANGING, joints=(1, 2)), OwnLevers((1,))
+
+
 CASES = on_points() | on_entries() | on_small_values() | on_postures() | on_states() | on_gates()
 
 
@@ -601,6 +644,8 @@ def good() -> Iterator[tuple[str, Statement, Proof]]:
         "linked": ((ChainAbove(LINKS, F(0)), OwnMoments()), identity),
     }.items():
         yield f"arm-{name}", *together(*parts)
+    yield "levers", SWUNG, BY_LEVERS
+    yield "own-levers", HANGING, OwnLevers((1,))
     yield "gate", GATE, PASSED
     yield "gate-premise", replace(GATE, gravity=(), potential=()), replace(PASSED, gravity=())
     for name in ("the limit of a motor", "the friction of the gate"):
@@ -628,6 +673,11 @@ def main() -> None:
         content = certified(name, statement, proof, "proved", "exact")
         arena.add(
             f"bad/false.tru.gate-{name}.json", content, ["refused"], f"a false verdict of the gate: {name}"
+        )
+    for name, statement, proof in broken_levers():
+        content = certified(name, statement, proof, "proved", "exact")
+        arena.add(
+            f"bad/false.tru.levers-{name}.json", content, ["refused"], f"no bound by these levers: {name}"
         )
     for name, parts in arms().items():
         grade = weakest(verify(*part).grade for part in parts)

@@ -1,15 +1,11 @@
 """CasADi's generated C under ``-Ofast``, in a loop over states in the same file, on some threads."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import numpy as np
 
@@ -30,7 +26,7 @@ void each(long count, long n, long threads, const double *q, const double *e, co
 """
 
 
-def loop(point: Any, n: int, threads: int) -> Callable[..., np.ndarray]:
+def loop(point, n, threads):
     """A function of arrays (count, n) of q, e and w from a CasADi function of one state."""
     with TemporaryDirectory(prefix="lyapcheck-") as folder:
         place = Path.cwd()
@@ -48,7 +44,7 @@ def loop(point: Any, n: int, threads: int) -> Callable[..., np.ndarray]:
     pointer = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
     each.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_long, pointer, pointer, pointer, pointer]
 
-    def call(q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:
+    def call(q, e, w):
         out = np.empty(len(q))
         each(len(q), n, threads, q, e, w, out)
         return out

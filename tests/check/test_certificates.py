@@ -5,59 +5,32 @@ import json
 import re
 from dataclasses import replace
 from fractions import Fraction
-from functools import reduce
-from operator import getitem
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import SCHEMA, About, digest_of, judge, parse, read
 from lyapcheck.check.codec import from_json
-from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, FUNCTIONS
-from lyapcheck.check.kinds.agrees import Corners, OutsideRounding
-from lyapcheck.check.kinds.all_of import EveryPart, OnePart
-from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.all_of import EveryPart
 from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
-from lyapcheck.check.kinds.for_small import SmallWitness
 from lyapcheck.check.kinds.identity import NormalForm
-from lyapcheck.check.kinds.norm_bound import EqualEntries, Supremum
 from lyapcheck.check.kinds.signs import Multiple, SignIdentity
-from lyapcheck.check.kinds.trigonometric import EntryWitness, FourierBounds
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Relation, Total, Witness
+from lyapcheck.check.statement import Proof, Relation, Total
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
-    Constant,
-    ForSmall,
-    agrees,
     all_of,
-    always_positive,
-    bounded,
-    cos,
-    dh,
-    exp,
     expr,
     for_all,
-    gamma,
-    h,
-    identity,
     implies,
-    nonnegative,
-    norm_bound,
     positive,
-    reals,
     run_proof,
-    sin,
-    sqrt,
     tanh,
     var,
 )
 from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
 from tests.claims.test_claims import PROVED, REFUTED
-from tests.helpers.independent_truth import contradicts
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -173,82 +146,6 @@ def test_any_number_changed_is_refused_by_the_digest(made):
                 read(changed(data, path, lambda old: other_numbers(old)[0]))
 
 
-def words(data, path=()):
-    """The places of all names of operations and relations, and of all truth values."""
-    if isinstance(data, dict):
-        return [place for key, value in data.items() for place in words(value, (*path, key))]
-    if isinstance(data, list):
-        return [place for k, value in enumerate(data) for place in words(value, (*path, k))]
-    return [path] if isinstance(data, bool) or other_words(data) else []
-
-
-KINDS = (FUNCTIONS, FAMILY, CONSTANTS, ("add", "mul"), ("<", "<="))
-
-
-def other_words(old):
-    """The names that may stand in the same place."""
-    if isinstance(old, bool):
-        return [not old]
-    return [name for kind in KINDS if old in kind for name in kind if name != old]
-
-
-def survivors(made, changes, places, others):
-    """What is accepted after one change and a new digest, and how many changes were refused."""
-    refused, survived = 0, []
-    for name, certificate in made.items():
-        data = json.loads(certificate.text())
-        for path in places(data):
-            if path[0] not in ("statement", "proof"):
-                continue
-            for new in others(reduce(getitem, path, data))[:changes]:
-                try:
-                    forged = read(sealed(changed(data, path, lambda _, new=new: new)))
-                    judge(forged)
-                except Refused:
-                    refused += 1
-                    continue
-                survived.append((name, path, new, forged))
-    return refused, survived
-
-
-@pytest.mark.slow
-def test_with_a_new_digest_it_is_refused_or_still_true(made):
-    """The verdicts that survive are judged again by mpmath; most changes to a proof are refused."""
-    refused, survived = survivors(made, 5, numbers, other_numbers)
-    for name, path, new, forged in survived:
-        result = contradicts(forged.statement, forged.verdict, forged.proof)
-        assert not result, (name, path, new)
-    assert refused > 1000
-    assert len(survived) > 250, "changes that keep a statement true must be among them"
-
-
-@pytest.mark.slow
-def test_other_operations_are_refused_or_still_true(made):
-    refused, survived = survivors(made, 12, words, other_words)
-    for name, path, new, forged in survived:
-        assert not contradicts(forged.statement, forged.verdict, forged.proof), (name, path, new)
-    assert refused > len(survived) > 100
-
-
-@pytest.mark.slow
-@given(st.data())
-def test_published_certificates_do_not_survive_changes_that_matter(published, data):
-    certificate = data.draw(st.sampled_from([published[name] for name in sorted(published)]))
-    document = json.loads(certificate.text())
-    places = [path for path in numbers(document) if path[0] in ("statement", "proof")]
-    if not places:
-        return
-    path = data.draw(st.sampled_from(places))
-    choice = data.draw(st.integers(0, 4))
-    forged = changed(document, path, lambda old: (other_numbers(old) * 5)[choice])
-    try:
-        read_back = read(sealed(forged))
-        accepted = judge(read_back)
-    except Refused:
-        return
-    assert not contradicts(read_back.statement, accepted.verdict, read_back.proof)
-
-
 def test_a_proof_of_something_else_shows_nothing_false(made):
     """Every proof against every statement of the tables: accepted only with the right verdict."""
     for name, own in made.items():
@@ -333,185 +230,13 @@ def test_a_refutation_that_claims_to_rest_on_others_is_refused():
 
 # Proofs that are refused ----------------------------------------------------------------------------------
 
-EVEN = for_all(expr(0) < 1 + x**2 * exp(x), -1, 3)
-TOP = for_all(h(2, x) <= "1.06", 0)
-TRANSITIVE = implies(positive("a", "b", "c"), (a < b, b <= var("c")), a < var("c"))
-SMALL = ForSmall(
-    "eps", positive("a", "b"), (b <= a,), var("t") + var("eps") / (2 - var("eps")) < b - b / 2, ("t",)
-)
-
-
-def small_at(below=1, **at):
-    point = {"a": 1, "b": 1, "t": 1} | at
-    return SmallWitness(tuple((name, F(value)) for name, value in point.items()), F(below))
-
-
-PRINTED = agrees(a * b, "100", a="9", b="10")
-
 
 def boxes(*cuts, zero=False, tail=False, bits=64):
     return Boxes(tuple(map(F, cuts)), zero, tail, bits)
 
 
-NEAR_ZERO = propose(for_all(tanh(x) < x, 0, 1, open_low=True)).proof
-
-
 def steps(*multiples, lift=()):
     return SignIdentity(lift, tuple(Multiple(k, F(w), m) for k, w, m in multiples))
-
-
-FORGED = {
-    "a point outside": (for_all(x <= 1, 0, 1), Witness((("x", F(2)),)), "at least 0 and at most 1"),
-    "a point at an open end": (
-        for_all(x < 1, 0, 1, open_high=True),
-        Witness((("x", F(1)),)),
-        "at least 0 and below 1",
-    ),
-    "a point of another variable": (for_all(x <= 1), Witness((("y", F(2)),)), "must give x"),
-    "a point with two values": (for_all(x <= 1), Witness((("x", F(2)), ("x", F(0)))), "twice"),
-    "a point where it holds": (for_all(x <= 1), Witness((("x", F(1)),)), "not shown to break"),
-    "a precision of 1": (for_all(x <= 1), Witness((("x", F(2)),), 1), "bits = 1:"),
-    "an endless precision": (for_all(x <= 1), Witness((("x", F(2)),), 10**9), "bits"),
-    "a point against a hypothesis": (
-        implies(reals("a"), (a <= 1,), a <= 0),
-        Witness((("a", F(2)),)),
-        "not shown to break",
-    ),
-    "a point out of range": (
-        implies(positive("a"), (), expr(0) <= a),
-        Witness((("a", F(-1)),)),
-        "must be above 0",
-    ),
-    "a point at a strict bound": (
-        implies(positive("a"), (), expr(0) < a),
-        Witness((("a", F(0)),)),
-        "must be above 0",
-    ),
-    "different normal forms": (identity(sin(x), cos(x)), NormalForm(), "not zero"),
-    "numbers that are not rational": (Constant(sqrt(2) < "1.5"), ExactNumbers(), "not rational"),
-    "balls that touch": (Constant(sqrt(2) * sqrt(2) <= 2), SeparateBalls(128), "too few"),
-    "pieces too few": (EVEN, Pieces((boxes(0, 1, 3),)), "must be 2"),
-    "pieces too many": (EVEN, Pieces((boxes(0, 3), boxes(0, 1), boxes(0, 1))), "must be 2"),
-    "boxes that stop early": (EVEN, Pieces((boxes(0, 1, 2), boxes(0, "1/2", 1))), "leaves out 3"),
-    "boxes that start late": (EVEN, Pieces((boxes("1/2", 3), boxes(0, "1/2", 1))), "leaves out 0"),
-    "boxes that run back": (EVEN, Pieces((boxes(0, "1/2", "1/4", 3), boxes(0, "1/2", 1))), "must rise"),
-    "no cuts": (EVEN, Pieces((boxes(), boxes(0, "1/2", 1))), "cuts = 0"),
-    "no cut after 0": (TOP, Pieces((boxes(0, 4, tail=True, zero=True),)), "above 0"),
-    "a tail from inside": (TOP, Pieces((boxes(0, "5/4", tail=True),)), "no term dominates"),
-    "a tail left out": (TOP, Pieces((boxes(0, 4),)), "leaves out infinity"),
-    "a tail left of 1": (TOP, Pieces((boxes(0, "1/2", tail=True),)), "no term dominates"),
-    "a box too wide": (for_all(h(2, x) <= "1.06", 0, 3), Pieces((boxes(0, 3),)), "sign is open"),
-    "equality at a closed 0": (
-        for_all(tanh(x) < x, 0, 1),
-        NEAR_ZERO,
-        "value at 0",
-    ),
-    "Sturm at a closed 0": (for_all(expr(0) < x, 0, 1), Pieces((Sturm(),)), "does not show > at 0"),
-    "Sturm beyond its reach": (for_all(sin(x) <= 1), Pieces((Sturm(), Sturm())), "does not give the sign"),
-    "a supremum that is not the component": (
-        norm_bound(2 * h(2, x), 3, sqrt(3) * gamma(2)),
-        Supremum(SeparateBalls(128)),
-        "is neither",
-    ),
-    "the supremum of h for h'": (
-        norm_bound(dh(2, x), 3, sqrt(3) * gamma(2)),
-        Supremum(SeparateBalls(128)),
-        "must be proved",
-    ),
-    "the supremum for a linear bound": (
-        norm_bound(h(2, x), 3, sqrt(3) * gamma(2), power=1),
-        Supremum(ExactNumbers()),
-        "is neither",
-    ),
-    "a uniform proof of a linear bound": (
-        norm_bound(h(1, x), 1, 2, power=1),
-        EqualEntries(Pieces((Sturm(), Sturm())), Pieces((Sturm(), Sturm()))),
-        "power = 1",
-    ),
-    "a hypothesis that does not exist": (TRANSITIVE, steps((2, 1, ()), (1, 1, ())), "hypothesis = 2"),
-    "a negative index": (TRANSITIVE, steps((-1, 1, ()), (-2, 1, ())), "hypothesis = -1"),
-    "a negative weight": (TRANSITIVE, steps((0, -1, ()), (1, 1, ())), "must be positive"),
-    "a weight of 0": (TRANSITIVE, steps((0, 0, ()), (1, 1, ())), "must be positive"),
-    "a remainder": (TRANSITIVE, steps((0, 2, ()), (1, 1, ())), "remainder"),
-    "strictness from nowhere": (
-        implies(positive("a", "b", "c"), (a <= b, b <= var("c")), a < var("c")),
-        steps((0, 1, ()), (1, 1, ())),
-        "remainder",
-    ),
-    "a multiplier of any sign": (
-        implies(reals("a", "b"), (a <= b,), a**2 <= a * b),
-        steps((0, 1, ((0, 1),))),
-        "may be negative",
-    ),
-    "a lift of any sign": (
-        implies(reals("a", "b"), (), expr(0) <= b),
-        steps(lift=((0, 1), (1, 1))),
-        "positive monomial",
-    ),
-    "a lift that may vanish": (
-        implies(nonnegative("a") + reals("b"), (expr(0) <= a * b,), expr(0) <= b),
-        steps((0, 1, ()), lift=((0, 1),)),
-        "positive monomial",
-    ),
-    "a generator that does not exist": (TRANSITIVE, steps((0, 1, ((99, 1),)), (1, 1, ())), "generator = 99"),
-    "small values: no such point": (SMALL, SmallWitness((("a", F(1)),), F(1)), "must give a, b, t"),
-    "small values: outside": (SMALL, small_at(a=-1), "a = -1: must be above"),
-    "small values: beyond the bounded": (SMALL, small_at(t=2), "t = 2: must be above 0 and at most 1"),
-    "small values: where the hypothesis breaks": (SMALL, small_at(b=2), "breaks a hypothesis"),
-    "small values: where it holds": (SMALL, small_at(t="1/3"), "does not break the conclusion"),
-    "small values: up to nothing": (SMALL, small_at(below=0), "below = 0: must be positive"),
-    "small values: a term without a value": (SMALL, small_at(below=3), "is not shown to have a value"),
-    "corners of other inputs": (PRINTED, Corners((0,), (1, 1), 128), "0 or 1 for each"),
-    "corners on one side": (PRINTED, Corners((0, 0), (0, 0), 128), "below the printed"),
-    "not outside": (PRINTED, OutsideRounding(128), "meets the rounding"),
-    "Fourier sums too coarse": (
-        bounded([sin(x) ** 2 + cos(x) ** 2 + sin(x)], ["1.5"]),
-        FourierBounds(),
-        "not 3/2",
-    ),
-    "a sum of angles": (
-        bounded([sin(x + var("yz")) - sin(var("xy") + var("z"))], [1]),
-        FourierBounds(),
-        "outside sin and cos",
-    ),
-    "an entry that does not exist": (
-        always_positive([cos(x)]),
-        EntryWitness(1, True, (("x", F(3)),)),
-        "entry = 1",
-    ),
-    "an entry from behind": (always_positive([cos(x)]), EntryWitness(-1, True, (("x", F(3)),)), "entry = -1"),
-    "an entry that has no bound": (bounded([cos(x)]), EntryWitness(0, False, (("x", F(0)),)), "no bound"),
-    "a part left out": (CASES["all of"], EveryPart((SeparateBalls(128),)), "one proof per part"),
-    "a part that holds": (CASES["all of"], OnePart(0, SeparateBalls(128)), "must be refuted"),
-    "a part that does not exist": (CASES["not all"], OnePart(-1, SeparateBalls(128)), "part = -1"),
-    "a refutation among the parts": (
-        CASES["not all"],
-        EveryPart((SeparateBalls(128), SeparateBalls(128))),
-        "must be proved",
-    ),
-    "the proof of another kind": (TRANSITIVE, NormalForm(), "kind Implies"),
-}
-
-
-@pytest.mark.parametrize("name", FORGED)
-def test_a_forged_proof_is_refused_with_a_reason(name):
-    statement, proof, reason = FORGED[name]
-    assert reason in refusal(statement, proof)
-
-
-def test_the_same_proofs_without_the_fault_are_accepted():
-    fine = [
-        (for_all(x <= 1, 0, 2), Witness((("x", F(2)),))),
-        (EVEN, Pieces((boxes(*(F(k, 4) for k in range(13))), boxes(0, "1/2", 1)))),
-        (for_all(tanh(x) < x, 0, 1, open_low=True), NEAR_ZERO),
-        (TRANSITIVE, steps((0, 1, ()), (1, 1, ()))),
-        (PRINTED, Corners((0, 0), (1, 1), 128)),
-        (SMALL, small_at()),
-        (SMALL, small_at(t="1/2")),
-        (CASES["not all"], OnePart(1, SeparateBalls(128))),
-    ]
-    for statement, proof in fine:
-        assert verify(statement, proof).verdict in ("proved", "refuted")
 
 
 class Unheard(Total):

@@ -7,12 +7,12 @@ from itertools import pairwise
 
 import mpmath
 import pytest
-from flint import arb, ctx, fmpz_poly
+from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.critical import bracketed_root, peak_of_h, peaks_of_dh
+from lyapcheck.check.numbers.critical import bracketed_root, peak_of_h
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.compared import gamma_less_than
 
@@ -71,24 +71,6 @@ def test_constants_agree_with_a_search_for_all_extremes(m):
             _assert_close(place, best, digits=25)
 
 
-@pytest.mark.parametrize("m", [50, 317, 1000])
-def test_constants_agree_with_newton_for_large_m(m):
-    with mpmath.workdps(60):
-        known = hyperbolic_constants(m, DIGITS)
-        h, dh = _h(m), _dh(m)
-        x = _root_near(dh, known.gamma_at, m)
-        _assert_close(known.gamma, h(x))
-        x = _root_near(lambda t: t * dh(t) - h(t), known.L_at, m)
-        _assert_close(known.L, h(x) / x)
-        x = _root_near(lambda t: mpmath.diff(dh, t), known.rho_at, m)
-        _assert_close(known.rho, abs(dh(x)))
-
-
-def _root_near(function, place, m):
-    ends = [_mp(place) + sign * mpmath.mpf(10) ** -3 / m for sign in (-0.9, 1.1)]
-    return mpmath.findroot(function, ends, solver="anderson", verify=False)
-
-
 def _mp(enclosure):
     return mpmath.mpf(enclosure.mid.numerator) / enclosure.mid.denominator
 
@@ -107,33 +89,6 @@ def test_m_one_is_the_hyperbolic_tangent():
 def test_m_two_has_a_peak_in_closed_form():
     with ctx.workprec(200):
         assert peak_of_h(2).overlaps(2 + arb(7).sqrt())
-
-
-@pytest.mark.parametrize("m", [2, 5, 24, 60])
-def test_roots_agree_with_certified_polynomial_roots(m):
-    """FLINT isolates all complex roots with a proof of its own; the positive ones must be ours."""
-    curvature = [0] * (2 * m + 1)
-    for power, coefficient in (
-        (0, (2 * m - 1) * (m - 1)),
-        (1, 2 * m * m),
-        (m, -(2 * m - 1) * (m + 2)),
-        (m + 1, -2 * m * m),
-        (2 * m, 1),
-    ):
-        curvature[power] += coefficient
-    peak = [0] * (m + 1)
-    for power, coefficient in ((0, 1 - 2 * m), (1, -2 * m), (m, 1)):
-        peak[power] += coefficient
-    with ctx.workprec(100):
-        for coefficients, ours in ((peak, [peak_of_h(m)]), (curvature, sorted(peaks_of_dh(m), key=float_of))):
-            roots = [root for root, _ in fmpz_poly(coefficients).complex_roots()]
-            positive = sorted((r.real for r in roots if r.imag == 0 and r.real > 0), key=float_of)
-            assert len(positive) == len(ours)
-            assert all(a.overlaps(b) for a, b in zip(positive, ours, strict=True))
-
-
-def float_of(ball):
-    return float(ball.mid())
 
 
 @given(m=st.integers(2, 2000), digits=st.integers(1, 120))

@@ -21,7 +21,6 @@ from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
-from tests.helpers.shares import one_in
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -51,84 +50,6 @@ def test_both_are_accepted(pair: tuple[Certificate, Certificate]) -> None:
     assert judge(reread(falsified)).verdict == "refuted"
 
 
-def test_any_change_without_a_new_digest_is_refused(pair: tuple[Certificate, Certificate]) -> None:
-    data = json.loads(pair[0].text())
-    data["statement"]["eps0"] = "1/1000"
-    with pytest.raises(Refused, match="digest"):
-        read(parse(json.dumps(data)))
-
-
-def put(value: Any, *path: Any) -> Callable[[Document], None]:
-    """Put a value at a place."""
-
-    def change(data: Document) -> None:
-        for step in path[:-1]:
-            data = data[step]
-        data[path[-1]] = value
-
-    return change
-
-
-def scale(factor: Fraction, *path: Any) -> Callable[[Document], None]:
-    """Multiply a rational at a place."""
-
-    def change(data: Document) -> None:
-        for step in path[:-1]:
-            data = data[step]
-        data[path[-1]] = str(F(data[path[-1]]) * factor)
-
-    return change
-
-
-AGAINST_PROOF = {
-    "larger ε₀": scale(F(11, 10), "statement", "eps0"),
-    "negative ε₀": scale(F(-1), "statement", "eps0"),
-    "less friction": lambda data: [
-        data["statement"]["viscous"][i].__setitem__(k, "1/10") for i in (0, 1) for k in (0, 1)
-    ],
-    "a range of friction": put(["1/100", "3"], "statement", "viscous", 0),
-    "reversed range": put(["3", "1/100"], "statement", "viscous", 0),
-    "no proportional gain": put("0", "statement", "kp", 0),
-    "more inertia": scale(F(2), "statement", "mass", 0, 0, 0, 1),
-    "asymmetric inertia": scale(F(2), "statement", "mass", 0, 1, 0, 1),
-    "other function": put("linear", "statement", "family"),
-    "steeper member": put(9, "statement", "m"),
-    "member 0": put(0, "statement", "m"),
-    "fewer joints": lambda data: data["statement"]["kp"].pop(),
-    "a gap in the tree": lambda data: data["proof"]["rate"].update(tree=data["proof"]["rate"]["tree"][:-1]),
-    "one box for all": put(".", "proof", "rate", "tree"),
-    "unknown side": lambda data: data["proof"]["rate"].update(tree="9" + data["proof"]["rate"]["tree"][1:]),
-    "no tree": put("", "proof", "rate", "tree"),
-    "other verdict": put("refuted", "verdict"),
-    "better grade": put("exact", "grade"),
-    "negative exponent": put(-1, "statement", "mass", 0, 0, 0, 0, 0),
-    "unknown parameter": put([["0", "1"]], "statement", "parameters"),
-}
-
-
-@pytest.mark.parametrize("name", one_in(4, AGAINST_PROOF))
-def test_a_proof_changed_for_the_worse_is_refused(pair: tuple[Certificate, Certificate], name: str) -> None:
-    with pytest.raises(Refused):
-        judge(reread(pair[0], AGAINST_PROOF[name]))
-
-
-AGAINST_REFUTATION = {
-    "smaller ε₀": scale(F(9, 10), "statement", "eps0"),
-    "another rate": scale(F(-1), "proof", "w", 0),
-    "at the origin": lambda data: data["proof"].update(e=["0", "0"], w=["0", "0"]),
-    "no rates": put([], "proof", "w"),
-    "another arm": put("1", "proof", "viscous", 0),
-    "proved": put("proved", "verdict"),
-    "uses something": put({"x": "0" * 64}, "uses"),
-}
-
-
-@pytest.mark.parametrize("name", AGAINST_REFUTATION)
-def test_a_changed_refutation_is_refused(pair: tuple[Certificate, Certificate], name: str) -> None:
-    with pytest.raises(Refused):
-        judge(reread(pair[1], AGAINST_REFUTATION[name]))
-
-
 @pytest.mark.slow
 def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certificate, Certificate]) -> None:
     certified, falsified = pair
@@ -145,17 +66,18 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
     first = invoke("epsilon", gains, *options, "--certificates", str(folder))
     assert first.exit_code == 0, first.output
     names = sorted(path.name for path in folder.iterdir())
-    assert names == ["tau_m1.certified.json", "tau_m1.falsified.json", "tau_m1.scalar.json"]
+    kinds = ("certified", "falsified", "scalar", "weighted")
+    assert names == [f"tau_m1.{kind}.json" for kind in kinds]
     again = invoke("recheck", str(folder))
     assert again.exit_code == 0, again.output
-    assert "3 accepted" in again.output
+    assert "4 accepted" in again.output
 
 
 @pytest.mark.slow
 def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: Path) -> None:
     """With one box nothing but norms or bounds in ‖e‖ is left."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    result = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1)
+    result = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1, weights=False)
     made = certificates(result)
     assert result.certified is not None
     assert made["tau_m2.certified.json"].statement.eps0 == result.certified  # type: ignore[attr-defined]
@@ -175,7 +97,7 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
     arm += "".join(f'[[joints]]\nname = "{name}"\nviscous = 2\n' for name in "ab")
     (tmp_path / "arm.toml").write_text(arm)
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    result = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100)
+    result = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100, weights=False)
     assert (result.certified, result.proof, result.scalar_proof, result.weighted) == (None, None, None, None)
     assert "M(q) is not positive definite at q = (" in result.reasons["certified"]
     assert not [name for name in certificates(result) if "falsified" not in name]
@@ -184,7 +106,7 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
 @pytest.mark.slow
 def test_an_unbounded_function_has_nothing_certified() -> None:
     gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
-    result = epsilon(gains, load("buap3"), starts=2, max_boxes=100)
+    result = epsilon(gains, load("buap3"), starts=2, max_boxes=100, weights=False)
     assert (result.certified, certificates(result)) == (None, {})
     assert "unbounded" in result.reasons["certified"]
 

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from fractions import Fraction
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,8 +17,6 @@ from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamm
 from lyapcheck.claims.case import Lacking
 from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import GainSet
-from lyapcheck.family import hyperbolic
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
 from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import one_in
@@ -47,15 +44,6 @@ def test_a_growing_eps0_is_decided_by_norms_then_boxes_then_against(eps0, verdic
     assert decision.verdict.value == verdict
     assert method in decision.method
     assert verify(planar(eps0), decision.proof).verdict == verdict
-
-
-@pytest.mark.slow
-def test_the_witness_has_dv_dt_above_zero_in_plain_floating_point_too():
-    statement, decision = planar(3), propose(planar(3))
-    at = {name: float(F(value)) for name, value in decision.witness["point"].items()}
-    q, e, w = (np.array([[at[f"{name}1"], at[f"{name}2"]]]) for name in "qew")
-    gains = ([float(k) for k in statement.kp], [float(k) for k in statement.kv])
-    assert LyapunovNumeric(load("reyes-kelly2"), hyperbolic(2), *gains, 3.0).rate(q, e, w)[0] > 0
 
 
 def test_what_cannot_be_decided_says_what_to_try():

@@ -77,39 +77,11 @@ HYPERBOLIC = [
         for_all(MITRINOVIC, "0.01", "5.2"),
     ),
     Row(
-        "cosh x ≤ (sinh x / x)³, Lazarević",
-        "lazarevic1966hyperbolic",
-        "Theorem 1; mitrinovic1970analytic 3.6.9",
-        right_of_0(cosh(x) < (sinh(x) / x) ** 3),
-        right_of_0(cosh(x) ** 2 < (sinh(x) / x) ** 5),
-    ),
-    Row(  # further out sine and cosine are only known to be at most 1 each, which is not enough
-        "sin x cos x < tanh x",
-        "olver2010nist",
-        "4.32.2, left",
-        up_to("4", sin(x) * cos(x) < tanh(x)),
-        up_to("4", sin(x) * cos(x) < expr("0.99") * tanh(x)),
-    ),
-    Row(
         "tanh x < x",
         "olver2010nist",
         "4.32.2, right",
         right_of_0(tanh(x) < x),
         right_of_0(tanh(x) < expr("0.999") * x),
-    ),
-    Row(
-        "atan x ≤ (π/2) tanh x",
-        "mitrinovic1970analytic",
-        "3.6.10; olver2010nist 4.32.4",
-        for_all(atan(x) <= pi / 2 * tanh(x), 0),
-        for_all(atan(x) <= expr("1.54") * tanh(x), 0),
-    ),
-    Row(
-        "sinh x / x < (2 + cosh x)/3, hyperbolic Cusa–Huygens",
-        "neuman2010inequalities",
-        "(1.6)",
-        right_of_0(sinh(x) / x < (2 + cosh(x)) / 3),
-        right_of_0(sinh(x) / x < (expr("2.01") + expr("0.99") * cosh(x)) / 3),
     ),
     Row(
         "(sinh x / x)² + tanh x / x > 2, hyperbolic Wilker",
@@ -119,39 +91,11 @@ HYPERBOLIC = [
         right_of_0((sinh(x) / x) ** 2 + tanh(x) / x > expr("2.0001")),
     ),
     Row(
-        "2 sinh x / x + tanh x / x > 3, hyperbolic Huygens",
-        "neuman2010inequalities",
-        "Theorem 2.3",
-        right_of_0(2 * sinh(x) / x + tanh(x) / x > 3),
-        right_of_0(expr("1.99") * sinh(x) / x + expr("1.01") * tanh(x) / x > 3),
-    ),
-    Row(
-        "ln cosh x > (x/2) tanh x",
-        "neuman2011optimal",
-        "Lemma 2.1",
-        right_of_0(log(cosh(x)) > x / 2 * tanh(x)),
-        right_of_0(log(cosh(x)) > expr("0.501") * x * tanh(x)),
-    ),
-    Row(
         "sinh x / x < (π² + x²)/(π² − x²), hyperbolic Redheffer",
         "zhu2008redheffer",
         "Theorem 2",
         up_to("3.14", sinh(x) / x < (pi**2 + x**2) / (pi**2 - x**2)),
         up_to("3.14", sinh(x) / x < (pi**2 + x**2 / 12) / (pi**2 - x**2 / 2)),
-    ),
-    Row(
-        "cosh x < (π² + 4x²)/(π² − 4x²), hyperbolic Redheffer",
-        "zhu2008redheffer",
-        "Theorem 3",
-        up_to("1.57", cosh(x) < (pi**2 + 4 * x**2) / (pi**2 - 4 * x**2)),
-        up_to("1.57", cosh(x) < (pi**2 + x**2) / (pi**2 - x**2)),
-    ),
-    Row(
-        "cosh x ≤ exp(x²/2)",
-        "boucheron2013concentration",
-        "Lemma 2.2 for a symmetric sign",
-        for_all(cosh(x) <= exp(x**2 / 2), -30, 30),
-        for_all(cosh(x) <= exp(x**2 * "0.499"), -30, 30),
     ),
 ]
 
@@ -163,20 +107,6 @@ LOGARITHM = [
         right_of_0(x / (1 + x) < log(1 + x)),
         right_of_0(x / (1 + expr("0.49") * x) < log(1 + x)),
     ),
-    Row(
-        "ln(1 + x) < x",
-        "olver2010nist",
-        "4.5.1, right",
-        right_of_0(log(1 + x) < x),
-        right_of_0(log(1 + x) < expr("0.99") * x),
-    ),
-    Row(
-        "|ln(1 − x)| < 3x/2 up to 0.5828",
-        "olver2010nist",
-        "4.5.3",
-        up_to("0.5828", -log(1 - x) < 3 * x / 2),
-        up_to("0.5829", -log(1 - x) < 3 * x / 2),
-    ),
     Row(  # equality inside is not decided, so the published half-line begins beside it
         "ln x ≤ x − 1, right of the equality at 1",
         "olver2010nist",
@@ -185,39 +115,11 @@ LOGARITHM = [
         for_all(log(x) <= x - expr("1.0001"), "1.001"),
     ),
     Row(
-        "2x/(2 + x) ≤ ln(1 + x)",
-        "topsoe2007logarithm",
-        "(3)",
-        for_all(2 * x / (2 + x) <= log(1 + x), 0),
-        for_all(2 * x / (2 + expr("0.99") * x) <= log(1 + x), 0),
-    ),
-    Row(
-        "ln(1 + x) ≤ x(2 + x)/(2(1 + x))",
-        "topsoe2007logarithm",
-        "(4)",
-        for_all(log(1 + x) <= x * (2 + x) / (2 * (1 + x)), 0),
-        for_all(log(1 + x) <= x * (2 + x) / (2 * (1 + expr("1.01") * x)), 0),
-    ),
-    Row(
         "ln(1 + x) ≤ x(6 + x)/(6 + 4x), Padé",
         "topsoe2007logarithm",
         "Table 1",
         for_all(log(1 + x) <= x * (6 + x) / (6 + 4 * x), 0),
         for_all(log(1 + x) <= x * (6 + x) / (6 + expr("4.01") * x), 0),
-    ),
-    Row(
-        "ln(1 + x) < x/√(1 + x), Karamata",
-        "mitrinovic1970analytic",
-        "3.6.15",
-        right_of_0(log(1 + x) < x / sqrt(1 + x)),
-        right_of_0(log(1 + x) < x / sqrt(1 + expr("1.01") * x)),
-    ),
-    Row(
-        "2/(2x + 1) < ln(1 + 1/x)",
-        "mitrinovic1970analytic",
-        "3.6.18, left",
-        right_of_0(2 / (2 * x + 1) < log(1 + 1 / x)),
-        right_of_0(expr("2.01") / (2 * x + 1) < log(1 + 1 / x)),
     ),
     Row(
         "ln(1 + 1/x) < 1/√(x² + x)",
@@ -237,20 +139,6 @@ EXPONENTIAL = [
         for_all(exp(x) - 1 - HARRISON <= expr("0.9") * TANG, "-" + HARRISON_END, HARRISON_END),
     ),
     Row(
-        "e^r above the cubic of a floating-point exp minus 23/27 · 2⁻³³",
-        "harrison1997polynomial",
-        "the bound on the exponential's approximation",
-        for_all(exp(x) - 1 - HARRISON >= -TANG, "-" + HARRISON_END, HARRISON_END),
-        for_all(exp(x) - 1 - HARRISON >= -TANG / 10, "-" + HARRISON_END, HARRISON_END),
-    ),
-    Row(
-        "1 + x < e^x",
-        "olver2010nist",
-        "4.5.7",
-        right_of_0(1 + x < exp(x)),
-        right_of_0(1 + expr("1.01") * x < exp(x)),
-    ),
-    Row(
         "e^(−x) < 1 − x/2 up to 1.5936",
         "olver2010nist",
         "4.5.13",
@@ -258,32 +146,11 @@ EXPONENTIAL = [
         up_to("1.5937", exp(-x) < 1 - x / 2),
     ),
     Row(
-        "x/(1 + x) < 1 − e^(−x)",
-        "olver2010nist",
-        "4.5.10, left",
-        right_of_0(x / (1 + x) < 1 - exp(-x)),
-        right_of_0(x / (1 + expr("0.49") * x) < 1 - exp(-x)),
-    ),
-    Row(
-        "e^x < 1/(1 − x) for x < 1",
-        "olver2010nist",
-        "4.5.9",
-        for_all(exp(x) < 1 / (1 - x), 0, "0.9999", open_low=True),
-        for_all(exp(x) < 1 / (1 - expr("0.99") * x), 0, "0.9999", open_low=True),
-    ),
-    Row(
         "e^(x/(1 + x)) < 1 + x",
         "olver2010nist",
         "4.5.12",
         right_of_0(exp(x / (1 + x)) < 1 + x),
         right_of_0(exp(x / (1 + x)) < 1 + expr("0.99") * x),
-    ),
-    Row(
-        "e^x < (2 + x)/(2 − x)",
-        "mitrinovic1970analytic",
-        "3.6.6",
-        for_all(exp(x) < (2 + x) / (2 - x), 0, "1.999", open_low=True),
-        for_all(exp(x) < (2 + x) / (2 - expr("0.99") * x), 0, "1.999", open_low=True),
     ),
 ]
 
@@ -296,32 +163,11 @@ ARC_TANGENT = [
         right_of_0(expr("3.001") * x / (1 + 2 * sqrt(1 + x**2)) < atan(x)),
     ),
     Row(
-        "atan x < πx/(1 + 2√(1 + x²))",
-        "qi2009shafer",
-        "Theorem 1.1 for a = 1/2",
-        right_of_0(atan(x) < pi * x / (1 + 2 * sqrt(1 + x**2))),
-        right_of_0(atan(x) < expr("3.1") * x / (1 + 2 * sqrt(1 + x**2))),
-    ),
-    Row(
-        "8x/(3 + √(25 + 80x²/3)) < atan x, Shafer",
-        "shafer1977quadratic",
-        "the bound on the arc tangent",
-        right_of_0(8 * x / (3 + sqrt(25 + 80 * x**2 / 3)) < atan(x)),
-        right_of_0(8 * x / (3 + sqrt(25 + 79 * x**2 / 3)) < atan(x)),
-    ),
-    Row(
         "atan x < 8x/(3 + √(25 + 256x²/π²))",
         "zhu2008shafer",
         "Theorem 1",
         right_of_0(atan(x) < 8 * x / (3 + sqrt(25 + 256 * x**2 / pi**2))),
         right_of_0(atan(x) < 8 * x / (3 + sqrt(25 + 260 * x**2 / pi**2))),
-    ),
-    Row(
-        "x − x³/3 < atan x",
-        "olver2010nist",
-        "4.24.3, the series' first two terms",
-        right_of_0(x - x**3 / 3 < atan(x)),
-        right_of_0(x - expr("0.33") * x**3 < atan(x)),
     ),
 ]
 
@@ -334,20 +180,6 @@ CIRCULAR = [
         for_all(expr("0.6367") * x <= sin(x), 0, "1.5707"),
     ),
     Row(
-        "1 − 2x/π ≤ cos x, Kober",
-        "kober1944approximation",
-        "p. 22",
-        for_all(1 - 2 * x / pi <= cos(x), 0, "1.5707"),
-        for_all(expr("1.001") - 2 * x / pi <= cos(x), 0, "1.5707"),
-    ),
-    Row(
-        "sin x / x < (2 + cos x)/3, Cusa–Huygens",
-        "neuman2010inequalities",
-        "(1.1)",
-        up_to("1.57", sin(x) / x < (2 + cos(x)) / 3),
-        up_to("1.57", sin(x) / x < (expr("1.99") + expr("1.01") * cos(x)) / 3),
-    ),
-    Row(
         "cos x < (sin x / x)³, Mitrinović–Adamović",
         "mitrinovic1970analytic",
         "3.4.6",
@@ -355,39 +187,11 @@ CIRCULAR = [
         up_to("1.57", cos(x) < (sin(x) / x) ** 4),
     ),
     Row(
-        "(sin x / x)² + tan x / x > 2, Wilker",
-        "wilker1989problem",
-        "Problem E 3306 (a)",
-        up_to("1.57", (sin(x) / x) ** 2 + tan(x) / x > 2),
-        up_to("1.57", (sin(x) / x) ** 2 + tan(x) / x > 2 + x**4 / 5),
-    ),
-    Row(
-        "2 sin x / x + tan x / x > 3, Huygens",
-        "neuman2010inequalities",
-        "(1.2)",
-        up_to("1.57", 2 * sin(x) / x + tan(x) / x > 3),
-        up_to("1.57", expr("2.01") * sin(x) / x + expr("0.99") * tan(x) / x > 3),
-    ),
-    Row(
         "8/(π² − 4x²) < tan x / x, Becker–Stark",
         "becker1978hierarchy",
         "left",
         up_to("1.57", expr(8) / (pi**2 - 4 * x**2) < tan(x) / x),
         up_to("1.57", expr("8.1") / (pi**2 - 4 * x**2) < tan(x) / x),
-    ),
-    Row(
-        "tan x / x < π²/(π² − 4x²), Becker–Stark",
-        "becker1978hierarchy",
-        "right",
-        up_to("1.57", tan(x) / x < pi**2 / (pi**2 - 4 * x**2)),
-        up_to("1.57", tan(x) / x < pi**2 / (pi**2 - 3 * x**2)),
-    ),
-    Row(
-        "(π² − x²)/(π² + x²) ≤ sin x / x, Redheffer",
-        "redheffer1969problem",
-        "Problem 5642",
-        up_to("3.1415", (pi**2 - x**2) / (pi**2 + x**2) <= sin(x) / x),
-        up_to("3.1415", (pi**2 - x**2) / (pi**2 + expr("0.9") * x**2) <= sin(x) / x),
     ),
 ]
 
@@ -409,4 +213,4 @@ def test_its_false_neighbour_is_refuted(row: Row) -> None:
 def test_every_inequality_is_cited() -> None:
     known = BIBLIOGRAPHY.read_text(encoding="utf-8")
     assert [row.name for row in TABLE if f"{{{row.key}," not in known] == []
-    assert len({row.name for row in TABLE}) == len(TABLE) >= 22
+    assert len({row.name for row in TABLE}) == len(TABLE) >= 16

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from math import isqrt
 
 import mpmath
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mpf
 
 from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.verify import verify
 from lyapcheck.control.conditions import Check, Conditions, check_10p, check_19, gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.paper import PRINTED_GAMMA
-from lyapcheck.control.threshold import norms, root
+from lyapcheck.control.threshold import root
 from lyapcheck.errors import InputError
-from lyapcheck.files.decimals import places_of, written
-from tests.helpers.costly import costly
+from lyapcheck.files.decimals import written
 
 MS = st.one_of(st.integers(1, 6), st.sampled_from([10, 37, 100]))
 
@@ -150,138 +147,7 @@ def test_table_2_by_hand(gammas: dict[int, mpf]) -> None:
         assert float(check.limit.lower) == pytest.approx(0.406 / 3**0.5 / float(gammas[m]), rel=1e-15)
 
 
-# --- the largest value that passes -----------------------------------------------------------------
-
-
-def with_value(gains: GainSet, check: Check, value: Fraction) -> GainSet | None:
-    """The gains changed so that the check's value is another one; ``None`` where they cannot be."""
-    i = check.joint
-    if check.id == "19" and i is not None:
-        return GainSet("set", gains.m, gains.kp, (*gains.kv[:i], value, *gains.kv[i + 1 :]), gains.family)
-    kv = Fraction(min(gains.kv)) / 10**9 if i is None else gains.kv[i]
-    if value <= kv:
-        return None
-    if i is None:
-        return GainSet("set", gains.m, (value - kv,) * gains.n, (kv,) * gains.n, gains.family)
-    return GainSet("set", gains.m, (*gains.kp[:i], value - kv, *gains.kp[i + 1 :]), gains.kv, gains.family)
-
-
-@costly
-@given(cases(), st.sampled_from(["hyperbolic", "arctan", "tanh", "algebraic"]))
-def test_the_largest_admissible_is_admitted_and_the_next_decimal_is_not(
-    case: tuple[GainSet, Limits], family: str
-) -> None:
-    base, limits = case
-    gains = GainSet("set", base.m if family == "hyperbolic" else None, base.kp, base.kv, family)
-    gamma = gamma_of(gains)
-    for check in checked(gains, limits, gamma).values():
-        assert check.limit is not None
-        if check.largest_admissible is None:
-            assert check.limit.lower <= 0
-            continue
-        unit = Fraction(1, 10 ** places_of(check.largest_admissible))
-        assert (check.largest_admissible / unit).denominator == 1
-        for value, verdict in (
-            (check.largest_admissible, "accepted"),
-            (check.largest_admissible + unit, "rejected"),
-        ):
-            changed = with_value(gains, check, value)
-            if changed is not None:
-                again = checked(changed, limits, gamma)[check.id, check.joint]
-                assert (again.value, again.verdict) == (value, verdict)
-
-
-@pytest.mark.parametrize(("kv", "largest"), [("0.2", "0.2"), ("0.22", "0.22"), ("0.2230", "0.2224")])
-def test_the_largest_admissible_has_the_digits_that_were_written(kv: str, largest: str) -> None:
-    limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
-    check = check_19(gains_of(["1"] * 3, [kv] * 3), limits, gamma_of(gains_of(["1"], ["1"])))[0]
-    assert check.largest_admissible == Fraction(largest)
-    assert places_of(check.largest_admissible) == len(largest) - 2
-
-
-def test_more_digits_where_the_written_ones_allow_nothing_positive() -> None:
-    """0.01/γ_2 = 0.00949…: neither 1 nor 0.1 passes, so the answer takes digits of its own."""
-    limits = limits_of(["50"], ["0"], "0.01")
-    for kv in ("1", "0.1"):
-        check = check_19(gains_of(["1"], [kv]), limits, gamma_of(gains_of(["1"], ["1"])))[0]
-        assert (check.largest_admissible, places_of(check.largest_admissible)) == (Fraction(94, 10_000), 4)
-
-
-@pytest.mark.parametrize("budget", ["0", "-3"])
-def test_nothing_passes_where_gravity_takes_the_whole_torque(budget: str) -> None:
-    limits = limits_of([str(5 + int(budget))], ["5"], "1")
-    for check in (*check_10p(*_simple(limits)), *check_10(*_simple(limits))):
-        assert check.verdict == "rejected"
-        assert check.largest_admissible is None
-        assert check.limit is not None
-        assert check.limit.upper <= 0
-
-
-def _simple(limits: Limits) -> tuple[GainSet, Limits, Tree | None]:
-    gains = gains_of(["0.5"], ["0.5"])
-    return gains, limits, gamma_of(gains)
-
-
-@pytest.mark.parametrize("m", [1, 2, 3, 50])
-@pytest.mark.parametrize("places", [43, 120, 400])
-def test_many_digits_neither_stall_nor_blur(m: int, places: int) -> None:
-    text = f"0.{'2' * places}"
-    limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
-    gains = gains_of([text] * 3, [text] * 3, m)
-    for check in checked(gains, limits).values():
-        unit = Fraction(1, 10**places)
-        assert check.largest_admissible is not None
-        assert check.limit is not None
-        assert check.limit.lower - 2 * unit <= check.largest_admissible <= check.limit.upper
-
-
 # --- on the border ---------------------------------------------------------------------------------
-
-SQUARES = st.sampled_from([1, 4, 9])
-POSITIVE = st.fractions(min_value=Fraction(1, 1000), max_value=1000, max_denominator=1000)
-
-
-@given(SQUARES, POSITIVE, st.sampled_from(["hyperbolic", "tanh", "algebraic"]), st.integers(0, 80))
-def test_19_and_10p_are_strict(n: int, limit: Fraction, family: str, digits: int) -> None:
-    """γ = 1 and √n is whole: the border is rational, and only what is below it passes."""
-    m = 1 if family == "hyperbolic" else None
-    budget = limit * isqrt(n)
-    below_it = limit - limit / 10 ** (digits + 1)
-    limits = Limits((budget + 7,) * n, (Fraction(7),) * n, budget, tuple(map(str, range(n))))
-    for value, verdict in ((limit, "rejected"), (below_it, "accepted")):
-        gains = GainSet("set", m, (value / 3,) * n, (value * 2 / 3,) * n, family)
-        for check in check_10p(gains, limits, gamma_of(gains)):
-            assert (check.value, check.verdict) == (value, verdict)
-        gains = GainSet("set", m, (value,) * n, (value,) * n, family)
-        for check in check_19(gains, limits, gamma_of(gains)):
-            assert (check.value, check.verdict) == (value, verdict)
-            assert check.limit == Enclosure.exact(limit)
-            assert check.margin == limit - value
-
-
-@given(SQUARES, POSITIVE, st.integers(1, 30), st.integers(1, 30), st.integers(0, 80))
-def test_10_admits_its_border(n: int, unit: Fraction, a: int, b: int, digits: int) -> None:
-    """Norms of Pythagorean pairs are rational, so the border of (10) is, for m = 1."""
-    torque, gravity = max(a, b) + 1, min(a, b)
-    pad = (Fraction(0),) * (n - 1)
-    limits = Limits((torque * unit, *pad), (gravity * unit, *pad), None, tuple(str(i) for i in range(n)))
-    border = (torque - gravity) * unit / isqrt(n)
-    for value, verdict in ((border, "accepted"), (border * (1 + Fraction(1, 10**digits)), "rejected")):
-        gains = GainSet("set", 1, (value / 4,) * n, (value * 3 / 4,) * n)
-        (check,) = check_10(gains, limits, gamma_of(gains))
-        assert (check.value, check.verdict) == (value, verdict)
-        assert check.margin is not None
-        assert (check.margin >= 0) == (verdict == "accepted")
-
-
-def test_10_on_a_border_between_irrational_norms() -> None:
-    """√8 − √2 = √2, and √2/√2 = 1: the norms are irrational, the border 1 is not."""
-    limits = limits_of(["2", "2"], ["1", "1"], None)
-    for kp, verdict in (("0.5", "accepted"), ("0.50000000000000000000000000000000000000001", "rejected")):
-        gains = gains_of([kp, "0.1"], ["0.5", "0.1"], 1)
-        (check,) = check_10(gains, limits, gamma_of(gains))
-        assert check.verdict == verdict
-    assert check_10(gains_of(["0.5"] * 2, ["0.5"] * 2, 1), limits, ("num", "1"))[0].margin == 0
 
 
 def test_10_at_the_printed_bound() -> None:
@@ -290,28 +156,6 @@ def test_10_at_the_printed_bound() -> None:
     gains = gains_of(["9.5"] * 4, ["0.5"] * 4)
     (check,) = check_10(gains, limits, gamma_of(gains, "printed"))
     assert (check.verdict, check.margin, check.largest_admissible) == ("accepted", 0, 10)
-
-
-@given(st.integers(1, 12), POSITIVE, POSITIVE, st.sampled_from([-1, 0, 1]), st.integers(1, 200))
-def test_the_smaller_root_is_the_border(n: int, a: Fraction, b: Fraction, side: int, digits: int) -> None:
-    """Norms a > b and γ = (a − b)/k√n with √n rational: exactly on the border, and a little beside it."""
-    assume(a != b)
-    n = n * n
-    border = abs(a - b) / isqrt(n)
-    value = border * (1 + Fraction(side, 10**digits))
-    bound = norms(max(a, b) ** 2, min(a, b) ** 2, n, ("num", "1"))
-    assert bound.admits(value) == (side <= 0) if value > 0 else True
-    larger = (a + b) / isqrt(n)
-    assert not bound.admits(larger)
-
-
-def test_two_roots_that_balls_do_not_tell_apart_at_first() -> None:
-    """Norms 1 and 10^-60: the border is 1 − 10^-60, and 1 + 10^-60 solves the same quadratic."""
-    tiny = Fraction(1, 10**60)
-    bound = norms(Fraction(1), tiny**2, 1, ("num", "1"))
-    assert bound.admits(1 - tiny)
-    for value in (1 - tiny / 2, Fraction(1), 1 + tiny):
-        assert not bound.admits(value)
 
 
 # --- what cannot be decided ------------------------------------------------------------------------

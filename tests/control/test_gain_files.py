@@ -203,26 +203,17 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     "no closing quote": (changed('"one"', '"one'), 4, "TOML", "Illegal character", "syntax"),
     "a key twice": (changed("m = 2", "m = 2\nm = 3"), 6, "TOML", "overwrite", "syntax"),
     "comma for a decimal point": (changed("0.1,", "0,1;"), 7, "TOML", "Unclosed array", "syntax"),
-    "leading zero": (changed("0.1,", "00.1,"), 7, "TOML", "Unclosed array", "syntax"),
     "not TOML at all": ("kp: 1, 2, 3\n", 1, "TOML", "Expected '='", "syntax"),
     "control character": (changed("one", "o\x01ne"), 4, "TOML", "Illegal character", "syntax"),
     "not UTF-8": (GOOD.encode() + b"# \xff\xfe\n", None, "file", "not UTF-8", "UTF-8"),
     "UTF-16": (GOOD.encode("utf-16"), None, "file", "not UTF-8", "UTF-8"),
     "nothing": (b"", None, "gains", "is missing", "[[gains]]"),
-    "only a comment": ("# soon\n", None, "gains", "is missing", "[[gains]]"),
-    "no gains": ('robot = "buap3"\n', None, "gains", "is missing", "[[gains]]"),
     "gains of one table": (changed("[[gains]]", "[gains]"), 3, "gains", "array of tables", "[[gains]]"),
     "no gain sets": ("gains = []\n", 1, "gains", "array of tables", "[[gains]]"),
     "gains of numbers": ("gains = [1, 2]\n", 1, "gains", "array of tables", "[[gains]]"),
     "unknown key": (GOOD + "kd = [1, 1, 1]\n", 8, "gains[1].kd", "not a known key", "use one of: angle"),
     "misspelt key": (changed("name", "nmae"), 4, "gains[1].nmae", "not a known key", "did you mean name?"),
-    "key of other letters": (
-        changed("kp", "Kp"),
-        6,
-        "gains[1].Kp",
-        "not a known key",
-        "did you mean kp?",
-    ),
+    "key of other letters": (changed("kp", "Kp"), 6, "gains[1].Kp", "not a known key", "did you mean kp?"),
     "misspelt family": (
         changed("m = 2", 'family = "linaer"'),
         5,
@@ -260,27 +251,16 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     "no kp": (changed("kp = [1.5, 2, 3e-1]\n", ""), 3, "gains[1].kp", "is missing", "add kp"),
     "no kv": (changed("kv = [0.1, 0.20, 0.3]\n", ""), 3, "gains[1].kv", "is missing", "add kv"),
     "m = 0": (changed("m = 2", "m = 0"), 5, "gains[1].m", "from 1 to 100000", "write m = 1"),
-    "m < 0": (changed("m = 2", "m = -3"), 5, "gains[1].m", "whole number", "write m = 1"),
-    "m not whole": (changed("m = 2", "m = 2.5"), 5, "gains[1].m", "whole number", "write m = 1"),
-    "m a decimal": (changed("m = 2", "m = 2.0"), 5, "gains[1].m", "whole number", "write m = 1"),
     "m true": (changed("m = 2", "m = true"), 5, "gains[1].m", "whole number", "write m = 1"),
-    "m a text": (changed("m = 2", 'm = "2"'), 5, "gains[1].m", "whole number", "write m = 1"),
-    "m infinite": (changed("m = 2", "m = inf"), 5, "gains[1].m", "whole number", "write m = 1"),
     "m too large": (changed("m = 2", "m = 100001"), 5, "gains[1].m", "from 1 to 100000", "write m = 1"),
     "m of another size": (changed("m = 2", "m = 0x" + "F" * 9000), 5, "gains[1].m", "whole", "write m = 1"),
-    "gain 0": (changed("1.5", "0"), 6, "gains[1].kp[1]", "must be positive", "correct the sign"),
     "gain 0.0": (changed("0.20", "0.0"), 7, "gains[1].kv[2]", "must be positive", "correct the sign"),
     "gain < 0": (changed("0.3]", "-0.3]"), 7, "gains[1].kv[3]", "must be positive", "correct the sign"),
-    "gain -0": (changed("0.3]", "-0.0]"), 7, "gains[1].kv[3]", "must be positive", "correct the sign"),
     "gain nan": (changed("1.5", "nan"), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
-    "gain inf": (changed("0.1,", "+inf,"), 7, "gains[1].kv[1]", "finite decimal", "0.223"),
-    "gain -inf": (changed("0.1,", "-inf,"), 7, "gains[1].kv[1]", "finite decimal", "0.223"),
     "gain true": (changed("1.5", "true"), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
     "gain a text": (changed("1.5", '"1.5"'), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
     "gain a date": (changed("1.5", "2024-01-01 10:00:00"), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
-    "gain a list": (changed("1.5", "[1.5]"), 6, "gains[1].kp[1]", "finite decimal", "0.223"),
     "gain of 10^999999": (changed("1.5", "1e999999"), 6, "gains[1].kp[1]", "1e15 in size", "0.223"),
-    "gain of 10^-999999": (changed("1.5", "1e-999999"), 6, "gains[1].kp[1]", "1e15 in size", "0.223"),
     "exponent of many digits": (
         changed("1.5", "1e" + "9" * 300),
         6,
@@ -290,7 +270,6 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     ),
     "decimal of many digits": (changed("1.5", "1." + HUGE), 6, "gains[1].kp[1]", "1000 characters", "0.223"),
     "integer of many digits": (changed("1.5", HUGE), 6, "number", "absurd length", "physical size"),
-    "integer of 500 digits": (changed("1.5", "9" * 500), 6, "gains[1].kp[1]", "1e15 in size", "0.223"),
     "hexadecimal of many digits": (changed("1.5", "0x" + HUGE), 6, "gains[1].kp[1]", "1e15", "0.223"),
     "kp one number": (changed("[1.5, 2, 3e-1]", "1.5"), 6, "gains[1].kp", "list of numbers", "[1.5, 1.5]"),
     "kp empty": (changed("[1.5, 2, 3e-1]", "[]"), 6, "gains[1].kp", "list of numbers", "[1.0, 1.0]"),
@@ -335,13 +314,7 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
         "give 3",
     ),
     "gravity nan": (BOUNDS + "gravity = [0, nan, 0]\n", 9, "bounds.gravity[2]", "finite decimal", "0.223"),
-    "a name twice": (
-        GOOD + GOOD.partition("\n")[2],
-        10,
-        "gains[2].name",
-        "used twice",
-        "its own name",
-    ),
+    "a name twice": (GOOD + GOOD.partition("\n")[2], 10, "gains[2].name", "used twice", "its own name"),
     "another number of joints": (
         GOOD + '[[gains]]\nname = "two"\nm = 1\nkp = [1]\nkv = [1]\n',
         11,
@@ -532,11 +505,7 @@ def test_a_file_name_of_any_bytes_can_be_said(tmp_path: Path) -> None:
     for text in (GOOD, "x"):
         with open(name, "wb") as stream:
             stream.write(text.encode())
-        done = subprocess.run(
-            [sys.executable, "-c", RUN, "gate", name],
-            capture_output=True,
-            check=False,
-        )
+        done = subprocess.run([sys.executable, "-c", RUN, "gate", name], capture_output=True, check=False)
         assert done.returncode in (0, 1) if text == GOOD else done.returncode == 2
         assert b"Traceback" not in done.stderr
         assert rb"g\udcff" in done.stdout + done.stderr

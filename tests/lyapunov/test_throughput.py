@@ -14,7 +14,6 @@ from lyapcheck.compiled import loop as loop_module
 from lyapcheck.compiled import threads, writer
 from lyapcheck.compiled.compiler import OFF, VECTORS, compiler
 from lyapcheck.compiled.loop import loop
-from lyapcheck.derive.plain import LARGEST_MEMBER
 from lyapcheck.lyapunov import numeric as numeric_module
 from lyapcheck.lyapunov.graph import lyapunov_graph
 from lyapcheck.lyapunov.numeric import LARGE, LyapunovNumeric
@@ -174,8 +173,12 @@ def test_without_a_compiler_numpy_serves_everything(monkeypatch):
     assert np.array_equal(kept.V(*columns), by_arrays(kept, "V", *columns))
 
 
-def test_too_large_a_member_is_left_to_the_doubled_precision_of_arrays():
-    assert lyapunov("pendulum1", family.hyperbolic(LARGEST_MEMBER + 1)).engine() == "numpy"
+def test_a_large_member_is_compiled_like_any_other():
+    kept, columns = lyapunov("pendulum1", family.hyperbolic(300)), states(1, LARGE)
+    assert kept.engine() == EXPECTED
+    values = kept.V(*columns)
+    assert np.isfinite(values).all()
+    assert np.allclose(values, by_arrays(kept, "V", *columns), rtol=1e-11, atol=0)
 
 
 def test_too_long_a_formula_is_left_to_arrays(monkeypatch, few, empty_cache):

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import re
 from dataclasses import dataclass
-from html.parser import HTMLParser
 from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from markdown_it import MarkdownIt
 
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
@@ -70,37 +66,6 @@ class Sample(Answer):
         ]
 
 
-class Page(HTMLParser):
-    """The text of each element of a page by its tag; no comment is expected."""
-
-    def __init__(self, html: str) -> None:
-        super().__init__()
-        self.parts: dict[str, list[str]] = {}
-        self._open: list[str] = []
-        self.feed(html)
-
-    def handle_starttag(self, tag: str, attrs: object) -> None:
-        self._open.append(tag)
-        self.parts.setdefault(tag, []).append("")
-
-    def handle_endtag(self, tag: str) -> None:
-        self._open.pop()
-
-    def handle_comment(self, data: str) -> None:
-        raise AssertionError(f"a comment got in: {data}")
-
-    def handle_data(self, data: str) -> None:
-        if self._open:
-            self.parts[self._open[-1]][-1] += data
-
-
-BLOCKS = {"p", "ul", "li", "pre", "code", "table", "thead", "tbody", "tr", "th", "td"}
-
-
-def cells(page: Page) -> list[str]:
-    return [*page.parts["th"], *page.parts["td"]]
-
-
 # --- names -------------------------------------------------------------------------------------------
 
 
@@ -109,35 +74,6 @@ def test_a_text_stays_on_its_lines_in_a_terminal(name: str) -> None:
     text = Sample(name).written("text")
     assert text.replace("\n", "").isprintable()
     assert printable(name).split() == [] or printable(name).split()[0] in text
-
-
-@given(NAMES)
-@example("&lt; a|b \\| ` <i>_x_</i> ~~s~~ http://x.y <http://x.y>")
-@example("-")
-@example("+ x")
-@example("---")
-@example("1.")
-@example("2) x")
-@example("=")
-def test_markdown_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
-    written = Sample(name).written("markdown")
-    page = Page(MarkdownIt("commonmark").enable(["table", "strikethrough"]).render(written))
-    assert set(page.parts) <= BLOCKS | {"h1", "h2"}
-    shown = printable(name).strip()
-    assert cells(page) == [shown, "value", shown, "1", "b", shown]
-    assert page.parts["li"] == [shown] * 3
-    assert page.parts["h1"] == [shown]
-    assert page.parts["h2"] == [shown, "Notes"]
-
-
-@given(NAMES)
-def test_html_shows_a_text_in_one_cell_and_no_tag_of_it(name: str) -> None:
-    page = Page(Sample(name).written("html"))
-    assert set(page.parts) == BLOCKS | {"h2", "h3", "caption"}
-    shown = printable(name)
-    assert cells(page) == [shown, "value", shown, "1", "b", shown]
-    assert page.parts["caption"] == page.parts["h2"] == page.parts["p"] == [shown]
-    assert page.parts["h3"] == [shown, "Notes"]
 
 
 @given(NAMES)
@@ -151,18 +87,6 @@ def test_latex_obeys_nothing(name: str) -> None:
 def test_latex_writes_signs_of_formulas() -> None:
     assert latex_text("γ_2 ≤ √3") == r"\ensuremath{\gamma}\_2 \ensuremath{\le} \ensuremath{\surd}3"
     assert latex_text("q̇ᵀ é") == r"\ensuremath{\dot{q}}\ensuremath{^{T}} é"
-
-
-@given(NAMES)
-@example("=1+1")
-@example("+1")
-def test_csv_holds_no_formula(name: str) -> None:
-    rows = list(csv.reader(io.StringIO(Sample(name).written("csv")), strict=True))
-    assert len({len(row) for row in rows}) == 1
-    for cell in (cell for row in rows for cell in row):
-        assert not cell.startswith(("=", "+", "-", "@")) or re.fullmatch(
-            r"[-+]?[\d.e+-]+|[-+]inf\w*|[-+]nan", cell.lower()
-        )
 
 
 @given(NAMES)
@@ -200,30 +124,6 @@ def test_junit_shows_what_prints(name: str) -> None:
     assert suite.findtext("system-out") == document_text(name)
 
 
-COMMAND = re.compile(r"::(error|warning|notice) ([^:]*)::(.*)")
-
-
-def decoded(text: str) -> str:
-    """As the runner of GitHub Actions reads a property or a message."""
-    for code, sign in (("%0D", "\r"), ("%0A", "\n"), ("%3A", ":"), ("%2C", ","), ("%25", "%")):
-        text = text.replace(code, sign)
-    return text
-
-
-@given(NAMES)
-@example("%0A\n%250A\r")
-def test_github_gets_one_command_a_line(name: str) -> None:
-    shown = "".join(c if c in "\r\n" else printable(c) for c in name)
-    lines = re.split(r"[\r\n]", Sample(name).written("github"))[:-1]
-    result = [COMMAND.fullmatch(line) for line in lines]
-    assert [match[1] for match in result if match] == ["error", "warning", "notice", "notice"]
-    for match in filter(None, result[:3]):
-        properties = dict(pair.split("=", 1) for pair in match[2].split(","))
-        assert properties.keys() == {"file", "line", "col", "title"}
-        assert decoded(properties["file"]) == shown
-        assert decoded(match[3]) == shown
-
-
 @pytest.mark.parametrize("format", JudgedFormat)
 def test_a_format_ends_its_last_line_and_is_the_same_twice(format: str) -> None:  # noqa: A002
     once = Sample("a").written(format)
@@ -243,7 +143,6 @@ def test_an_answer_prints_as_text_and_shows_itself_in_a_notebook() -> None:
 
 # --- the terminal ------------------------------------------------------------------------------------
 
-WORDS = st.text("abc λ", min_size=0, max_size=60).map(" ".join)
 LINES = st.lists(st.text("abcdef", min_size=1, max_size=14), max_size=40).map(" ".join)
 
 

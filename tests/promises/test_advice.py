@@ -214,3 +214,71 @@ def test_gains_for_ranges_are_gains_for_their_members(arm: Arm, at: list[Fractio
             member = arm.at(at).written(folder, "member")
             (folder / "own.toml").write_text(text.replace("arm.toml", member), encoding="utf-8")
             assert invoke("gate", str(folder / "own.toml")).exit_code == 0, (arm, at)
+
+
+# --- advice of bounds and epsilon ----------------------------------------------------------------
+
+CORRECTED = {
+    "bounds, --delta": ("bounds", "--delta", "0"),
+    "bounds, --friction": ("bounds", "--friction", "0.1,0.1,0.1"),
+    "bounds, --target": ("bounds",),
+    "epsilon, --m": ("epsilon", "--m", "7"),
+}
+
+
+def written(path: Path, arm: str, kp: str, kv: str, family: str = "m = 1") -> Path:
+    rows = "\n".join(f"{key} = [{', '.join([x] * load(arm).n)}]" for key, x in (("kp", kp), ("kv", kv)))
+    path.write_text(f'robot = "{arm}"\n[[gains]]\nname = "a"\n{family}\n{rows}\n', encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(pytest.param(words, id=name) for name, words in CORRECTED.items()),
+        pytest.param(("epsilon", "--spread", "0"), id="epsilon, --spread", marks=pytest.mark.slow),
+    ],
+)
+def test_what_an_error_tells_to_write_is_taken(tmp_path: Path, words: tuple[str, ...]) -> None:
+    gains = written(tmp_path / "gains.toml", "pendulum1", "3", "0.05")
+    line, told = [words[0], str(gains), *words[1:]], []
+    while (done := invoke(*line)).exit_code == 2:
+        text = str(done.exception)
+        advice = re.search(r"(?:write (--[a-z]+) ([^\s;]+))|(?:(--m) = .*choose from ([0-9]+))", text)
+        assert advice is not None, text
+        option, value = (part for part in advice.groups() if part is not None)
+        assert option not in told, text
+        told.append(option)
+        if option in line:
+            line[line.index(option) + 1] = value
+        else:
+            line += [option, value]
+    assert told
+    assert done.exit_code in (0, 3), done.output
+
+
+def test_bounds_tells_what_is_missing_and_takes_it(tmp_path: Path) -> None:
+    """Dry friction that no file states; a k_p that does not exceed it; an h without a bound."""
+    words = ["bounds", str(written(tmp_path / "gains.toml", "pendulum1", "3", "0.05")), "--target", "45"]
+    unknown = ["bounds", str(written(tmp_path / "free.toml", "buap3-small", "3", "0.05"))]
+    assert "give --friction" in text_of(unknown)
+    assert invoke(*unknown, "--friction", "1,1,1").exit_code == 0
+    (friction,) = re.findall(
+        r"does not exceed its dry friction of ([0-9.]+) N·m: raise k_p", text_of([*words, "--friction", "4"])
+    )
+    written(tmp_path / "gains.toml", "pendulum1", f"{Fraction(friction) * 2}", "0.05")
+    assert invoke(*words, "--friction", friction).exit_code == 0
+    written(tmp_path / "gains.toml", "pendulum1", "30", "0.05", 'family = "linear"')
+    assert "choose gains of a bounded family" in str(invoke(*words).exception)
+    written(tmp_path / "gains.toml", "pendulum1", "30", "0.05", 'family = "tanh"')
+    assert invoke(*words, "--friction", friction).exit_code == 0
+
+
+def test_gains_lowered_as_epsilon_tells_have_an_epsilon(tmp_path: Path) -> None:
+    gains = written(tmp_path / "gains.toml", "pendulum1", "3", "5")
+    assert "lower the gains k_v to below λmin(B)/(√n γ)" in text_of(["epsilon", str(gains)])
+    (result,) = results(asked("gate", str(gains), "--condition", "19"))
+    (most,) = [check["largest_admissible"] for check in result["checks"] if check["id"] == "19"]
+    written(gains, "pendulum1", "3", most)
+    done = invoke("epsilon", str(gains))
+    assert done.exit_code == 0, done.output

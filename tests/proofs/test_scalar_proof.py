@@ -175,60 +175,32 @@ def regulator(value, potential):
     return f"FAMILY.regulator(FAMILY.member({value}, {potential}, 2, 2, 2), eps0)"
 
 
-BOUNDS = "FamilyBounds(n, gamma(m), rho(m), secant_bound(m))"
-LESS = [
-    BOUNDS.replace("gamma(m)", "1"),
-    BOUNDS.replace("rho(m)", "1"),
-    BOUNDS.replace("secant_bound(m)", "expr('0.8')"),
-]
 FAULTS = [
     (
         "h.slope",
         "Bounds(n, gamma(m), rho(m), secant_bound(m))",
         "Bounds(n, gamma(m), rho(m), expr('0.8'))",
     ),
-    ("h.bound", "every_entry=for_all(h(m, x) <= known.gamma)", "every_entry=for_all(h(m, x) <= 1)"),
-    ("h.steep", "dh(m, x) <= known.rho", "dh(m, x) <= known.gamma"),
     ("h.share", "<= reach * L / (reach + L)", "<= reach * L / (reach + 2 * L)"),
-    *(("h.bounds", BOUNDS, wrong) for wrong in LESS),
-    ("V.positive", FUNCTION, regulator("h(m, x)", "potential(m, x) + 1")),
     ("V.positive", FUNCTION, regulator("h(m, x)", "2 * potential(m, x)")),
-    ("V.unbounded", FUNCTION, regulator("h(m, x)", "potential(m, x) / 2")),
-    ("V.unbounded", FUNCTION, regulator("x", "x**2 / 2")),
     ("V.smooth", FUNCTION, regulator("2 * h(m, x)", "potential(m, x)")),
-    ("V.smooth", FUNCTION, regulator("x**3", "x**4 / 4")),
-    ("equilibrium", AT_REST, "AT_REST.regulator(FAMILY.member(-h(m, x), -potential(m, x), 2, 2, 2), "),
     ("equilibrium", AT_REST, "AT_REST.regulator(FAMILY.member(x**3 - x, x**4 / 4 - x**2 / 2, 2, 2, 2), "),
-    ("rate", "total(loops.terms(s))", "total(loops.terms(s)[1:])"),
-    ("rate", "rate(dot(s.e, s.e))", "rate(dot(s.e, s.w))"),
     ("rate.1", '["h.odd"], [], ["damping"]', '["h.odd"], ["w"]'),
-    ("rate.2", "-b_min * b**2", "-2 * b_min * b**2"),
-    ("rate.3", "eps * known.rho * beta * b**2", "eps * known.rho * beta * b"),
     ("rate.4", "eps * known.G * beta * b**2", "eps * known.G / 2 * beta * b**2"),
-    ("rate.6", "-eps * k * a**2", "-2 * eps * k * a**2"),
-    ("rate.7", '["h", "B", "w"]', '["h", "w"]'),
     ("rate.8", "eps * known.L * kv_max", "eps * '0.8' * kv_max"),
-    ("rate.9", "eps**2 * known.reach * kc", "eps * known.reach * kc"),
-    ("rate.form", "        eps * b_max * a * b,\n", "        expr(0),\n"),
     ("rate.form", "return eps * k, -eps / 2", "return eps * k, -eps / 3"),
-    ("arm.M", "arm.mass_above()", "arm.mass_above(1000)"),
-    ("arm.M", "arm.mass_below()", "type(arm.mass_below())(arm.mass, (), arm.beta / 2)"),
     (
         "arm.C",
         "ArmBounds(robot).coriolis_below()",
         "(lambda arm: type(arm.coriolis_below())(arm.mass, (), arm.kc / 100))(ArmBounds(robot))",
     ),
-    ("arm.theta", "condition(x * eps0, expr(k)", "condition(2 * x * eps0, expr(k)"),
-    ("arm.stable", "Kv=gains.kv, eps0=eps0)", "Kv=gains.kv, eps0=2 * eps0)"),
     ("arm.stable", "Kp=gains.kp, Kv", "Kp=[k / 9 for k in gains.kp], Kv"),
-    ("arm.stable", "Kp=gains.kp, Kv=gains.kv", "Kp=gains.kv, Kv=gains.kp"),
-    ("arm.stable", "Kp=gains.kp, Kv", "Kp=[-k for k in gains.kp], Kv"),
     ("arm.properties", "plus(turning, transpose(turning))", "plus(turning, turning)"),
 ]
 
 
 @pytest.mark.parametrize(
-    ("claim", "right", "wrong"), one_in(14, FAULTS), ids=[f"{row[0]}: {row[2]}" for row in FAULTS]
+    ("claim", "right", "wrong"), one_in(6, FAULTS), ids=[f"{row[0]}: {row[2]}" for row in FAULTS]
 )
 def test_a_planted_fault_is_not_proved(altered, claim, right, wrong):
     assert verdicts(altered(right, wrong), (claim,))[claim] in ("refuted", "undecided")

@@ -1,19 +1,13 @@
 """The tracking proof: the loop and its rate against numbers, the role of v_d, and faults."""
 
 import re
-import runpy
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from lyapcheck.answers.check.run import paper_case
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
 from lyapcheck.errors import InputError
-from lyapcheck.family import hyperbolic
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
 from tests.helpers.script_cases import rewriter, verdicts
 from tests.helpers.shares import one_in
@@ -23,7 +17,6 @@ pytestmark = pytest.mark.usefixtures("in_this_process")
 
 SCRIPT = Path(find_script("tracking.py"))
 SOURCE = SCRIPT.read_text(encoding="utf-8")
-NAMES = runpy.run_path(str(SCRIPT))
 
 
 @pytest.fixture(scope="module", params=["small", pytest.param("paper", marks=pytest.mark.slow)])
@@ -51,81 +44,6 @@ def test_the_conclusion_needs_bounds_without_time_on_both_sides(result):
     assert {"21.below", "21.above", "21.form", "21.loop", "21.small"} <= uses["21"]
     assert "rate.5" not in uses["21.form"], "terms 5 and 9 are those with the desired velocity in them"
     assert "rate.9" not in uses["21.form"]
-
-
-# Numbers ----------------------------------------------------------------------------------------------------
-
-
-class Motion:
-    """Random states of the paper's arm that tracks with velocities of one size, and dV/dt of V there."""
-
-    def __init__(self, m, eps0, speed, seed=5, count=3000):
-        self.case, self.eps0, self.speed = paper_case(m), eps0, speed
-        self.model, self.family = NumericModel(self.case.robot), hyperbolic(m)
-        self.kp, self.kv = (np.array([float(k) for k in g]) for g in (self.case.gains.kp, self.case.gains.kv))
-        rng = np.random.default_rng(seed)
-        scale = 10.0 ** rng.uniform(-2, 1.5, (2, count, 1))
-        self.q = rng.uniform(-4, 4, (count, 3))
-        self.e, self.w = rng.normal(size=(2, count, 3)) * scale
-        direction = rng.normal(size=(count, 3))
-        self.qd_dot = speed * direction / np.linalg.norm(direction, axis=1)[:, None]
-        self.qd_ddot = rng.normal(size=(count, 3))
-
-    @property
-    def velocity(self):
-        return self.qd_dot + self.w
-
-    def acceleration(self):
-        """q̈ of the arm (1) under the torque of (21)."""
-        error_rate = self.qd_dot - self.velocity
-        M, C = self.model.mass(self.q), self.model.coriolis(self.q, self.velocity)
-        b, g = self.model.viscous, self.model.gravity(self.q)
-        torque = self.kp * self.family.h(self.e) + self.kv * self.family.h(error_rate) + g + b * self.qd_dot
-        torque += np.einsum("bij,bj->bi", M, self.qd_ddot) + np.einsum("bij,bj->bi", C, self.qd_dot)
-        pull = torque - np.einsum("bij,bj->bi", C, self.velocity) - g - b * self.velocity
-        return np.linalg.solve(M, pull[..., None])[..., 0]
-
-    def rate(self, step=1e-6):
-        """dV/dt by central differences along the motion."""
-        lyapunov = LyapunovNumeric(self.case.robot, self.family, self.kp, self.kv, self.eps0)
-        w_dot = self.acceleration() - self.qd_ddot
-
-        def V(t):
-            return lyapunov.V(self.q + t * self.velocity, self.e - t * self.w, self.w + t * w_dot)
-
-        h = step / (1 + np.linalg.norm(self.velocity, axis=1) + np.linalg.norm(w_dot, axis=1))[:, None]
-        return (V(h) - V(-h)) / (2 * h[:, 0])
-
-    def form(self, speed):
-        """−[a b] Θ' [a b]ᵀ with the bound v_d = speed, and the sum of the sizes of its terms."""
-        known, arm = NAMES["known_of"](self.case.m, self.case.n), NAMES["ArmBounds"](self.case.robot.fixed())
-        c = float(known.drift(arm.beta, arm.kc))
-        d = float(known.cross(arm.b_max, max(self.case.gains.kv)))
-        a, b = np.linalg.norm(self.family.h(self.e), axis=1), np.linalg.norm(self.w, axis=1)
-        eps = self.eps0 / (1 + np.linalg.norm(self.e, axis=1))
-        turn = float(arm.kc) * speed
-        corner, side, low = NAMES["theta"](eps, min(self.kp), float(arm.b_min), c, d, turn)
-        form = corner * a**2 + 2 * side * a * b + low * b**2
-        return -form, np.abs(corner) * a**2 + 2 * np.abs(side) * a * b + np.abs(low) * b**2
-
-
-@pytest.mark.parametrize("m", [1, 2, 3])
-@pytest.mark.parametrize("speed", [0.0, 3.0])
-def test_the_form_bounds_the_rate_along_the_arm_under_21(m, speed):
-    """The arm is moved by (1) and (21) themselves; neither the error system nor (15) is used."""
-    motion = Motion(m, 0.2, speed)
-    form, size = motion.form(speed)
-    rate = motion.rate()
-    scale = size + np.linalg.norm(motion.w, axis=1) * np.max(motion.kp)
-    assert np.all(rate <= form + 1e-4 * scale + 1e-6)
-
-
-def test_without_the_desired_velocity_the_form_would_not_bound_the_rate():
-    """Negative control: at 300 rad/s the terms with v_d are what keeps the bound."""
-    motion = Motion(2, 0.2, 300.0)
-    rate = motion.rate()
-    assert np.all(rate <= motion.form(300.0)[0] + 1e-3 * motion.form(300.0)[1] + 1e-3)
-    assert np.any(rate > motion.form(0.0)[0] + 1e-1 * motion.form(300.0)[1])
 
 
 # The role of v_d and ε₀ -------------------------------------------------------------------------------------
@@ -171,23 +89,11 @@ def tracking(value, potential):
 
 FAULTS = [
     ("21.loop", "scaled(s.kp, s.h) - scaled(s.kv, s.hw)", "scaled(s.kp, s.h) + scaled(s.kv, s.hw)"),
-    ("21.loop", "+ s.C @ speed + weight", "+ s.C @ s.w + weight"),
-    ("21.loop", "origin = replace(s, w=zero, hw=zero, h=zero)", "origin = replace(s, w=zero, hw=zero)"),
     ("21.5", "eps * kc * vd * a * b + eps * known.reach * kc * b**2", "eps * known.reach * kc * b**2"),
-    ("21.5", 'var("kc") * var("vd")', '2 * var("kc") * var("vd")'),
-    ("21.9", "eps**2 * kc * vd * a**2 +", "eps**2 * kc * vd * a +"),
     ("21.9", "eps**2 * kc * vd * a**2 +", "eps**2 * kc * vd * a**2 / 2 +"),
-    ("21.form", "return eps * (k - eps * turn),", "return eps * k,"),
-    ("21.form", "-eps / 2 * (d + turn + eps * c)", "-eps / 2 * (d + eps * c)"),
     ("21.loop", FUNCTION, tracking("h(m, x) + 1", "potential(m, x)")),
-    ("21.below", FUNCTION, tracking("h(m, x)", "potential(m, x) + 1")),
-    ("21.below", FUNCTION, tracking("h(m, x)", "potential(m, x) * 2")),
     ("21.above", FUNCTION, tracking("-h(m, x)", "potential(m, x) * (-1)")),
-    ("21.above", FUNCTION, tracking("h(m, x)", "x**2")),
-    ("arm.inertia", "arm.mass_above(arm.guessed_floor())", "arm.mass_above(4 * arm.guessed_floor())"),
     ("arm.21", "vd=SPEED)", "vd=2 * SPEED)"),
-    ("arm.21", "eps0=eps0, vd", "eps0=2 * eps0, vd"),
-    ("arm.21", "Kp=gains.kp, Kv=gains.kv", "Kp=gains.kv, Kv=gains.kp"),
     ("21", FUNCTION, tracking("x", "x")),
 ]
 

@@ -169,15 +169,6 @@ def test_markdown_links_lead_somewhere(files: dict[str, str]) -> None:
             assert set(re.findall(r"\]\(([^)]+)\)", page)) <= set(files)
 
 
-def test_markdown_tables_have_as_many_cells_in_every_row(files: dict[str, str]) -> None:
-    for page in (page for name, page in files.items() if name.endswith(".md")):
-        width = 0
-        for line in page.splitlines():
-            cells = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else 0
-            assert not (cells and width) or cells == width, line
-            width = cells
-
-
 def test_equations_and_figures_are_wellformed_xml(files: dict[str, str]) -> None:
     equations = re.findall(r"<math.*?</math>", files["index.html"], re.DOTALL)
     assert len(equations) > 200

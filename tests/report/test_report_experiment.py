@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from lyapcheck.answers.derive import derivation
 from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.table import build_table
 from lyapcheck.control.gains import read_gain_file
@@ -61,6 +62,7 @@ def files(found: StudyRow) -> dict[str, str | bytes]:
         notes=NOTES,
         own=False,
         table=build_table((1,)),
+        derived=derivation(1),
         gate=GateAnswer(()),
         sensitivity=found,
         figures=draw_sensitivity(found),

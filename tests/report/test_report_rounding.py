@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from lyapcheck.answers.derive import derivation
 from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
 from lyapcheck.answers.table import build_table
@@ -46,6 +47,7 @@ def test_the_map_of_a_report_shows_an_eps0_as_it_is_proved() -> None:
     empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
     empty |= {"sensitivity": None, "figures": {}}
     about = {"robot": load("buap3"), "table": build_table((1,)), "gate": GateAnswer(()), "map": cells}
+    about |= {"derived": derivation(1)}
     page = render(Report(notes=published_notes(), own=True, ms=(1,), **about, **empty), ("html",))  # type: ignore[arg-type]
     shown = str(page["index.html"]).split('class="map"')[1]
     assert re.findall(r"<b>(0\.\d+)</b>", shown) == list(PROVED.values())

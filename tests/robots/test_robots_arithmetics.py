@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 
 import casadi as ca
 import numpy as np
@@ -54,16 +53,6 @@ def test_numpy_batches_any_leading_axes(arm: RobotModel) -> None:
     assert fast.mass(q[:0]).shape == (0, n, n)
 
 
-def test_numpy_blocks_do_not_show(arm: RobotModel) -> None:
-    """More states than one block holds give what they give one by one."""
-    q, x = states(arm.n, 5000)
-    fast = NumericModel(arm)
-    for index in (0, 4095, 4096, 4999):
-        np.testing.assert_allclose(
-            fast.coriolis(q, x)[index], fast.coriolis(q[index], x[index]), rtol=1e-13, atol=1e-14
-        )
-
-
 def test_casadi_agrees_with_numpy(arm: RobotModel) -> None:
     q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
     outputs = [graph.mass(arm, q), graph.coriolis(arm, q, x), graph.gravity(arm, q), graph.potential(arm, q)]
@@ -94,35 +83,12 @@ def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm: RobotM
         np.testing.assert_allclose(np.array(function(state, speed)), 0, atol=1e-12)
 
 
-def test_sympy_agrees_with_numpy(arm: RobotModel) -> None:
-    q, x = sp.symbols(f"q1:{arm.n + 1}"), sp.symbols(f"x1:{arm.n + 1}")
-    expressions = [symbolic.mass(arm, q), symbolic.coriolis(arm, q, x), symbolic.gravity(arm, q)]
-    function, fast = sp.lambdify([q, x], expressions, "numpy"), NumericModel(arm)
-    for state, rate in zip(*states(arm.n, 10), strict=True):
-        mass, coriolis, gravity = function(state, rate)
-        np.testing.assert_allclose(mass, fast.mass(state), rtol=1e-12, atol=1e-14)
-        np.testing.assert_allclose(coriolis, fast.coriolis(state, rate), rtol=1e-12, atol=1e-13)
-        np.testing.assert_allclose(gravity[:, 0], fast.gravity(state), rtol=1e-12, atol=1e-13)
-
-
-def test_sympy_coefficients_are_exact() -> None:
-    q1, q2 = sp.symbols("q1 q2")
-    mass = symbolic.mass(robots.load("reyes-kelly2"), [q1, q2])
-    assert mass[0, 0] == sp.Rational(2351, 1000) + sp.Rational(168, 1000) * sp.cos(q2)
-    assert not mass.atoms(sp.Float)
-
-
 def test_sympy_and_casadi_take_parameters() -> None:
     arm, base = robots.load("buap3"), sp.Symbol("J")
     assert base in symbolic.mass(arm, sp.symbols("q1:4"), {"base_inertia": base})[0, 0].free_symbols
     symbol = ca.SX.sym("J")
     function = ca.Function("m11", [symbol], [graph.mass(arm, ca.SX.zeros(3), {"base_inertia": symbol})[0, 0]])
     assert float(function(1.25)) == pytest.approx(1.25, rel=1e-14)
-
-
-def test_numpy_takes_exact_parameters() -> None:
-    model = NumericModel(robots.load("buap3"), {"base_inertia": Fraction(5, 4)})
-    assert model.mass(np.zeros(3))[0, 0] == pytest.approx(1.25, rel=1e-14)
 
 
 def test_viscous_friction_is_the_same_everywhere(arm: RobotModel) -> None:

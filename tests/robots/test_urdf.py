@@ -128,50 +128,6 @@ def compare(arm: robots.RobotModel, other: Arm) -> None:
             assert np.max(np.abs(mine - theirs)) <= 1e-12 * max(1.0, np.max(np.abs(theirs)))
 
 
-@pytest.mark.slow
-def test_energy_is_kept_without_friction() -> None:
-    """d/dt (½ wᵀMw + U) = wᵀ(τ − Bw) = 0: the slope of the energy along a step vanishes to second order."""
-    arm = robots.load(ARMS / "panda.urdf", "panda_hand")
-    model, rng = NumericModel(arm), np.random.default_rng(3)
-
-    def energy(q: np.ndarray, w: np.ndarray) -> float:
-        return float(0.5 * w @ model.mass(q) @ w + model.potential(q))
-
-    for _ in range(5):
-        q, w = rng.uniform(-3, 3, 7), rng.uniform(-1, 1, 7)
-        a = np.linalg.solve(model.mass(q), -(model.coriolis(q, w) @ w) - model.gravity(q))
-        step = 1e-6
-        slope = (energy(q + step * w, w + step * a) - energy(q - step * w, w - step * a)) / (2 * step)
-        assert abs(slope) < 1e-6 * max(1.0, abs(energy(q, w)))
-
-
-def test_seven_joints_keep_the_skew_symmetry_exactly() -> None:
-    """Ṁ = C + Cᵀ as an identity of polynomials with rational coefficients."""
-    arm = robots.load(ARMS / "panda.urdf", "panda_hand")
-    from lyapcheck.robots import trig
-
-    for i in range(7):
-        for j in range(i + 1):
-            for k in range(7):
-                slope = trig.derivative(arm.mass[i][j], k)
-                assert slope == arm.christoffel[i][j][k] + arm.christoffel[j][i][k]
-
-
-@pytest.mark.slow
-def test_pivots_from_the_tip_are_never_below_the_link_alone() -> None:
-    """D_k = det of the trailing block over the next smaller one."""
-    for file, tip in (("ur5", None), ("panda", "panda_hand")):
-        arm = robots.load(ARMS / f"{file}.urdf", tip)
-        rng = np.random.default_rng(5)
-        for mass in NumericModel(arm).mass(rng.uniform(-3, 3, (20, arm.n))):
-            blocks = [np.linalg.det(mass[k:, k:]) for k in range(arm.n)] + [1.0]
-            pivots = [blocks[k] / blocks[k + 1] for k in range(arm.n)]
-            assert all(
-                p >= float(least) * (1 - 1e-9) > 0
-                for p, least in zip(pivots, arm.chain_bounds.pivots, strict=True)
-            )
-
-
 # The chain -------------------------------------------------------------------------------------------------
 
 BRANCH = """\

@@ -64,22 +64,16 @@ BROKEN = [
     (MASS, "<mass/>", "link lower: mass: value: is missing"),
     (MASS, '<mass value="-1.5"/>', "link lower: mass = -1.5: must not be negative"),
     (MASS, '<mass value="nan"/>', "link lower: mass: value = nan: must be a finite decimal number"),
-    (MASS, '<mass value="inf"/>', "value = inf: must be a finite decimal number"),
     (MASS, '<mass value="1e400"/>', "value = 1e400: must be at most 1000000000000 in size"),
     (MASS, '<mass value="1e9999999"/>', "value = 1e9999999: must be a finite decimal number"),
-    (MASS, '<mass value="0x10"/>', "value = 0x10: must be a finite decimal number"),
     (MASS, '<mass value="1,5"/>', "value = 1,5: must be a finite decimal number"),
-    (MASS, '<mass value="1_5"/>', "value = 1_5: must be a finite decimal number"),
     (MASS, '<mass value="٣"/>', "value = ٣: must be a finite decimal number"),
-    (MASS, '<mass value="1/2"/>', "value = 1/2: must be a finite decimal number"),
     (MASS, '<mass value="${m}"/>', "value = ${m}: must be a finite decimal number; run xacro"),
-    (MASS, '<mass value="__import__(1)"/>', "must be a finite decimal number"),
     (MASS, f'<mass value="{"1" * 61}"/>', "must be a finite decimal number"),
     (INERTIA, "", "inertia: is missing"),
     (INERTIA, INERTIA * 2, "inertia: is given more than once"),
     (INERTIA, INERTIA.replace(' izz="0.02"', ""), "inertia: izz: is missing"),
     (INERTIA, INERTIA.replace('ixx="0.01"', 'ixx="-0.01"'), "inertia: must be positive semidefinite"),
-    (INERTIA, INERTIA.replace('ixy="0"', 'ixy="1"'), "inertia: must be positive semidefinite"),
     (
         '<origin xyz="0.2 0 0"/>',
         '<origin xyz="0.2 0"/>',
@@ -106,7 +100,6 @@ BROKEN = [
         '<joint name="elbow" type="floating">',
         "joint elbow: is floating, and the paper assumes revolute",
     ),
-    (ELBOW, '<joint name="elbow" type="planar">', "joint elbow: is planar, and the paper assumes revolute"),
     (ELBOW, '<joint name="shoulder" type="continuous">', "joint name = shoulder: is used by another joint"),
     (
         ELBOW,
@@ -212,7 +205,7 @@ def test_more_joints_than_are_understood(tmp_path: Path) -> None:
     assert "has a chain of 13 joints, more than 12" in printed(tmp_path, f"<robot>{links}{joints}</robot>")
 
 
-# Fuzzing, here guided by Hypothesis; tests/fuzz_readers runs many more -----
+# Fuzzing, guided by Hypothesis -----
 
 SEEDS = {
     "arm.urdf": [TWO, (ARMS / "panda.urdf").read_text()[:3000] + "</robot>"],
@@ -221,6 +214,18 @@ SEEDS = {
 WORDS = sorted(
     {word for texts in SEEDS.values() for text in texts for word in text.replace('"', ' " ').split()}
     | {"nan", "-1", "1e99", "&lt;", "<!DOCTYPE a>", "<![CDATA[", "\x00", "é", "]]", "{}", "''''", "<!--"}
+    | {
+        "9" * 400,
+        "1e99999999",
+        "1e" + "9" * 50,
+        "٣",
+        "[" * 200,
+        "{ a = " * 60,
+        "<a>" * 60,
+        "${pi}",
+        "c1 " * 30,
+    }
+    | {'<!ENTITY a "&b;&b;">', "&a;", "</robot>", "/dev/zero", "../../etc/passwd", "1979-05-27", "s12^9"}
 )
 
 

@@ -4,30 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from math import comb, sqrt
+from math import sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
-from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.constant import SupremumTask
-from lyapcheck.constants.coriolis import coriolis_task
-from lyapcheck.constants.gravity import gravity_task
-from lyapcheck.constants.inertia import lambda_max_task, lambda_min_task
-from lyapcheck.constants.maximise import maximise
-from lyapcheck.constants.quartic import quartic
 from lyapcheck.constants.storage import storage_proof
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.committed import ROOT
 from tests.helpers.robot_cases import BUILT_IN
 from tests.helpers.shares import but, one_in
-from tests.helpers.urdf_texts import ARMS
 
 F = Fraction
 Array = NDArray[np.float64]
@@ -163,101 +153,6 @@ def test_an_indefinite_inertia_is_not_called_positive() -> None:
 
 
 # Bounds on single boxes -----
-
-
-def arm_of(name: str) -> RobotModel:
-    return load(ARMS / "ur5.urdf" if name == "ur5" else name)
-
-
-TASKS = {
-    "lambda_min": lambda_min_task,
-    "lambda_max": lambda_max_task,
-    "k_c": coriolis_task,
-    "k_g": lambda arm: gravity_task(arm, "k_g", range(arm.n)),
-}
-
-
-@pytest.mark.parametrize("size", one_in(3, [1e-3, 0.1, 0.5, 2.0]))
-@pytest.mark.parametrize("constant", TASKS)
-@pytest.mark.parametrize("name", one_in(3, ["buap3", "pelican2", "ur5"]))
-def test_no_state_of_a_box_exceeds_its_bound(name: str, constant: str, size: float) -> None:
-    """Boxes around the state of the largest value would pass even without their linear part; these do not."""
-    task: SupremumTask = TASKS[constant](ArmHarmonics(arm_of(name)))
-    rng = np.random.default_rng(5)
-    middle, half = rng.uniform(-3, 3, (8, task.torus.n)), rng.uniform(0.2, 1, (8, task.torus.n)) * size
-    low, high = task.bounds(middle, half)
-    assert np.all(low <= high)
-    corners = rng.choice([-1.0, 1.0], (100, 1, task.torus.n))
-    inside = rng.uniform(-1, 1, (100, 1, task.torus.n))
-    for t in (corners, inside):
-        values = task.at((middle + half * t).reshape(-1, task.torus.n)).reshape(100, 8)
-        assert np.all(values <= high)
-
-
-@pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5"])
-def test_bounds_close_up_on_single_states(name: str) -> None:
-    """Without a width nothing but rounding and the bound of k_c at one state remains."""
-    arm = ArmHarmonics(arm_of(name))
-    middle = np.random.default_rng(6).uniform(-3, 3, (8, arm.n))
-    for constant, make in TASKS.items():
-        low, high = make(arm).bounds(middle, np.zeros_like(middle))
-        assert np.allclose(low, high, rtol=3e-3 if constant == "k_c" else 1e-6, atol=1e-9)
-
-
-@pytest.mark.parametrize("n", [1, 2, 3, 4, 6])
-def test_relations_vanish_on_every_vector(n: int) -> None:
-    """xxᵀ satisfies each of them, and there are as many as products of pairs exceed quartic monomials."""
-    forms = quartic(n)
-    x = np.random.default_rng(n).normal(size=(50, n))
-    pairs = forms.stack(x[:, :, None] * x[:, None, :])
-    size = np.sum(x**2, axis=1)
-    assert np.allclose(np.linalg.norm(pairs, axis=1), size)
-    assert np.all(
-        np.abs(np.einsum("si,rij,sj->sr", pairs, forms.relations, pairs)) <= 1e-13 * size[:, None] ** 2
-    )
-    count = comb(n + 1, 2)
-    assert len(forms.relations) == comb(count + 1, 2) - comb(n + 3, 4)
-
-
-@given(st.integers(0, 10**6), st.integers(1, 5))
-def test_any_relation_bounds_the_quartic_form(seed: int, n: int) -> None:
-    rng = np.random.default_rng(seed)
-    tensor = rng.normal(size=(1, n, n, n))
-    tensor = tensor + np.swapaxes(tensor, -1, -2)
-    forms = quartic(n)
-    stack = forms.stack(tensor)
-    square = np.swapaxes(stack, -1, -2) @ stack
-    x = rng.normal(size=(500, n))
-    x /= np.linalg.norm(x, axis=1)[:, None]
-    result = np.sum(np.einsum("ijk,sj,sk->si", tensor[0], x, x) ** 2, axis=1).max()
-    # a target that is wrong costs sharpness alone
-    for target in (result, 0.0, 3 * result):
-        relation = forms.relation(square, np.array([target]))
-        top = np.linalg.eigvalsh(square + relation)[0, -1]
-        assert result <= top * (1 + 1e-9)
-        assert top <= np.linalg.eigvalsh(square)[0, -1] * (1 + 1e-9)
-
-
-def test_relations_leave_no_gap_in_closed_form() -> None:
-    """‖(2x₁x₂, x₁²)‖² = 4u(1 − u) + u² with u = x₁² is at most 4/3; without relations the bound is 2."""
-    tensor = np.array([[[[0.0, 1.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 0.0]]]])
-    forms = quartic(2)
-    stack = forms.stack(tensor)
-    square = np.swapaxes(stack, -1, -2) @ stack
-    assert np.linalg.eigvalsh(square)[0, -1] == pytest.approx(2)
-    relation = forms.relation(square, np.array([4 / 3]))
-    assert np.linalg.eigvalsh(square + relation)[0, -1] == pytest.approx(4 / 3, rel=1e-6)
-
-
-def test_an_undefined_bound_is_no_bound() -> None:
-    """−x² is at most 0; a box where the bound is not a number keeps that of the whole."""
-
-    def bounds(middle: Array, half: Array) -> tuple[Array, Array]:
-        high = np.where(half[:, 0] < 1, np.nan, 7.0)
-        return -(middle[:, 0] ** 2), high
-
-    result = maximise(np.ones(1), bounds, lambda m, half: half, (np.zeros(1), 0.0), 50, 1e-3)
-    assert (result.inside, result.outside) == (0.0, 7.0)
 
 
 @pytest.mark.slow

@@ -1,29 +1,26 @@
 """One statement: what lyapcheck says of it, against what is known of it."""
 
-from __future__ import annotations
-
 import json
 import signal
 import traceback
 import warnings
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from lyapcheck.certificate import to_json
+from lyapcheck.claims.procedures import propose
+from tests import oracle
 from tests.statement_fuzz.generators import FALSE, NEITHER, TRUE, UNPROVABLE, Made
-from tests.statement_fuzz.oracle.kinds import confirms, objection
-from tests.statement_fuzz.subject import decide, to_json
+from tests.statement_fuzz.generators.altered import Altered
 
-SECONDS = 30
-"""The processor time that a decision may take; a limit of the fuzzer, not a promise of lyapcheck."""
-
+SECONDS, PATIENCE = 30, 2
+"""The processor time that a decision may take, and what was altered: limits of the fuzzer."""
 PROVED, REFUTED, UNDECIDED, NONE = "proved", "refuted", "undecided", "no verdict"
-DISAGREEMENT = "undecided: the checker refuses what the search found"
 FALSE_REFUSED = "undecided, and not true"
+DISAGREEMENT = "undecided: the checker refuses what the search found"
 VERDICTS = (PROVED, REFUTED, UNDECIDED, FALSE_REFUSED, DISAGREEMENT, NONE)
 
 
@@ -41,44 +38,46 @@ class Judged:
     method: str = ""
 
     @property
-    def signature(self) -> tuple[str, str, str]:
-        """What faults of the same sort have in common."""
-        what = self.fault.partition(" at ")[0].partition("; witness")[0].partition(": {")[0]
-        return self.kind, self.verdict, what if self.verdict != NONE else self.fault.rpartition("(")[2]
-
-    @property
-    def kind(self) -> str:
+    def kind(self):
         """The kind of statement."""
         return type(self.made.statement).__name__
 
-    def text(self) -> str:
+    def text(self):
         """The fault with the statement, in a few lines."""
-        data = json.dumps(to_json(self.made.statement), ensure_ascii=False)
+        data = json.dumps(to_json(_meant(self.made)), ensure_ascii=False)
         return f"{self.kind}, {self.made.family}: {self.verdict} ({self.method}), but {self.fault}\n  {data}"
 
 
-def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judged:
+def _meant(made):
+    return made.statement.statement if isinstance(made.statement, Altered) else made.statement
+
+
+def decide(statement):
+    """The verdict that the search proposes and the rules of the checker accept."""
+    return statement.decide() if isinstance(statement, Altered) else propose(statement)
+
+
+def judge(made, seed=0, by=decide):
     """The verdict on a statement, judged.
 
     A statement that is ``proved`` must not be false or undefined anywhere; one that is ``refuted`` must not
     be true, and the oracle must confirm the point; an exception, or no decision in time, is a fault as well.
     """
-    patience = getattr(made.statement, "patience", SECONDS)
-    try:
-        with limit(patience), np.errstate(all="ignore"), warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            decision = by(made.statement)
-    except TooSlow:
-        if patience < SECONDS:
-            return Judged(made, UNDECIDED)
-        return Judged(made, NONE, f"no decision within {SECONDS} s")
-    except Exception as error:
-        return Judged(made, NONE, _place(error))
-    verdict = str(decision.verdict.value)
-    if verdict == UNDECIDED and "report this as a fault" in decision.reason:
-        return Judged(made, DISAGREEMENT, "", str(decision.method))
-    with warnings.catch_warnings():
+    changed = isinstance(made.statement, Altered) or made.family.startswith("planted")
+    patience = PATIENCE if changed else SECONDS
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
+        try:
+            with limit(patience):
+                decision = by(made.statement)
+        except TooSlow:
+            slow = "" if patience < SECONDS else f"no decision within {SECONDS} s"
+            return Judged(made, NONE if slow else UNDECIDED, slow)
+        except Exception as error:
+            return Judged(made, NONE, _place(error))
+        verdict = decision.verdict.value
+        if verdict == UNDECIDED and "report this as a fault" in decision.reason:
+            return Judged(made, DISAGREEMENT, "", str(decision.method))
         try:
             with limit(patience):
                 fault = _fault(made, verdict, decision, seed)
@@ -91,35 +90,32 @@ def judge(made: Made, seed: int = 0, by: Callable[[Any], Any] = decide) -> Judge
     return Judged(made, verdict, fault, str(decision.method))
 
 
-def _place(error: Exception) -> str:
+def _place(error):
     """An exception, and the last function of this project that it came through."""
-    frames = [
-        frame for frame in traceback.extract_tb(error.__traceback__) if "site-packages" not in frame.filename
-    ]
+    frames = [one for one in traceback.extract_tb(error.__traceback__) if "site-packages" not in one.filename]
     place = f"{Path(frames[-1].filename).stem}.{frames[-1].name}" if frames else ""
     return f"{type(error).__name__}: {str(error)[:120]} ({place})"
 
 
-def _fault(made: Made, verdict: str, decision: Any, seed: int) -> str:
+def _fault(made, verdict, decision, seed):
     if verdict in (PROVED, UNDECIDED):
-        result = objection(made.statement, seed)
-        if result is not None:
-            return str(result)
-        if made.truth in (FALSE, NEITHER, UNPROVABLE):
-            return f"{made.truth} by construction"
-    if verdict == REFUTED:
-        if made.truth in (TRUE, NEITHER):
-            return f"{made.truth} by construction; witness {decision.witness}"
-        if confirms(made.statement, decision.witness or {}) is False:
-            return f"the witness is none: {decision.witness}"
+        found = oracle.objection(_meant(made), seed)
+        if found is not None:
+            return str(found)
+        return f"{made.truth} by construction" if made.truth in (FALSE, NEITHER, UNPROVABLE) else ""
+    point = (decision.witness or {}).get("point")
+    if made.truth in (TRUE, NEITHER):
+        return f"{made.truth} by construction; witness {point}"
+    if point and oracle.confirms(_meant(made), point) is False:
+        return f"the witness is none: {point}"
     return ""
 
 
 @contextmanager
-def limit(seconds: float) -> Iterator[None]:
+def limit(seconds):
     """Raise :class:`TooSlow` in what takes more processor time, however busy the machine is."""
 
-    def stop(*_: object) -> None:
+    def stop(*_):
         raise TooSlow
 
     before = signal.signal(signal.SIGVTALRM, stop)

@@ -1,14 +1,18 @@
 """Statements that are false or undefined somewhere and were once proved, with the proof that did it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.check.kinds.agrees import OutsideRounding, PrintedInputs
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
+from lyapcheck.check.kinds.for_small import LeadingTerm
+from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.kinds.norm_bound import Supremum
+from lyapcheck.check.kinds.signs import SignIdentity
+from lyapcheck.check.statement import Proof, Witness
 from lyapcheck.claims import (
-    Constant,
     ForSmall,
-    Relation,
     Statement,
     agrees,
     always_positive,
@@ -34,21 +38,6 @@ from lyapcheck.claims import (
     var,
     zero_vector,
 )
-from tests.statement_fuzz.subject import (
-    Boxes,
-    ExactNumbers,
-    LeadingTerm,
-    NormalForm,
-    OutsideRounding,
-    Pieces,
-    PrintedInputs,
-    Proof,
-    SeparateBalls,
-    SignIdentity,
-    Sturm,
-    Supremum,
-    Witness,
-)
 
 
 @dataclass(frozen=True)
@@ -62,7 +51,7 @@ class KnownFault:
     verdict: str = "proved"
 
 
-def near_zero(*cuts: int) -> Pieces:
+def near_zero(*cuts):
     """Taylor boxes from 0 on."""
     return Pieces((Boxes(tuple(map(Fraction, cuts)), True, False, 160),))
 
@@ -73,7 +62,7 @@ t = var("t")
 LEADING = LeadingTerm(SignIdentity((), ()))
 
 
-def small(claim: Relation, *bounded: str) -> ForSmall:
+def small(claim, *bounded):
     """A claim for small eps."""
     return ForSmall("eps", (), (), claim, bounded)
 
@@ -82,7 +71,7 @@ hidden = sqrt(2) ** 2 - 2
 deeper = sqrt(2) * sqrt(3) - sqrt(6)
 nowhere = sqrt(-3)
 
-FAULTS: tuple[KnownFault, ...] = (
+FAULTS = (
     # 0/0 behind a square root
     KnownFault("0/0 is at most -1", Constant(hidden / hidden <= -1), ExactNumbers()),
     KnownFault("0/0 is at least 10^9", Constant(expr(10**9) <= hidden / hidden), ExactNumbers()),
@@ -125,11 +114,7 @@ FAULTS: tuple[KnownFault, ...] = (
     # vectors and matrices
     KnownFault(
         "a word twice",
-        every_n(
-            (a + M @ a).dot(a + M @ a),
-            a.dot(a) + a.dot(M @ a) + a.dot(M @ (M @ a)),
-            symmetric=[M],
-        ),
+        every_n((a + M @ a).dot(a + M @ a), a.dot(a) + a.dot(M @ a) + a.dot(M @ (M @ a)), symmetric=[M]),
         NormalForm(),
     ),
     KnownFault("aa/aa", every_n(a.dot(a) / a.dot(a), 1), NormalForm()),
@@ -197,7 +182,7 @@ FAULTS: tuple[KnownFault, ...] = (
 )
 """Each with the proof that was accepted; more are welcome, none goes."""
 
-RAISING: dict[str, Statement] = {
+RAISING = {
     "the root of a negative number": Constant(sqrt(-1) <= 1),
     "0 times the root of a negative number": Constant(0 * sqrt(-1) <= -2),
     "a number over 0": implies(positive("y"), (), expr(1) / 0 <= y),

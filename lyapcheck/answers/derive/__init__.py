@@ -57,12 +57,19 @@ class Derivation(Answer):
     def blocks(self) -> Iterator[Block]:
         """The comparison, then the formulas."""
         yield self.table()
+        yield from self.formulas()
+
+    def formulas(self) -> Iterator[Section]:
+        """The formulas under their headings."""
         for title, formulas in self.parts:
             yield Section(title, tuple(block for one in formulas for block in one.blocks()))
 
     def section(self) -> Section:
         """The same for a report."""
-        return Section("What SymPy derives, and the checker proves", tuple(self.blocks()))
+        return Section(
+            "What SymPy derives, and what the checker says of it",
+            (self.table(), Paragraph(NOTES[0]), *self.formulas()),
+        )
 
     def table(self) -> Table:
         """A row a derivation."""
@@ -80,8 +87,8 @@ class Derivation(Answer):
         return {**asked, "agree": self.agreed, "formulas": formulas, "results": rows}
 
     def _judged(self, row: Agreement) -> str:
-        claim = f", claim {row.claim}" if row.claim else ""
-        return f"{row.verdict} [{row.grade}]{claim}"
+        beside = f", claim {row.claim}" if row.claim else f", {row.certified}" if row.certified else ""
+        return f"{row.verdict} [{row.grade}]{beside}"
 
 
 NEXT = "next: lyapcheck check published.py --only 8,12,14,15 --certificates DIR"

@@ -7,27 +7,33 @@ from typing import Any
 import sympy as sp
 
 from lyapcheck.answers.derive.formulas import Formula
+from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.derive.arm import WrittenArm
 from lyapcheck.derive.family import Member
 from lyapcheck.derive.lyapunov import DEGREES, EPS0, matrices, terms_15, value_12, value_13
+from lyapcheck.output.digits import correct_digits
 from lyapcheck.robots import RobotModel
 
+SHOWN = 10
 Part = tuple[str, tuple[Formula, ...]]
 
 
 def family(member: Member) -> Part:
     """U, h, h' and the polynomials of γ and ρ."""
     m = member.m
-    gamma = (
-        "0 at the place of γ, u = sinh²x:" if m > 1 else "No zero at u = sinh²x > 0: h rises to its limit."
-    )
-    rho = "0 where h′ is least or largest:" if m > 1 else "No zero at u > 0: h′ falls from h′(0)."
+    known = hyperbolic_constants(m)
+    gamma, rho = (f"{correct_digits(one, SHOWN)} (certified)" for one in (known.gamma, known.rho))
+    rising = f"0 at the place of γ = {gamma}, u = sinh²x:"
+    steepest = f"0 where h′ is least or largest, ρ = {rho}:"
+    if m == 1:
+        rising = f"No zero at u = sinh²x > 0: h rises to its limit γ = {gamma}."
+        steepest = f"No zero at u > 0: h′ falls from h′(0) = ρ = {rho}."
     rows = (
         Formula("U", "All comes from the potential:", f"U_{m}(x)", f"U_{{{m}}}(x)", member.potential),
         Formula("6", "h = U′:", f"h_{m}(x)", f"h_{{{m}}}(x)", member.h),
         Formula("8", "Its derivative:", f"h_{m}′(x)", f"h_{{{m}}}'(x)", member.dh),
-        Formula("gamma", gamma, "g(u)", "g(u)", member.gamma_polynomial.as_expr()),
-        Formula("rho", rho, "p(u)", "p(u)", member.rho_polynomial.as_expr()),
+        Formula("gamma", rising, "g(u)", "g(u)", member.gamma_polynomial.as_expr()),
+        Formula("rho", steepest, "p(u)", "p(u)", member.rho_polynomial.as_expr()),
     )
     return f"The family, m = {m}", rows
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 from flint import arb
 
+from lyapcheck.answers.derive.parts import SHOWN
 from lyapcheck.answers.derive.statements import equal_values, of_family, rate_of_value, tree
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.norm_bound import NormBound
@@ -27,7 +28,6 @@ from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.robots import RobotModel
 
 DIGITS, BITS = 30, 160
-SHOWN = 10
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,7 @@ class Agreement:
         statement: what the checker judged now.
         verdict: its verdict; ``undecided`` where it has no proof.
         grade: of that verdict.
+        certified: the number that the checker encloses, as far as its digits are certain; empty where none.
     """
 
     what: str
@@ -51,6 +52,7 @@ class Agreement:
     statement: str
     verdict: str
     grade: str
+    certified: str = ""
 
     @property
     def agree(self) -> bool:
@@ -112,7 +114,8 @@ def largest(member: Member, name: str, function: str, form: Any, polynomial: Any
     words = f"{len(roots)} positive root{'s' * (len(roots) != 1)}, {letter} = {_digits(reached)}"
     _, upper = decimals(known, DIGITS)
     stated = NormBound((function, member.m, ("var", "x")), 1, ("num", str(Fraction(upper))))
-    return agreement(f"{letter}_{member.m}", words, bool(inside), "", stated)
+    row = agreement(f"{letter}_{member.m}", words, bool(inside), "", stated)
+    return replace(row, certified=f"{letter} = {correct_digits(known, SHOWN)}")
 
 
 def _place(ends: tuple[Fraction, Fraction]) -> arb:

@@ -33,7 +33,7 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     known = {
         ("certified", "proved"): result.proof,
         ("scalar", "scalar"): result.scalar_proof,
-        ("weighted", "weighted"): None if weighted is None else weighted.proof,
+        ("weighted", "weighted"): weighted.proof if weighted and weighted.proof.loop.coupling else None,
     }
     for (file, kind), proof in known.items():
         if proof is not None:

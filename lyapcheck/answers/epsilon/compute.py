@@ -39,7 +39,7 @@ from lyapcheck.search.falsify import STARTS, RisingState, falsify
 from lyapcheck.search.norms import norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import DecreaseProof
-from lyapcheck.search.weights import weighted_epsilon
+from lyapcheck.search.weights import Effort, usual_effort, weighted_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -56,7 +56,7 @@ def epsilon(
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,
     ranges: bool = False,
-    weights: bool = False,
+    weights: bool | None = None,
     seconds: float | None = None,
     starts: int = STARTS,
     seed: int = SEED,
@@ -71,7 +71,7 @@ def epsilon(
         jobs: processes for the checker of its boxes.
         ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
         seconds: computing time for branch and bound; without it numbers are the same anywhere.
-        weights: look for weights Λ as well, joint by joint.
+        weights: look for weights Λ as well, joint by joint: with all boxes, with a few if ``None``, or not.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
         on_progress: receives the fraction done and a few words.
@@ -97,7 +97,8 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     proof: DecreaseProof | None = None
     scalar_proof: DecreaseProof | None = None
     reasons["certified"] = unphysical(controlled)
-    main = 0.9 if options.weights else 1.0
+    sought = options.weights is not False and model.n > 1
+    main = 0.9 if sought else 1.0
     search = _Search(
         controlled,
         10 * (scalar.eps0 or Fraction(1)),
@@ -110,12 +111,15 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     if not reasons["certified"]:
         proof, by, reasons["certified"] = _best(controlled, result)
         scalar_proof = proof_of(controlled, scalar.eps0)
-    certified = None if proof is None else proof.loop.eps0
     weighted = None
-    if options.weights and certified is not None and controlled.family.bounded:
-        budget = options.max_boxes, options.jobs
-        weighted = weighted_epsilon(controlled, certified, *budget, on_progress=part(progress, main, 1))
-        reasons["weighted"] = "" if weighted else "no weights were proved; allow more boxes"
+    if sought and proof is not None:
+        effort = (
+            Effort(boxes=options.max_boxes) if options.weights else usual_effort(model.n, options.max_boxes)
+        )
+        progress = part(progress, main, 1)
+        weighted = weighted_epsilon(controlled, proof, effort, options.jobs, on_progress=progress)
+        more = "" if options.weights else "; epsilon --weights looks at more"
+        reasons["weighted"] = f"{weighted.reason}{more}" if weighted.reason else ""
     return put_together(
         controlled,
         at,

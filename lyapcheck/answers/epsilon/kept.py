@@ -6,7 +6,7 @@ Words and counts of the search are taken as they were. Nothing is kept of a line
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
@@ -69,7 +69,7 @@ def _written(result: EpsilonResult) -> KeptCertificates | None:
         return None
     beside = {name: getattr(result, name) for name in BESIDE} | {"reasons": dict(result.reasons)}
     beside |= {"kind": witness and witness.kind}
-    beside |= {"weighted": weighted and [weighted.states, weighted.looked_at]}
+    beside |= {"weighted": weighted and [weighted.states, weighted.looked_at, weighted.reason]}
     return KeptCertificates(made, beside)
 
 
@@ -80,7 +80,7 @@ def _rebuilt(
     made, beside = dict(kept.certificates), kept.beside
     at, witness = _witness(made.pop("falsified", None), controlled, beside["kind"])
     proofs = {kind: _proof(one, controlled) for kind, one in made.items()}
-    scalar_proof, weighted = proofs.get("scalar"), proofs.get("weighted")
+    scalar_proof = proofs.get("scalar")
     published, scalar, reasons = by_forms(controlled)
     if scalar_proof is not None and scalar_proof.loop.eps0 != scalar.eps0:
         return None
@@ -92,11 +92,19 @@ def _rebuilt(
         scalar=scalar.eps0,
         proof=proofs.get("certified"),
         scalar_proof=scalar_proof,
-        weighted=None if weighted is None else Weighted(weighted, *map(int, beside["weighted"])),
+        weighted=_weighted(proofs, beside["weighted"]),
         reasons={name: str(text) for name, text in (beside["reasons"] | reasons).items() if text},
         assumptions=assumptions,
         **{name: beside[name] for name in BESIDE},
     )
+
+
+def _weighted(proofs: dict[str, DecreaseProof], found: Any) -> Weighted | None:
+    """The proof with weights, or that of Λ = I where the search came to no other."""
+    if found is None:
+        return None
+    states, looked_at, reason = found
+    return Weighted(proofs.get("weighted") or proofs["certified"], int(states), int(looked_at), str(reason))
 
 
 def _proof(one: Certificate, controlled: ControlledArm) -> DecreaseProof:

@@ -16,7 +16,7 @@ class Options:
     max_boxes: int = MAX_BOXES
     jobs: int = 1
     ranges: bool = False
-    weights: bool = False
+    weights: bool | None = None
     seconds: float | None = None
     starts: int = STARTS
     seed: int = SEED

@@ -145,11 +145,12 @@ def reasons(result: FourEpsilons) -> list[str]:
 
 def _weighted_text(weighted: Weighted) -> str:
     """What a proof with weights shows, in one line."""
-    products = ", ".join(map(decimal_text, weighted.products))
-    return (
-        f"with weights, y = w − εΛh, dV/dt < 0 is proved for ε₀Λ = diag({products}) "
-        f"({boxes_text(weighted.proof.boxes)}, {weighted.states} worst states in the program)."
-    )
+    seen = f"{weighted.states} worst states in the program"
+    if not weighted.proof.loop.coupling:
+        return f"with weights, y = w − εΛh, Λ = I is the best that was shown ({seen})."
+    values = ", ".join(map(decimal_text, weighted.products))
+    boxes = boxes_text(weighted.proof.boxes)
+    return f"with weights, y = w − εΛh, dV/dt < 0 is proved for ε₀Λ = diag({values}) ({boxes}, {seen})."
 
 
 def witness_text(witness: RisingState) -> str:

@@ -9,7 +9,7 @@ Where no model shows a k_gi it is a premise, and is printed as one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -69,28 +69,19 @@ class GateQuestions:
         self._known: dict[tuple[str, int | None], bool] = {}
 
     @cached_property
-    def gravity(self) -> list[Gravity]:
-        """Bounds to try in turn: those of the limits, larger ones that are shown, and a premise."""
-        return list(self._gravity())
-
-    def _gravity(self) -> Iterator[Gravity]:
+    def gravity(self) -> Gravity | None:
+        """The bounds of the limits; ``None`` where what is shown of them answers another question."""
         arm, k_g = self.limits.model, tuple(self.limits.gravity)
-        premises: tuple[str, ...] = ()
-        shown = None if arm is None else shown_gravity(arm, k_g)
-        if arm is not None and shown is not None:
-            promise, self._why_not = promised(gravity_kept(arm, shown.k_g), shown.judged)
-            if promise is not None:
-                yield Gravity(shown.k_g, promise)
-            if shown.k_g == k_g:
-                return
-        if arm is not None:
-            kept = k_g if shown is None else shown.k_g
-            premises = tuple(
-                f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, by masses and distances; no certificate shows it"
-                for i, (k, own) in enumerate(zip(k_g, kept, strict=True), 1)
-                if shown is None or k != own
-            )
-        yield Gravity(k_g, None, premises)
+        if arm is None:
+            return Gravity(k_g)
+        shown = shown_gravity(arm, k_g)
+        if shown is not None:
+            promise, self._why_not = promised(gravity_kept(arm, k_g), shown.judged)
+            return None if promise is None else Gravity(k_g, promise)
+        premises = (
+            f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, which nothing shows" for i, k in enumerate(k_g, 1)
+        )
+        return Gravity(k_g, None, tuple(premises))
 
     def grounds(self, gains: GainSet, deciding: Sequence[str], checks: Sequence[Check]) -> Grounds:
         """The promises by which a set that passes its checks is accepted.
@@ -108,14 +99,14 @@ class GateQuestions:
             # another γ, or an h that the checker does not know: each check by itself
             own = [check for check in checks if check.id in numbers]
             return Grounds((*known, *(check.own_promise for check in own)))
-        needed = NEEDS_GRAVITY & set(numbers)
-        missing = ""
-        for gravity in self.gravity if needed else [Gravity(tuple(self.limits.gravity))]:
-            one, missing = self._gains(gains, gravity.k_g, numbers)
-            if one is not None:
-                promises = (one,) if gravity.promise is None else (gravity.promise, one)
-                return Grounds((*promises, *known), gravity.premises)
-        return Grounds(missing=missing or self._why_not)
+        gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else Gravity(tuple(self.limits.gravity))
+        if gravity is None:
+            return Grounds(missing=self._why_not)
+        one, missing = self._gains(gains, gravity.k_g, numbers)
+        if one is None:
+            return Grounds(missing=missing)
+        promises = (one,) if gravity.promise is None else (gravity.promise, one)
+        return Grounds((*promises, *known), gravity.premises)
 
     def _gains(
         self, gains: GainSet, k_g: tuple[Fraction, ...], numbers: tuple[str, ...]

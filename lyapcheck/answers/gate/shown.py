@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.otherwise import friction_of
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.compared import SameHarmonics
-from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
-from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.statement import Ends, Monomials, Proof
+from lyapcheck.control.gravity import levers
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
@@ -43,34 +43,47 @@ def numbers_of(limits: Limits, viscous_min: Fraction | None) -> Numbers:
 
 @dataclass(frozen=True)
 class ShownGravity:
-    """g and the potential of an arm, and for each joint k_gi, or a larger bound that is shown."""
+    """g and the potential of an arm, where they are written out, with what shows bounds of g."""
 
     gravity: tuple[Monomials, ...]
     potential: Monomials
-    k_g: tuple[Fraction, ...]
     proofs: tuple[Proof, ...]
     judged: JudgedStatement
 
 
 @lru_cache(maxsize=16)
 def shown_gravity(model: RobotModel, k_g: tuple[Fraction, ...]) -> ShownGravity | None:
-    """Bounds of gravity that the checker accepts; ``None`` where g is too long to be written out."""
+    """What shows these bounds of gravity; ``None`` where nothing does."""
+    known = levers(model) or ()
     try:
         gravity = tuple(tuple(to_terms(torque)) for torque in model.gravity)
         potential = tuple(to_terms(model.potential))
     except TooManyTerms:
-        return None
+        return _along_links(model.chain, k_g, known)
     ranges = tuple(number.bounds for number in model.parameters.values())
-    bounds: list[GravityBelow] = []
+    bounds = [GravityBelow(model.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
     proofs: list[Proof] = []
-    for entry, k in zip(gravity, k_g, strict=True):
-        own = GravityBelow(model.n, (entry,), ranges, k)
-        ways: list[Proof] = [HarmonicSizes(), *([Bisection()] if model.n <= FEW_JOINTS else [])]
-        proof = next((way for way in ways if proves(own, way)), None)
-        sizes = (size_of(part, ranges) for part in own.entries)
-        bounds.append(own if proof is not None else replace(own, high=max(k, *sizes)))
-        proofs.append(proof or HarmonicSizes())
+    for i, bound in enumerate(bounds):
+        ways = [HarmonicSizes(), *known[i : i + 1], *([Bisection()] if model.n <= FEW_JOINTS else [])]
+        proof = next((way for way in ways if proves(bound, way)), None)
+        if proof is None:
+            return None
+        proofs.append(proof)
     slope = GravityOfPotential(gravity, potential, ranges)
     parts = AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(bounds, 1))))
     judged = judged_statement(parts, [EveryPart((SameHarmonics(), *proofs))])
-    return ShownGravity(gravity, potential, tuple(one.high for one in bounds), tuple(proofs), judged)
+    return ShownGravity(gravity, potential, tuple(proofs), judged)
+
+
+def _along_links(
+    chain: Chain | None, k_g: tuple[Fraction, ...], known: tuple[Levers, ...]
+) -> ShownGravity | None:
+    """Of exact links whose g is too long to be written out."""
+    if chain is None:
+        return None
+    from lyapcheck.check.kinds.chain import ChainGravityBelow, OwnLevers
+
+    bounds = [ChainGravityBelow(chain.links, chain.fall, (i,), k) for i, k in enumerate(k_g, 1)]
+    parts = AllOf(tuple((f"g{i}", bound) for i, bound in enumerate(bounds, 1)))
+    judged = judged_statement(parts, [EveryPart(tuple(OwnLevers(one.along) for one in known))])
+    return ShownGravity((), (), (), judged) if judged.shown == "proved" else None

@@ -40,20 +40,17 @@ def verdict_statement(result: GateResult) -> JudgedStatement | None:
     statement = _statement(result)
     if statement is None or result.verdict not in (ACCEPTED, REJECTED):
         return None
+    known, proofs = _with_gravity(result, statement)
     if result.verdict == REJECTED:
-        known, _ = next(_with_gravity(result, statement))
         its = judged_statement(known, _refutations(result, known))
         return its if its.shown == "refuted" else None
-    for known, proofs in _with_gravity(result, statement):
-        stability = tuple(proof for _, proof in _stability(result))
-        its = judged_statement(known, (GateParts(proofs, digits, stability) for digits in DIGITS))
-        if its.shown != "proved" and stability and known.conditions:
-            # stability at nominal numbers is no part of a statement over ranges; its check has a certificate
-            alone = replace(known, stability=())
-            its = judged_statement(alone, (GateParts(proofs, digits, ()) for digits in DIGITS))
-        if its.shown == "proved":
-            return its
-    return None
+    stability = tuple(proof for _, proof in _stability(result))
+    its = judged_statement(known, (GateParts(proofs, digits, stability) for digits in DIGITS))
+    if its.shown != "proved" and stability and known.conditions:
+        # stability at nominal numbers is no part of a statement over ranges; its check has a certificate
+        alone = replace(known, stability=())
+        its = judged_statement(alone, (GateParts(proofs, digits, ()) for digits in DIGITS))
+    return its if its.shown == "proved" else None
 
 
 def _statement(result: GateResult) -> GateAccepted | None:
@@ -89,16 +86,13 @@ def _stability(result: GateResult) -> Iterator[tuple[Statement, Proof]]:
             yield known.statement, known.proof
 
 
-def _with_gravity(
-    result: GateResult, statement: GateAccepted
-) -> Iterator[tuple[GateAccepted, tuple[Proof, ...]]]:
-    """With the gravity of the model and k_g that it keeps; where none serves, with k_g as a premise."""
-    if result.limits.model is not None:
-        shown = shown_gravity(result.limits.model, statement.k_g)
-        if shown is not None:
-            known = replace(statement, gravity=shown.gravity, potential=shown.potential, k_g=shown.k_g)
-            yield known, shown.proofs
-    yield statement, ()
+def _with_gravity(result: GateResult, statement: GateAccepted) -> tuple[GateAccepted, tuple[Proof, ...]]:
+    """With the gravity of the model; where it does not serve, k_g is a premise."""
+    model = result.limits.model
+    shown = None if model is None else shown_gravity(model, statement.k_g)
+    if shown is None:
+        return statement, ()
+    return replace(statement, gravity=shown.gravity, potential=shown.potential), shown.proofs
 
 
 def _refutations(result: GateResult, statement: GateAccepted) -> Iterator[Proof]:

@@ -8,10 +8,11 @@ from math import degrees
 
 from lyapcheck.answers.gate.judge import GRAVITY, GateResult
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
 from lyapcheck.files.decimals import decimal_text, scaled_text
 from lyapcheck.output.digits import correct_digits, decimals
-from lyapcheck.promise import Promise
+from lyapcheck.promise import promised
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
@@ -46,8 +47,13 @@ def joint_name(result: GateResult, check: Check) -> str:
 
 
 def spoken_verdict(check: Check) -> str:
-    """The verdict on a check as it may be said."""
-    return check.own_promise.says(ACCEPTED) if check.verdict == ACCEPTED else check.verdict
+    """The verdict on a check as it may be said: undecided, where what was judged is about another value."""
+    if check.verdict != ACCEPTED:
+        return check.verdict
+    try:
+        return check.own_promise.says(ACCEPTED)
+    except Refused:
+        return UNDECIDED
 
 
 def about(result: GateResult) -> str:
@@ -104,6 +110,8 @@ def margin_text(check: Check, digits: int = 4) -> str:
 
 def significant_text(numerator: int, denominator: int, digits: int) -> str:
     """A decimal of a few significant digits that is not above the quotient."""
+    if not numerator:
+        return "0"
     size, places = abs(numerator), digits
     while places < 40 and size * 10**places < denominator * 10 ** (digits - 1):
         places += 1
@@ -171,6 +179,7 @@ def _repair(result: GateResult, check: Check) -> str:
 
 def _passes(check: Check, words: str) -> str:
     """Words about the largest value that passes, which the checker has judged; else none of them."""
-    if check.admitted is None:
+    if check.admitted is None or check.threshold is None or check.largest_admissible is None:
         return "lower it"
-    return Promise(check.admitted.statement, check.admitted).says(words)
+    promise, _ = promised(check.threshold.asked(check.largest_admissible), check.admitted)
+    return "lower it" if promise is None else promise.says(words)

@@ -65,7 +65,7 @@ def _six(value: float) -> float | None:
 
 
 def _rest(value: float) -> str:
-    return "anywhere" if math.isinf(value) else at_most(value, 3) if value > 0 else "—"
+    return "anywhere" if math.isinf(value) else at_most(value) if value > 0 else "—"
 
 
 EFFECT = (

@@ -108,7 +108,7 @@ def tune(
         [28.633, 63.112, 7.381]
         >>> stiff = tune("reyes-kelly2", [2], Targets.of(peak_share="0.8", kv_share="0.5"))
         >>> stiff.sets[0].gains.kp
-        (Fraction(10443, 200), Fraction(2773, 500))
+        (Fraction(53439, 1000), Fraction(6771, 1000))
         >>> print(stiff)  # doctest: +ELLIPSIS
         ✓ reyes-kelly2: the largest gains within (10p) and (19)
         ...

@@ -17,7 +17,7 @@ from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture, written_out
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.chain import Posture, RigidLink
-from lyapcheck.check.loop.links import no_torque
+from lyapcheck.check.loop.links import lever_bound, pulls
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.check.refusal import require
@@ -170,6 +170,14 @@ class NoTorque(Proof):
     rule = "no torque"
 
 
+@dataclass(frozen=True)
+class OwnLevers(Proof):
+    """Masses times distances from each axis; for ``along`` see `lyapcheck.check.loop.links.lever_bound`."""
+
+    rule = "own levers"
+    along: tuple[int, ...]
+
+
 @rule(ChainAbove, OwnMoments)
 def by_own_moments(statement: ChainAbove, proof: OwnMoments) -> Accepted:
     """Soundness: xᵀMx is a sum of energies, none negative; that of the first link that moves is positive."""
@@ -206,10 +214,19 @@ def by_power_of_gravity(statement: ChainGravityBelow, proof: StorageForms) -> Ac
     return Accepted("proved", "enclosure")
 
 
+@rule(ChainGravityBelow, OwnLevers)
+def by_own_levers(statement: ChainGravityBelow, proof: OwnLevers) -> Accepted:
+    """Soundness: see `lyapcheck.check.loop.links.lever_bound`, of each joint by itself."""
+    bounds = (lever_bound(statement.links, statement.fall, i - 1, proof.along) for i in statement.joints)
+    reached = sum((bound**2 for bound in bounds), Fraction(0))
+    require(reached <= statement.high**2, "squares", reached, f"are above {statement.high}²")
+    return Accepted("proved", "exact")
+
+
 @rule(ChainGravityBelow, NoTorque)
 def by_no_torque(statement: ChainGravityBelow, proof: NoTorque) -> Accepted:
-    """Soundness: see `lyapcheck.check.loop.links.no_torque`; high is not negative."""
-    none = no_torque(statement.links, statement.fall, [i - 1 for i in statement.joints])
+    """Soundness: see `lyapcheck.check.loop.links.pulls`; high is not negative."""
+    none = all(pulls(statement.links, statement.fall, i - 1, ()) for i in statement.joints)
     require(none, "g", "", "does not vanish at these joints")
     return Accepted("proved", "exact")
 

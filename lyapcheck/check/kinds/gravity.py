@@ -6,7 +6,7 @@ References: ``reyes2019family``, Property 2.8.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from flint import arb
@@ -24,11 +24,14 @@ from lyapcheck.check.kinds.inertia import (
     written_out,
 )
 from lyapcheck.check.loop.arithmetic import Arithmetic
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.field import MOST_BOXES, Field, Value, size_of, value_at
+from lyapcheck.check.loop.links import lever_bound, pulls
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials
+from lyapcheck.check.statement import Ends, Monomials, Proof
+from lyapcheck.check.verify import Accepted, rule
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,55 @@ class GravityBelow(BoundedAbove):
         size = "‖g(q)‖" if len(self.gravity) > 1 else "|g(q)|"
         about = gravity_text(self.gravity, self.joints, self.parameters)
         return f"{size} ≤ {number_text(self.high)} for all q, with {about}"
+
+
+@dataclass(frozen=True)
+class Levers(Proof):
+    """Gravity pulls at one joint, from 0, no harder than masses times distances from its axis.
+
+    ``links`` have their masses where every parameter is 0, ``shares`` those for one unit of each, ``fall`` is
+    the acceleration of free fall in the base frame, m/s²; for ``along`` see `lever_bound`.
+    """
+
+    rule = "levers"
+    links: tuple[RigidLink, ...]
+    shares: tuple[tuple[Fraction, ...], ...]
+    fall: tuple[Fraction, ...]
+    joint: int
+    along: tuple[int, ...]
+
+    def bound(self, parameters: Sequence[Ends]) -> Fraction:
+        """What it shows, as |g_i| ≤ |part where all are 0| + Σ |p| |part of p|."""
+        sizes = [Fraction(1), *(max(abs(low), abs(high)) for low, high in parameters)]
+        rows = zip(sizes, self.weighed(), strict=True)
+        return sum(
+            (size * lever_bound(row, self.fall, self.joint, self.along) for size, row in rows), Fraction(0)
+        )
+
+    def weighed(self) -> list[tuple[RigidLink, ...]]:
+        """The links with each row of masses."""
+        others = [zip(self.links, row, strict=True) for row in self.shares]
+        return [self.links, *(tuple(replace(link, mass=mass) for link, mass in row) for row in others)]
+
+
+@rule(GravityBelow, Levers)
+def by_levers(statement: GravityBelow, proof: Levers) -> Accepted:
+    """Soundness: g_i is affine in the parameters, each part that of links; see `lever_bound`."""
+    n, count = statement.joints, len(statement.parameters)
+    sizes = {len(proof.links), *map(len, proof.shares)} == {n} and len(proof.shares) == count
+    fits = sizes and len(proof.fall) == 3 and all(link.fits for link in proof.links)
+    require(fits, "links", len(proof.links), f"must be {n} joints and bodies, with masses for each parameter")
+    require(0 <= proof.joint < n, "joint", proof.joint, f"must be from 0 to {n - 1}")
+    require(len(statement.gravity) == 1, "gravity", len(statement.gravity), "must be of one joint")
+    (torque,) = statement.gravity
+    require(all(sum(p[2 * n :]) <= 1 for p, _ in torque), "parameters", count, "enter g as products")
+    for k, links in enumerate(proof.weighed()):
+        one = tuple(int(k == 1 + j) for j in range(count))
+        part = tuple((p[: 2 * n], c) for p, c in torque if p[2 * n :] == one)
+        require(pulls(links, proof.fall, proof.joint, part), "links", k, "do not make this g")
+    reached = proof.bound(statement.parameters)
+    require(reached <= statement.high, "levers", reached, f"are above {statement.high}")
+    return Accepted("proved", "exact")
 
 
 def gravity_text(gravity: tuple[Monomials, ...], n: int, parameters: tuple[Ends, ...]) -> str:

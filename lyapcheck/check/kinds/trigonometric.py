@@ -16,7 +16,7 @@ from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text, number_text
-from lyapcheck.check.loop.closed_loop import root_above
+from lyapcheck.check.numbers.enclosure import root_above
 from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_failure

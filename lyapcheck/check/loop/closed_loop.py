@@ -9,14 +9,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
-from math import isqrt
 
 from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.scalar import ScalarForm, certifies
 from lyapcheck.check.loop.states import Arm
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.enclosure import Enclosure, root_above
 from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, mirrored
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.statement import Proof
@@ -181,14 +180,6 @@ class ClosedLoop:
         errors = [(0.0 if i in self.one_sided else -x, x) for i, x in enumerate(self.farthest)]
         uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
-
-
-def root_above(value: Fraction) -> Fraction:
-    """A rational not below the square root, within 10⁻¹² of it."""
-    scale = 10**24
-    scaled = -((-value.numerator * scale) // value.denominator)
-    root = isqrt(scaled)
-    return Fraction(root if root * root == scaled else root + 1, 10**12)
 
 
 @dataclass(frozen=True)

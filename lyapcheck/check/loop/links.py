@@ -1,15 +1,18 @@
-"""What links say of polynomials: whether they make a given M(q), and whether gravity leaves joints alone."""
+"""What links say of polynomials: whether they make a given M(q) or g_i(q), and how large a g_i is at most."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from fractions import Fraction
+from functools import lru_cache
+from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.loop.chain import Posture, RigidLink
+from lyapcheck.check.numbers.enclosure import root_above
 from lyapcheck.check.numbers.polynomials import rational
-from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.check.statement import Monomials
 
 Reduce = Callable[[fmpq_mpoly], fmpq_mpoly]
@@ -29,11 +32,45 @@ def makes(links: Sequence[RigidLink], mass: Sequence[Sequence[Monomials]]) -> bo
     )
 
 
-def no_torque(links: Sequence[RigidLink], fall: Sequence[Fraction], joints: Sequence[int]) -> bool:
-    """Whether g_i(q) = 0 for all q at some joints, counted from 0; as polynomials, like `makes`."""
+def pulls(links: tuple[RigidLink, ...], fall: tuple[Fraction, ...], i: int, torque: Monomials) -> bool:
+    """Whether this is g_i(q) for all q, i counted from 0; as polynomials, like `makes`."""
+    ring, reduced, torques = _torques(links, fall)
+    return bool(reduced(ring.from_dict(_terms(torque)) - torques[i]) == 0)
+
+
+@lru_cache(maxsize=64)
+def _torques(
+    links: tuple[RigidLink, ...], fall: tuple[Fraction, ...]
+) -> tuple[fmpq_mpoly_ctx, Reduce, list[fmpq_mpoly]]:
     ring, reduced = _ring(len(links))
-    torque = _posture(links, ring, reduced).torques(fall)
-    return all(reduced(torque[i]) == 0 for i in joints)
+    return ring, reduced, _posture(links, ring, reduced).torques(fall)
+
+
+def lever_bound(
+    links: Sequence[RigidLink],
+    fall: Sequence[Fraction],
+    i: int,
+    along: Collection[int],
+    root: Callable[[Any], Any] = root_above,
+) -> Fraction:
+    """A bound of |g_i(q)| for all q, i counted from 0, of links with unit axes and rotations.
+
+    Soundness: g_i = (a_i × fall)·v_i in the frame of joint i, where v_k = c_k + R_{k+1} v_{k+1} with constant
+        c_k, so |v_k| ≤ Σ |c|. R_k turns about a_k: what c_k has along it can be counted at the link before
+        instead (k in ``along``), and at joint i itself exerts no torque.
+    """
+    of = Algebra(Fraction)
+    total, mass, carried = ZERO, ZERO, [ZERO] * 3
+    for k in range(len(links) - 1, i - 1, -1):
+        link = links[k]
+        moment = of.add(of.scaled(link.mass, link.com), carried)
+        mass, carried = mass + link.mass, [ZERO] * 3
+        if k == i or k in along:
+            carried = of.apply(link.turn, of.scaled(of.dot(link.axis, moment), link.axis))
+            moment = of.cross(link.axis, moment)  # as long as what is left
+        carried = of.add(carried, of.scaled(mass, link.origin))
+        total += root(of.dot(moment, moment))
+    return Fraction(total * root(of.dot(fall, fall)))
 
 
 def _ring(n: int) -> tuple[fmpq_mpoly_ctx, Reduce]:

@@ -94,3 +94,11 @@ def _nearest_double(value: Fraction) -> float:
 
 def _not_above(value: float, bound: Fraction) -> bool:
     return value == -math.inf or (value != math.inf and Fraction(value) <= bound)
+
+
+def root_above(value: Fraction) -> Fraction:
+    """A rational not below the square root, within 10⁻¹² of it."""
+    scale = 10**24
+    scaled = -((-value.numerator * scale) // value.denominator)
+    root = math.isqrt(scaled)
+    return Fraction(root if root * root == scaled else root + 1, 10**12)

@@ -28,8 +28,9 @@ def harmonics(terms: Iterable[Term], n: int) -> Harmonics:
     """
     total: dict[Harmonic, Gaussian] = {}
     for powers, coefficient in terms:
+        share = coefficient / 2 ** sum(powers[: 2 * n])
         for k, value in _product(powers[:n], powers[n : 2 * n]).items():
-            _add(total, k, (value[0] * coefficient, value[1] * coefficient))
+            _add(total, k, (value[0] * share, value[1] * share))
     return _real(total)
 
 
@@ -107,31 +108,28 @@ def angles_in(mass: Sequence[Sequence[Uncertain]]) -> tuple[int, ...]:
     return tuple(sorted({i for part in parts for k in part for i, factor in enumerate(k) if factor}))
 
 
+_Integers = dict[Harmonic, tuple[int, int]]
+
+
 @lru_cache(maxsize=4096)
-def _product(sines: tuple[int, ...], cosines: tuple[int, ...]) -> Mapping[Harmonic, Gaussian]:
-    """Π s_i^a c_i^b as coefficients of exp(i k·q)."""
-    n, half = len(sines), Fraction(1, 2)
-    result: dict[Harmonic, Gaussian] = {(0,) * n: (Fraction(1), Fraction(0))}
-    for i in range(n):
-        for up, down in [((Fraction(0), -half), (Fraction(0), half))] * sines[i]:
-            result = _times(result, i, up, down)
-        for up, down in [((half, Fraction(0)), (half, Fraction(0)))] * cosines[i]:
+def _product(sines: tuple[int, ...], cosines: tuple[int, ...]) -> _Integers:
+    """Π (2s_i)^a (2c_i)^b as coefficients of exp(i k·q)."""
+    result: _Integers = {(0,) * len(sines): (1, 0)}
+    for i in range(len(sines)):
+        for up, down in [((0, -1), (0, 1))] * sines[i] + [((1, 0), (1, 0))] * cosines[i]:
             result = _times(result, i, up, down)
     return result
 
 
-def _times(terms: dict[Harmonic, Gaussian], i: int, up: Gaussian, down: Gaussian) -> dict[Harmonic, Gaussian]:
+def _times(terms: _Integers, i: int, up: tuple[int, int], down: tuple[int, int]) -> _Integers:
     """The product with up·z_i + down/z_i."""
-    result: dict[Harmonic, Gaussian] = {}
-    for k, value in terms.items():
-        for step, factor in ((1, up), (-1, down)):
+    result: _Integers = {}
+    for k, (re, im) in terms.items():
+        for step, (x, y) in ((1, up), (-1, down)):
             place = (*k[:i], k[i] + step, *k[i + 1 :])
-            _add(result, place, _complex_product(value, factor))
+            old = result.get(place, (0, 0))
+            result[place] = old[0] + re * x - im * y, old[1] + re * y + im * x
     return result
-
-
-def _complex_product(x: Gaussian, y: Gaussian) -> Gaussian:
-    return x[0] * y[0] - x[1] * y[1], x[0] * y[1] + x[1] * y[0]
 
 
 def _add(terms: dict[Harmonic, Gaussian], k: Harmonic, value: Gaussian) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq_mat
 
 from lyapcheck.check.numbers.polynomials import rational
 
@@ -18,15 +18,6 @@ def is_positive_semidefinite(rows: Rows) -> bool:
     Its eigenvalues are real, and the coefficients of det(λI + A) are the sums of their products. Where none
     of these is negative the polynomial has no positive root, and so A no negative eigenvalue.
     """
-    return all(c >= 0 for c in _sums_of_products(rows))
-
-
-def is_positive_definite(rows: Rows) -> bool:
-    """Whether xᵀAx > 0 for all x ≠ 0, for a symmetric A: no eigenvalue is negative, and none is 0."""
-    return all(c > 0 for c in _sums_of_products(rows))
-
-
-def _sums_of_products(rows: Rows) -> list[fmpq]:
     n = len(rows)
     opposite = fmpq_mat(n, n, [rational(-Fraction(x)) for row in rows for x in row])
-    return list(opposite.charpoly().coeffs())
+    return all(c >= 0 for c in opposite.charpoly().coeffs())

@@ -56,7 +56,7 @@ def arguments(parser: Parser) -> None:
     add_vary(parser)
     about = "Computing time for branch and bound, s; the answer then depends on the machine."
     parser.add_number("--seconds", float, about, least=0)
-    about = "Also search weights Λ in y = w − εΛh, joint by joint."
+    about = "Search weights Λ in y = w − εΛh with all boxes and turns, beyond the few of each answer."
     parser.add_argument("--weights", action="store_true", help=about)
     parser.add_number("--starts", int, "Starts of each optimised search.", default=30, least=1, most=10_000)
     parser.add_number("--seed", int, "Seed of the sampled states.", default=20190301, least=0)
@@ -105,7 +105,7 @@ def run(
     from lyapcheck.answers.epsilon import EpsilonResults, Options
 
     options = Options(
-        max_boxes, jobs, ranges or spread is not None or bool(ranged), weights, seconds, starts, seed
+        max_boxes, jobs, ranges or spread is not None or bool(ranged), weights or None, seconds, starts, seed
     )
     with progress("epsilon") as advance:
         results, times = _each(chosen, own, model, options, advance)

@@ -8,13 +8,12 @@ from typing import Any
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.base import FamilyConstants, NumericForms, SymbolicForms
-from lyapcheck.family.elementary import ElementaryFamily
+from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_none
 
 
 @dataclass(frozen=True)
-class Algebraic(ElementaryFamily):
+class Algebraic(Family):
     """h = x/√(1 + x²), h' = (1 + x²)^(-3/2), U = √(1 + x²) - 1; γ = 1 in the limit, ρ = L = 1 at 0."""
 
     @property

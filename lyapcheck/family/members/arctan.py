@@ -10,8 +10,7 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.functions.arctan import half_pi
 from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.base import FamilyConstants, NumericForms, SymbolicForms
-from lyapcheck.family.elementary import ElementaryFamily
+from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_none
 
 _SERIES_TERMS = 13
@@ -22,7 +21,7 @@ _HUGE = 2.0**27
 
 
 @dataclass(frozen=True)
-class Arctan(ElementaryFamily):
+class Arctan(Family):
     """h = arctan x, h' = 1/(1 + x²), U = x arctan x - ln(1 + x²)/2; γ = π/2 in the limit, ρ = L = 1 at 0."""
 
     @property

@@ -6,20 +6,17 @@ References: ``reyes2019family`` (6), (7), (8), (12).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flint import arb
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_dh
-from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
+from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.family.base import Family, FamilyConstants, SymbolicForms
+from lyapcheck.family.hyperbolic_numeric import HyperbolicForms
 from lyapcheck.family.registry import require_member
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from lyapcheck.family.base import Doubles
 
 
 @dataclass(frozen=True)
@@ -36,30 +33,15 @@ class Hyperbolic(Family):
         assert self.m is not None
         return self.m
 
-    def values(self, x: ArrayLike, form: str) -> Doubles:
-        """One of the forms; see `lyapcheck.family.hyperbolic_numeric` for how exact it is."""
-        import numpy as np
-
-        from lyapcheck.family.hyperbolic_numeric import hyperbolic_forms
-
-        x = np.asarray(x, dtype=float)
-        with np.errstate(all="ignore"):
-            values = getattr(hyperbolic_forms(np, self._member, x), form)
-        return np.where(np.isnan(x), x, values)
+    def numeric(self, of: Arithmetic, x: Any) -> HyperbolicForms:
+        """See `lyapcheck.family.hyperbolic_numeric` for how exact they are."""
+        return HyperbolicForms(self._member, of, x)
 
     def sympy(self, x: Any) -> SymbolicForms:
         """h_m, h_m', U_m as SymPy expressions."""
         from lyapcheck.family.symbolic import hyperbolic_symbolic
 
         return hyperbolic_symbolic(x, self._member)
-
-    def casadi(self, x: Any) -> NumericForms:
-        """The same expressions as CasADi SX."""
-        import casadi as ca
-
-        from lyapcheck.family.hyperbolic_numeric import hyperbolic_forms
-
-        return hyperbolic_forms(ca, self._member, x)
 
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The peak of h and those of h'; tanh has none."""

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flint import arb
 
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_none
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from lyapcheck.family.base import Doubles
 
 
 @dataclass(frozen=True)
@@ -26,14 +22,9 @@ class Linear(Family):
         """None: h is unbounded."""
         return None
 
-    def values(self, x: ArrayLike, form: str) -> Doubles:
-        """x, x²/2, infinite where that is beyond the largest double, and 1."""
-        import numpy as np
-
-        x = np.asarray(x, dtype=float)
-        with np.errstate(over="ignore", under="ignore"):
-            known = {"h": x, "potential": 0.5 * x * x}
-        return np.where(np.isnan(x), x, known.get(form, 1.0))
+    def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
+        """x, 1, x²/2, infinite where that is beyond the largest double, and 1."""
+        return NumericForms(h=x, dh=of.lift(1), potential=0.5 * x * x, secant=of.lift(1))
 
     def sympy(self, x: Any) -> SymbolicForms:
         """x, 1, x²/2."""

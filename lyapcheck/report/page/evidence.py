@@ -1,16 +1,29 @@
-"""What the verdicts rest on: ε₀ between brackets, what is assumed, the runs, versions, digests and seeds."""
+"""What SymPy derives; what the verdicts rest on: ε₀ between brackets, the runs, digests and seeds."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import PurePosixPath
 
-from lyapcheck.output.document import Block, Figure
+from lyapcheck.output.document import Block, Figure, Section
 from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.html import blocks, fold
 from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.drawing import figure
+
+
+def derive_section(report: Report) -> Markup:
+    """The comparison of SymPy with the checker; the formulas folded."""
+    section = report.derived.section()
+    formulas = [block for block in section.blocks if isinstance(block, Section)]
+    return element(
+        "section",
+        element("h2", section.title),
+        shown(report, section.blocks[: -len(formulas)]),
+        [fold(one.title, shown(report, one.blocks)) for one in formulas],
+        id="derive",
+    )
 
 
 def evidence_section(report: Report) -> Markup:

@@ -9,7 +9,7 @@ from lyapcheck.output.html import page
 from lyapcheck.report.model import Report
 from lyapcheck.report.page.cards import findings_section
 from lyapcheck.report.page.claims import claims_section
-from lyapcheck.report.page.evidence import evidence_section
+from lyapcheck.report.page.evidence import derive_section, evidence_section
 from lyapcheck.report.page.front import verdict_section
 from lyapcheck.report.page.gains import gains_section
 
@@ -17,6 +17,7 @@ SECTIONS = {
     "verdict": "Verdict",
     "findings": "Findings",
     "claims": "Claims",
+    "derive": "Derivation",
     "gains": "Gains",
     "evidence": "Evidence",
 }
@@ -30,6 +31,7 @@ def render(report: Report) -> str:
         verdict_section(report),
         findings_section(report),
         claims_section(report),
+        derive_section(report),
         gains_section(report),
         evidence_section(report),
     )

@@ -14,11 +14,10 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.compiled.loop import Loop, loop
-from lyapcheck.derive.plain import has_plain_forms
 from lyapcheck.family import Family
 from lyapcheck.family.arithmetic import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt, total
-from lyapcheck.lyapunov.numeric import array_forms, forms_in, question
+from lyapcheck.lyapunov.numeric import forms_in, question
 from lyapcheck.robots import RobotModel
 
 Columns = Sequence[Any]
@@ -50,7 +49,7 @@ class RightSide:
     def _filled(self, place: int, y: Array, parameters: Array, out: Array) -> Array:
         if self._loops is not None:
             return self._loops[place](y, parameters, out=out)
-        at = _at(self.model, arrays(), array_forms(self.family), list(y), list(parameters))
+        at = _at(self.model, arrays(), forms_in(self.family, arrays()), list(y), list(parameters))
         with np.errstate(all="ignore"):
             for row, value in zip(out, _FORMULAS[place](at, parameters[-1]), strict=True):
                 row[:] = value
@@ -58,8 +57,6 @@ class RightSide:
 
     @cached_property
     def _loops(self) -> tuple[Loop, Loop] | None:
-        if not has_plain_forms(self.family):
-            return None
         n, sizes = self.model.n, (2 * self.model.n + 2, parameter_count(self.model))
         made = []
         for place, (name, outputs) in enumerate((("motion", sizes[0]), ("watched", n + 1))):

@@ -212,11 +212,14 @@ def _zero(f: Curve, low: Array, high: Array) -> Array:
     """Where f changes its sign between two places, by false position with halved ends (Illinois)."""
     a, b = np.array(low, float), np.array(high, float)
     at_a, at_b = f(a), f(b)
-    x = b
+    x, sharp = b, np.zeros(b.shape, dtype=bool)
     for _ in range(ROUNDS):
         gap = at_b - at_a
-        last, x = x, np.where(gap == 0.0, b, b - at_b * (b - a) / np.where(gap == 0.0, 1.0, gap))
-        if np.max(np.abs(x - last)) < SHARP:
+        moved = np.where(gap == 0.0, b, b - at_b * (b - a) / np.where(gap == 0.0, 1.0, gap))
+        # what is sharp stays, so that no run depends on its company
+        last, x = x, np.where(sharp, x, moved)
+        sharp |= np.abs(x - last) < SHARP
+        if sharp.all():
             break
         value = f(x)
         turned = (value > 0.0) != (at_b > 0.0)

@@ -3,9 +3,6 @@
 M(q) is typed once; its derivatives are those of CasADi and of JAX.
 """
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 from .arms import BASE, CROSS, ELBOW, SHOULDER, VISCOUS
@@ -16,7 +13,7 @@ STEPS = 100_000
 B = VISCOUS["buap3"]
 
 
-def entries(s2: Any, c2: Any, s3: Any, c3: Any) -> list[list[Any]]:
+def entries(s2, c2, s3, c3):
     """M from the sines and cosines of the last two angles."""
     s23 = s2 * c3 + c2 * s3
     first = BASE + SHOULDER * s2**2 + 2 * CROSS * s2 * s23 + ELBOW * s23**2
@@ -27,7 +24,7 @@ def entries(s2: Any, c2: Any, s3: Any, c3: Any) -> list[list[Any]]:
     ]
 
 
-def cvodes(m: int, kp: np.ndarray, kv: np.ndarray, runs: int, threads: int) -> Callable[[np.ndarray], Any]:
+def cvodes(m, kp, kv, runs, threads):
     """From initial positions (runs, 3) to final states (runs, 6)."""
     import casadi as ca
 
@@ -42,14 +39,14 @@ def cvodes(m: int, kp: np.ndarray, kv: np.ndarray, runs: int, threads: int) -> C
     one = ca.integrator("run", "cvodes", system, 0.0, SECONDS, options)
     many = one.map(runs, "thread", threads) if threads > 1 else one.map(runs)
 
-    def call(starts: np.ndarray) -> np.ndarray:
+    def call(starts):
         x0 = np.vstack([starts.T, np.zeros((3, runs))])
         return np.asarray(many(x0=x0)["xf"]).T
 
     return call
 
 
-def diffrax(m: int, kp: np.ndarray, kv: np.ndarray) -> Callable[[np.ndarray], Any]:
+def diffrax(m, kp, kv):
     """The same by Dopri8 under ``vmap`` and ``jit``, in double precision."""
     import diffrax as dx
     import jax
@@ -57,11 +54,11 @@ def diffrax(m: int, kp: np.ndarray, kv: np.ndarray) -> Callable[[np.ndarray], An
 
     jax.config.update("jax_enable_x64", True)
 
-    def inertia(q: Any) -> Any:
+    def inertia(q):
         rows = entries(jnp.sin(q[1]), jnp.cos(q[1]), jnp.sin(q[2]), jnp.cos(q[2]))
         return jnp.array(rows)
 
-    def rate(t: Any, y: Any, args: Any) -> Any:
+    def rate(t, y, args):
         q, w = y[:3], y[3:]
         _, along = jax.jvp(lambda q: inertia(q) @ w, (q,), (w,))
         turned = along - jax.grad(lambda q: 0.5 * w @ inertia(q) @ w)(q)
@@ -70,7 +67,7 @@ def diffrax(m: int, kp: np.ndarray, kv: np.ndarray) -> Callable[[np.ndarray], An
 
     term, control = dx.ODETerm(rate), dx.PIDController(rtol=RELATIVE, atol=ABSOLUTE)
 
-    def run(y0: Any) -> Any:
+    def run(y0):
         result = dx.diffeqsolve(
             term, dx.Dopri8(), 0.0, SECONDS, 1e-3, y0, stepsize_controller=control, max_steps=STEPS
         )
@@ -78,12 +75,12 @@ def diffrax(m: int, kp: np.ndarray, kv: np.ndarray) -> Callable[[np.ndarray], An
 
     many = jax.jit(jax.vmap(run))
 
-    def call(starts: np.ndarray) -> np.ndarray:
+    def call(starts):
         return np.asarray(many(np.hstack([starts, np.zeros_like(starts)])))
 
     return call
 
 
-def _h(m: int, x: Any, library: Any) -> Any:
+def _h(m, x, library):
     s = library.sinh(x)
     return s ** (2 * m - 1) * library.cosh(x) / (1 + s ** (2 * m))

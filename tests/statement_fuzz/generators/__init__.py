@@ -1,13 +1,11 @@
 """Statements at random, one module a kind; :func:`draw` makes one from a seed and an index.
 
-To add a kind: a function from ``Random`` to :class:`Made`, entered with :func:`generates`, in a module that
-``_load`` names.
+To add a kind: a function from ``Random`` to :class:`Made`, entered with :func:`generates`, in a module of
+``MODULES``.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from random import Random
 from typing import Any
 
@@ -30,21 +28,21 @@ class Made:
     truth: str | None = None
 
 
-Generator = Callable[[Random], Made]
-GENERATORS: dict[str, tuple[float, Generator]] = {}
+MODULES = (*("one_variable", "relations", "identities", "vectors", "arms", "controlled", "loops", "altered"),)
+GENERATORS = {}
 
 
-def generates(name: str, weight: float) -> Callable[[Generator], Generator]:
+def generates(name, weight):
     """Enter a generator, and how often it is asked."""
 
-    def enter(function: Generator) -> Generator:
+    def enter(function):
         GENERATORS[name] = weight, function
         return function
 
     return enter
 
 
-def draw(seed: int, index: int, only: str | None = None) -> Made:
+def draw(seed, index, only=None):
     """The statement of a seed and an index, always the same; of one generator, if ``only`` names it."""
     _load()
     random = Random(f"{seed}:{index}")
@@ -53,30 +51,12 @@ def draw(seed: int, index: int, only: str | None = None) -> Made:
     return GENERATORS[name][1](random)
 
 
-def names() -> tuple[str, ...]:
+def names():
     """The names of all generators."""
     _load()
     return tuple(GENERATORS)
 
 
-def _load() -> None:
-    from tests.statement_fuzz.generators import (  # noqa: F401
-        altered,
-        arms,
-        chains,
-        constants,
-        controlled,
-        every_n,
-        for_all,
-        identities,
-        implications,
-        moving_arms,
-        norms,
-        printed,
-        properties,
-        proposed,
-        resting,
-        small,
-        stability,
-        trigonometric,
-    )
+def _load():
+    for name in MODULES:
+        import_module(f"{__name__}.{name}")

@@ -1,19 +1,17 @@
 """Identities: expanded polynomials, laws of functions where they hold and where they do not, disguises."""
 
-from __future__ import annotations
-
-from collections import Counter
-from dataclasses import fields, replace
+from dataclasses import replace
 from fractions import Fraction
-from random import Random
 
+from lyapcheck.claims import Identity, Variable
+from tests.oracle.trees import names
 from tests.statement_fuzz.generators import FALSE, TRUE, Made, generates
-from tests.statement_fuzz.generators.laws import everywhere, somewhere
-from tests.statement_fuzz.generators.traps import disguised, hidden_zero
-from tests.statement_fuzz.generators.trees import (
+from tests.statement_fuzz.generators.expressions import (
     ZERO,
-    Tree,
     add,
+    disguised,
+    everywhere,
+    hidden_zero,
     mul,
     nonzero,
     num,
@@ -21,15 +19,15 @@ from tests.statement_fuzz.generators.trees import (
     rough,
     small_number,
     smooth,
+    somewhere,
     var,
 )
-from tests.statement_fuzz.subject import Identity, Variable
 
 NAMES = ["x", "y", "v"]
 
 
 @generates("Identity", 26)
-def make(random: Random) -> Made:
+def identities(random):
     """One identity."""
     kind = random.random()
     if kind < 0.35:
@@ -45,25 +43,20 @@ def make(random: Random) -> Made:
     )
 
 
-def _identity(random: Random, left: Tree, right: Tree) -> Identity:
+def _identity(random, left, right):
     """An identity, sometimes with ranges of its variables, where the kind knows them."""
     if random.random() < 0.5:
         left, right = right, left
-    if "variables" in {field.name for field in fields(Identity)} and random.random() < 0.5:
+    if random.random() < 0.5:
         result = [
             Variable(name, Fraction(random.choice((0, 0, 1, -1))), random.random() < 0.6) for name in NAMES
         ]
-        from tests.statement_fuzz.oracle.evaluate import names
-
         used = names(left, right)
-        return replace(Identity(left, right), variables=tuple(v for v in result if v.name in used))  # type: ignore[call-arg]
+        return replace(Identity(left, right), variables=tuple(v for v in result if v.name in used))
     return Identity(left, right)
 
 
-Poly = Counter[tuple[int, int]]
-
-
-def _polynomial(random: Random) -> Made:
+def _polynomial(random):
     """A product of sums, expanded; sometimes with one coefficient changed."""
     factors = [
         [
@@ -73,9 +66,9 @@ def _polynomial(random: Random) -> Made:
         for _ in range(random.randint(2, 3))
     ]
     left = mul(*(add(*(_term(c, i, j) for i, j, c in factor)) for factor in factors))
-    product: dict[tuple[int, int], Fraction] = {(0, 0): Fraction(1)}
+    product = {(0, 0): Fraction(1)}
     for factor in factors:
-        fresh: dict[tuple[int, int], Fraction] = {}
+        fresh = {}
         for (i, j), c in product.items():
             for k, l, d in factor:
                 fresh[i + k, j + l] = fresh.get((i + k, j + l), Fraction(0)) + c * d
@@ -89,11 +82,11 @@ def _polynomial(random: Random) -> Made:
     return Made(Identity(left, right), "an expanded polynomial", truth)
 
 
-def _term(c: Fraction, i: int, j: int) -> Tree:
+def _term(c, i, j):
     return mul(num(c), power(var("x"), i), power(var("y"), j))
 
 
-def _law(random: Random) -> Made:
+def _law(random):
     """A law of functions; the oracle judges those that hold only where both sides are defined."""
     a = var("x") if random.random() < 0.6 else smooth(random, ["x"], 1)
     b = var("y") if random.random() < 0.6 else num(nonzero(random))

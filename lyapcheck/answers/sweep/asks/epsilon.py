@@ -19,7 +19,7 @@ OPTIONS = {"max_boxes": 100_000, "starts": 30}
 def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> Answered:
     """The four ε₀ of each gain set, over all ranges where there are some: ``proved`` if one is certified."""
     assert question.gains is not None
-    asked = Options(ranges=bool(known.ranges), **options)
+    asked = Options(ranges=bool(known.ranges), weights=False, **options)
     result = kept_epsilon(question.gains, known.model, asked)
     return answered(
         question,

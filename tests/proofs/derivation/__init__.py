@@ -1,1 +1,0 @@
-"""The published derivation apart from the checker: (12)–(15) for n joints, in polynomials and in SymPy."""
