@@ -11,7 +11,7 @@ from typing import Any
 from unicodedata import normalize
 
 from lyapcheck._types import Progress
-from lyapcheck.answers.check.claim import one_line
+from lyapcheck.answers.check.proof import one_line
 from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.statement import Statement
@@ -86,14 +86,22 @@ class Explanation(Answer):
     def document(self) -> Document:
         """Where it stands, what is decided and how, what it uses and what uses it, how to decide it."""
         how = tuple(block for text in self.procedures for block in _blocks(text))
+        formulas = ", ".join(FORMULA.findall(self.place))
+        source = f" of {_cited(self.reference)}" if self.reference else ""
+        place = f"{self.place}{source}" if self.place else "Not in the paper's text"
+        decided = [Paragraph(self.lacking)] if self.lacking else []
+        decided += [
+            Paragraph(f"{f'{part.name}: ' if part.name else ''}{part.says} [{part.kind}]")
+            for part in self.parts
+        ]
         blocks = (
-            Paragraph(self._where()),
+            Paragraph(f"{place}; claimed in {self.script}."),
             *((Section("What came of it", (Bullets(self.found),)),) if self.found else ()),
-            Section(f"What is decided{f', for {self.case}' if self.case else ''}", tuple(self._decided())),
+            Section(f"What is decided{f', for {self.case}' if self.case else ''}", tuple(decided)),
             Section("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
             Section("What it uses", (_claims(self.uses),)),
             Section("What uses it", (_claims(self.used_by),)),
-            *((Section(f"Also about {_formulas(self.place)}", (_claims(self.near),)),) if self.near else ()),
+            *((Section(f"Also about {formulas}", (_claims(self.near),)),) if self.near else ()),
             Section("To decide it", (Code(self._command()),)),
         )
         return Document(f"{self.id}: “{one_line(self.says)}” (the author's words)", blocks)
@@ -110,19 +118,6 @@ class Explanation(Answer):
         about = {"id": self.id, "script": self.script, "place": self.place, "case": self.case}
         rows = [asdict(part) for part in self.parts] or [{"name": "", "kind": "", "says": self.lacking}]
         return [{**about, "part": row["name"], "kind": row["kind"], "statement": row["says"]} for row in rows]
-
-    def _where(self) -> str:
-        source = f" of {_cited(self.reference)}" if self.reference else ""
-        place = f"{self.place}{source}" if self.place else "Not in the paper's text"
-        return f"{place}; claimed in {self.script}."
-
-    def _decided(self) -> Iterator[Block]:
-        """The statement; those of the parts one by one."""
-        if self.lacking:
-            yield Paragraph(self.lacking)
-        for part in self.parts:
-            name = f"{part.name}: " if part.name else ""
-            yield Paragraph(f"{name}{part.says} [{part.kind}]")
 
     def _command(self) -> str:
         return f"lyapcheck check {self.script} --only {self.id}"
@@ -274,10 +269,6 @@ def _cited(reference: str) -> str:
     authors = re.sub(r"\{\\(['~])(\w)\}", lambda it: normalize("NFC", it[2] + ACCENTS[it[1]]), text)
     names = [author.partition(",")[0] for author in authors.split(" and ")]
     return f"{' and '.join(names) if len(names) < 3 else f'{names[0]} et al.'} ({fields['year']})"
-
-
-def _formulas(place: str) -> str:
-    return ", ".join(FORMULA.findall(place))
 
 
 def _claims(claims: tuple[tuple[str, str], ...]) -> Block:

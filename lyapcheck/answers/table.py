@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
 from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.family.asymptotes import Asymptotes, asymptotes
 from lyapcheck.family.compared import gamma_less_than
@@ -16,10 +26,11 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Document, Paragraph
 from lyapcheck.output.document import Table as Cells
+from lyapcheck.output.fields import Field, data, table
 
 TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x)"
 LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, not rounded."
-CONSTANTS = ("gamma", "rho", "L", "gamma_at", "rho_at", "L_at")
+CONSTANTS = {"gamma": "γ", "rho": "ρ", "L": "L", "gamma_at": "x of γ", "rho_at": "x of ρ", "L_at": "x of L"}
 ENDS = ("lower", "upper")
 INFINITY, NONE = "∞", "none"
 REST_DIGITS = 6
@@ -46,6 +57,10 @@ RESTS = (
 _GUARD_DIGITS = 6
 _RESTS_DIGITS = 12
 """More digits still, where the constants are compared with numbers that come close to them."""
+PROOF = "table"
+PRECISIONS = (128, 512, 2048)
+"""Bits."""
+FUNCTIONS = {"gamma": "h", "rho": "dh"}
 
 
 @dataclass(frozen=True)
@@ -80,7 +95,7 @@ class Table(Answer):
 
     def document(self) -> Document:
         """The constants, where each is reached, what was asked for beside them; all digits correct."""
-        blocks = [self._constants(), self._asymptotes(), self._budget()]
+        blocks = [table(self._fields, [(row,) for row in self.rows]), self._asymptotes(), self._budget()]
         return Document(TITLE, (Paragraph(LEGEND), *filter(None, blocks)), tuple(self._notes()))
 
     def data(self) -> dict[str, Any]:
@@ -107,17 +122,16 @@ class Table(Answer):
             rows.append({**ends, **tails, **({"budget": budget} if budget else {}), "slope_at_0": slope})
         return rows
 
-    def _constants(self) -> Cells:
-        heads = ("m", "γ", "ρ", "L", "x of γ", "x of ρ", "x of L", "h′(0)")
-        rows = [
-            (
-                str(row.m),
-                *self._cells(*(getattr(row, name) for name in CONSTANTS)),
-                str(slope_at_zero(row.m)),
-            )
-            for row in self.rows
-        ]
-        return Cells(heads, tuple(rows), align="rlllllll")
+    @cached_property
+    def _fields(self) -> tuple[Field, ...]:
+        """What is said of a member, whatever else was asked."""
+
+        def shown(value: Enclosure | None) -> str:
+            return self._cells(value)[0]
+
+        constants = (Field(key, key, head, shown, self._ends, "l") for key, head in CONSTANTS.items())
+        slope = Field("slope_at_0", lambda row: str(slope_at_zero(row.m)), "h′(0)", align="l")
+        return Field("m", "m", "m"), *constants, slope, Field("gamma_printed", lambda row: _printed(row.m))
 
     def _asymptotes(self) -> Cells | None:
         if self.asymptotes is None:
@@ -161,14 +175,7 @@ class Table(Answer):
         return [INFINITY if value is None else correct_digits(value, shown) for value in values]
 
     def _row(self, index: int) -> dict[str, Any]:
-        row = self.rows[index]
-        result: dict[str, Any] = {"m": row.m}
-        result |= {name: self._ends(getattr(row, name)) for name in CONSTANTS}
-        printed = PRINTED_GAMMA.get(row.m)
-        result["slope_at_0"] = str(slope_at_zero(row.m))
-        result["gamma_printed"] = (
-            None if printed is None else {"value": decimal_text(printed), "bounds_h": printed_bounds(row.m)}
-        )
+        result = data(self._fields, self.rows[index])
         if self.asymptotes is not None:
             tail = self.asymptotes[index]
             result["asymptotics"] = {
@@ -235,7 +242,40 @@ def slope_at_zero(m: int) -> int:
     return int((2 * m - 1) * 0 ** (2 * m - 2))
 
 
+def _printed(m: int) -> dict[str, Any] | None:
+    """What the paper prints of γ, and whether it bounds h."""
+    value = PRINTED_GAMMA.get(m)
+    return None if value is None else {"value": decimal_text(value), "bounds_h": printed_bounds(m)}
+
+
 def printed_bounds(m: int) -> bool:
     """Whether h_m never exceeds the printed γ: tanh stays below 1, the others reach their γ."""
     value = PRINTED_GAMMA[m]
     return value >= 1 if m == 1 else gamma_less_than(m, value**2)
+
+
+def certificates(table: Table) -> dict[str, Certificate]:
+    """Certificates by file name; none of a bound that the checker does not accept."""
+    made = {}
+    for row in table.rows:
+        for name, function in FUNCTIONS.items():
+            _, upper = decimals(getattr(row, name), table.digits)
+            x: Tree = ("var", "x")
+            statement = NormBound((function, row.m, x), 1, ("num", str(Fraction(upper))))
+            shown = _shown(statement)
+            if shown is None:
+                continue
+            accepted, proof = shown
+            about = About(f"m{row.m}.{name}", f"{name} of m = {row.m} is at most {upper}", row.m, 1, PROOF)
+            certificate = Certificate(about, statement, accepted.verdict, accepted.grade, proof)
+            made[f"m{row.m}.{name}.json"] = certificate
+    return made
+
+
+def _shown(statement: NormBound) -> tuple[Accepted, Supremum] | None:
+    """The verdict on a bound and what shows it; ``None`` where the numbers are too close to it."""
+    for numbers in (ExactNumbers(), *map(SeparateBalls, PRECISIONS)):
+        with suppress(Refused):
+            proof = Supremum(numbers)
+            return verify(statement, proof), proof
+    return None

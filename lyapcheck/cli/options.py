@@ -27,7 +27,7 @@ def add_robot(parser: Parser) -> None:
 
 
 def add_members(parser: Parser, default: str | None, more: str = "") -> None:
-    """``--m``, as `lyapcheck.cli.m_range.parse_m` reads it."""
+    """``--m``, as `lyapcheck.cli.values.parse_m` reads it."""
     about = f"Members of the family: 3, 1,2,5 or 1:12.{more}"
     parser.add_argument("--m", metavar="M", default=default, help=about)
 
@@ -54,7 +54,7 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     """
     if not texts:
         return ()
-    from lyapcheck.cli.complaints import Complaints
+    from lyapcheck.cli.values import Complaints
     from lyapcheck.robots.vary import Vary
 
     wrong = Complaints()

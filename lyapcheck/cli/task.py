@@ -1,36 +1,39 @@
-"""The task of the command line: from where, to where, for how long."""
+"""The task of the command line: from where, to where, for how long, with which ε₀."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from lyapcheck.cli.angles import parse_angles
-from lyapcheck.cli.complaints import Complaints
-from lyapcheck.cli.eps0 import CERTIFIED, Eps0
-from lyapcheck.cli.output import open_folder, require_writable
+from lyapcheck.cli.show import open_folder, require_writable
+from lyapcheck.cli.values import Complaints
 from lyapcheck.errors import InputError, argument_error, argument_problem
 
 if TYPE_CHECKING:
+    from lyapcheck._types import Progress
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.starts import Starts
     from lyapcheck.simulate.task import Task
     from lyapcheck.tracking.reference import Reference
     from lyapcheck.tracking.request import TrackingRequest
 
+MOST_DEGREES = 36_000.0
+"""A hundred turns of a joint."""
+CERTIFIED = "certified"
+MAX_BOXES = 100_000
+"""Budget of branch and bound for one gain set; ``lyapcheck epsilon`` goes further."""
 Made = TypeVar("Made")
-
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""
 SPREAD = 45.0
 """Degrees."""
 BAND = 1.0
 """Degrees."""
-
 _OPTIONS = {
     "T": "--time",
     "eps0": "--eps0",
@@ -40,7 +43,6 @@ _OPTIONS = {
     "q0": "--start",
     "q_d": "--target",
 }
-
 _NEEDS = {"--spread": "--runs", "--seed": "--runs", "--band": "--reference"}
 _CLASHES = (
     ("--reference", "--experiment"),
@@ -56,6 +58,72 @@ _CLASHES = (
     ("--reference", "--certificates"),
     ("--runs", "--certificates"),
 )
+
+
+def parse_angles(option: str, text: str, joints: tuple[str, ...]) -> tuple[float, ...]:
+    """The angles in rad, one a joint.
+
+    Raises:
+        InputError: something that is not a number of degrees, or another number of angles than joints.
+    """
+    words = [word.strip() for word in text.split(",")] if text.strip() else []
+    example = f"write {option} {','.join(['45'] * len(joints))}"
+    if len(words) != len(joints):
+        many = "number" if len(words) == 1 else "numbers"
+        rule = f"has {len(words)} {many}, but the arm has {len(joints)} joints ({', '.join(joints)})"
+        raise argument_error(option, text, rule, example)
+    degrees = [_degrees(word) for word in words]
+    if any(math.isnan(angle) for angle in degrees):
+        rule = f"each must be a number from {-MOST_DEGREES:g} to {MOST_DEGREES:g} degrees"
+        raise argument_error(option, text, rule, example)
+    return tuple(math.radians(angle) for angle in degrees)
+
+
+def _degrees(word: str) -> float:
+    """The number, NaN if it is none or out of range."""
+    try:
+        angle = float(word)
+    except ValueError:
+        return math.nan
+    return angle if abs(angle) <= MOST_DEGREES else math.nan
+
+
+@dataclass(frozen=True)
+class Eps0:
+    """What was asked for."""
+
+    number: float | None
+    """None where nothing was asked for, and where it is to be certified."""
+    certified: bool = False
+
+    def of(self, gain_set: GainSet, model: RobotModel, advance: Progress) -> float | None:
+        """The ε₀ of one gain set, rounded down; 0 if nothing was asked for, ``None`` if none is certified."""
+        if not self.certified:
+            return self.number or 0.0
+        from lyapcheck.answers.epsilon import epsilon
+        from lyapcheck.check.numbers.enclosure import Enclosure
+
+        advance(0.0, f"{gain_set.name}: what ε₀ is certified")
+        result = epsilon(gain_set, model, max_boxes=MAX_BOXES, weights=False).certified
+        return None if result is None else Enclosure(result, result).float_lower
+
+
+def eps0_of(text: str | None) -> Eps0:
+    """What ``--eps0`` asks for.
+
+    Raises:
+        InputError: neither a number nor ``certified``; a number out of range is refused with its task.
+    """
+    if text is None or text == CERTIFIED:
+        return Eps0(None, text is not None)
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if math.isnan(number):
+        rule = f"must be a number or {CERTIFIED}"
+        raise argument_error("--eps0", text, rule, f"write --eps0 0.01, or --eps0 {CERTIFIED}")
+    return Eps0(number)
 
 
 def task_of(

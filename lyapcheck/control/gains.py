@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from lyapcheck.control.deciding import KNOWN
 from lyapcheck.errors import InputError, Problem, argument_error
@@ -81,6 +82,11 @@ class GainFile:
             return None
         path: KeyPath = ("gains", gain_set.index, key) if key else ("gains", gain_set.index)
         return self.document.place(path if joint is None else (*path, joint))
+
+    def spot(self, gain_set: GainSet) -> dict[str, Any]:
+        """The place of a gain set as annotations have it."""
+        place = self.place(gain_set)
+        return {"path": self.path} | ({} if place is None else {"line": place.line, "column": place.column})
 
 
 def gain_file_of(file: GainFile | str | Path) -> GainFile:

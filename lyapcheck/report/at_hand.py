@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.check.claim import ClaimResult
+from lyapcheck.answers.check.proof import ClaimResult
 from lyapcheck.answers.gate.words import joint_name
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from lyapcheck.answers.tune.effect import Effect, effect_section
+from lyapcheck.answers.tune.answer import Effect, effect_section
 from lyapcheck.kernel.record import GRADE
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table

@@ -183,7 +183,7 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
 
 def _rest(gain_set: GainSet, model: RobotModel) -> float | None:
     """How far off dry friction may hold a joint, degrees; none for anywhere."""
-    from lyapcheck.answers.gate.bench import rest_errors
+    from lyapcheck.answers.gate.friction import rest_errors
 
     errors = rest_errors(gain_set, model)
     return None if None in errors else max(math.degrees(e) for e in errors if e is not None)

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.bounds.answer import Comparisons
-from lyapcheck.answers.bounds.compare import BoundsComparison, compare
+from lyapcheck.answers.bounds import BoundsComparison, Comparisons, compare
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError

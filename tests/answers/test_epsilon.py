@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.epsilon.compute import epsilon
-from lyapcheck.answers.epsilon.consistency import Contradiction, findings, require_consistent
 from lyapcheck.answers.epsilon.forms import by_forms
+from lyapcheck.answers.epsilon.four import Contradiction, findings, require_consistent
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive

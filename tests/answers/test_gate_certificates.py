@@ -14,8 +14,8 @@ import pytest
 
 from lyapcheck import load_robot, named_family
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
+from lyapcheck.answers.gate.answer import remarks
 from lyapcheck.answers.gate.certificates import certificates
-from lyapcheck.answers.gate.stability import remarks
 from lyapcheck.check.certificate import read
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.loop.proof import proves

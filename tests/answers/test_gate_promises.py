@@ -12,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.control.resting import degrees_above

@@ -15,9 +15,8 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import build
+from lyapcheck.answers.robot.answer import RobotReport
 from lyapcheck.answers.robot.certified import CertifiedBounds
-from lyapcheck.answers.robot.facts import ArmFacts
-from lyapcheck.answers.robot.page import page
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.claims.decision import undecided
@@ -117,7 +116,7 @@ def test_what_is_wide_comes_with_a_word_about_it(tmp_path: Path, name: str, advi
         for of, low in (("k_c", "1"), ("lambda_max", "1.9"))
     )
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
-    text = plain.render(page(ArmFacts(arm, (row,), (wide, narrow))))
+    text = plain.render(RobotReport(arm, (row,), (wide, narrow)).document())
     assert f"k_c is wide, 50 %: {advice}" in " ".join(text.split())
     assert "λmax(M) = β_M is wide" not in text
 
@@ -130,7 +129,7 @@ def test_a_gap_is_written_without_an_exponent(low: str, gap: str) -> None:
     arm = robots.load("pelican2")
     constant = ConstantResult("k_c", "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 4, 0)
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
-    text = " ".join(plain.render(page(ArmFacts(arm, (row,), (constant,)))).split())
+    text = " ".join(plain.render(RobotReport(arm, (row,), (constant,)).document()).split())
     assert f" {gap}* " in text
     assert "e+0" not in text
 
@@ -147,8 +146,8 @@ def test_the_gap_is_that_of_the_certified_ends_where_both_are_known() -> None:
         "k_g1": CertifiedBounds(Fraction(50), Fraction(100)),
     }
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
-    facts = ArmFacts(robots.load("pelican2"), (row,), constants, certified=ends)
-    text = plain.render(page(facts))
+    facts = RobotReport(robots.load("pelican2"), (row,), constants, certified=ends)
+    text = plain.render(facts.document())
     rows = {line.split()[0]: line.rsplit(maxsplit=2)[-2:] for line in text.splitlines() if " N·m " in line}
     assert rows == {"k_c": ["10", "%"], "k_g": ["1", "%*"], "k_g1": ["50", "%"]}
     assert "k_g1 is wide, 50 %: the numeric ends are nearer" in " ".join(text.split())

@@ -14,7 +14,7 @@ import mpmath
 import pytest
 
 from lyapcheck.answers.table import build_table
-from lyapcheck.cli.m_range import parse_m
+from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import Format
 from tests.helpers.command import invoke

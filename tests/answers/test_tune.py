@@ -16,11 +16,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune.damping import damping_of
 from lyapcheck.answers.tune.gain_file import gain_file_text
-from lyapcheck.answers.tune.gain_range import GainRange
-from lyapcheck.answers.tune.program import propose
-from lyapcheck.answers.tune.rounding import best_units, binding
+from lyapcheck.answers.tune.largest import GainRange, best_units, binding, damping_of, propose
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms, tune
 from lyapcheck.cli.commands.tune import FORMATS

@@ -15,12 +15,11 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune.gain_file import bench_file_text
 from lyapcheck.answers.tune.response.answer import BenchTuning, Candidate
-from lyapcheck.answers.tune.response.gain_file import bench_file_text
-from lyapcheck.answers.tune.response.one_joint import Joint, proposal
-from lyapcheck.answers.tune.response.trial import Trial, tried
+from lyapcheck.answers.tune.response.search import Joint, proposal
+from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, tried
 from lyapcheck.answers.tune.response.tuning import accepted, tune_for
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, Trials, Wishes
 from lyapcheck.cli import main as cli
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainSet, read_gain_file

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import gate, robots
-from lyapcheck.answers.tune.response.trial import tried
-from lyapcheck.answers.tune.response.wishes import Wishes
+from lyapcheck.answers.tune.response.trial import Wishes, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError

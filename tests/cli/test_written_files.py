@@ -7,7 +7,7 @@ import stat
 from pathlib import Path
 from threading import Thread
 
-from lyapcheck.cli.output import require_writable, write_whole
+from lyapcheck.cli.show import require_writable, write_whole
 
 
 def test_a_pipe_is_written_to_and_stays_a_pipe(tmp_path: Path) -> None:

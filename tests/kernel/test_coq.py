@@ -14,7 +14,7 @@ from subprocess import CompletedProcess
 
 import pytest
 
-from lyapcheck.answers.kernel import _copied
+from lyapcheck.answers.recheck import _copied
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
 from lyapcheck.check.judging import certificate_of

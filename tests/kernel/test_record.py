@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.check.claim import ClaimResult
+from lyapcheck.answers.check.proof import ClaimResult
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.claims.decision import Decision

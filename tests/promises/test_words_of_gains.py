@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction as F
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.answers.gate.otherwise import positive
 from lyapcheck.answers.gate.shown import shown_gravity
+from lyapcheck.control.gains import GainSet
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.promise import GUARDED, promises_as_seen
-from lyapcheck.robots import load
+from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.command import invoke
@@ -215,9 +218,12 @@ def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(
 @pytest.mark.usefixtures("passes")
 def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "leaves at most" in invoke(*RANGED).stdout
-    monkeypatch.setattr(
-        "lyapcheck.answers.gate.bench.dry_friction", lambda model: tuple(x.value for x in model.coulomb)
-    )
+
+    def of_less(gains: GainSet, model: RobotModel) -> list[F | None]:
+        coulomb = tuple(x and replace(x, low=x.value, high=x.value) for x in model.coulomb)
+        return rest_errors(gains, replace(model, coulomb=coulomb))
+
+    monkeypatch.setattr("lyapcheck.answers.gate.friction.rest_errors", of_less)
     assert "leaves at most" not in invoke(*RANGED).stdout
 
 

@@ -9,9 +9,7 @@ import pytest
 
 from lyapcheck.answers.derive import derivation
 from lyapcheck.answers.gate import GateAnswer
-from lyapcheck.answers.sweep.page import files
-from lyapcheck.answers.sweep.result import SweepAnswer
-from lyapcheck.answers.sweep.tally import Tally
+from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
 from lyapcheck.answers.table import build_table
 from lyapcheck.report.map_cell import MapCell
 from lyapcheck.report.model import Report

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lyapcheck.answers.robot import build
-from lyapcheck.answers.robot.print_claims import print_claims
+from lyapcheck.answers.robot.properties import print_claims
 from lyapcheck.errors import InputError
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.verdicts import Exit

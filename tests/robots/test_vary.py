@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune.response.trial import Trials, Wishes
 from lyapcheck.answers.tune.response.tuning import tune_for
-from lyapcheck.answers.tune.response.wishes import Trials, Wishes
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.paper import paper_gain_file

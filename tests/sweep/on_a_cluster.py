@@ -163,8 +163,8 @@ def test_rows_become_a_data_frame(plan: Path) -> None:
 
 
 def test_an_address_without_a_scheduler_is_refused(plan: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from lyapcheck.answers.sweep import cluster
+    from lyapcheck.answers.sweep import workers as asking
 
-    monkeypatch.setattr(cluster, "PATIENCE", 1)
+    monkeypatch.setattr(asking, "PATIENCE", 1)
     with pytest.raises(lyapcheck.InputError, match="does not answer"):
         next(lyapcheck.sweep(plan, scheduler="tcp://127.0.0.1:1"))

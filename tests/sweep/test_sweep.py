@@ -22,8 +22,7 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.answers.sweep import folder as folders
 from lyapcheck.answers.sweep import read_plan
 from lyapcheck.answers.sweep.question import COLUMNS
-from lyapcheck.answers.sweep.result import SweepAnswer
-from lyapcheck.answers.sweep.tally import Tally
+from lyapcheck.answers.sweep.result import SweepAnswer, Tally
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.robots.vary import Vary

@@ -1,6 +1,5 @@
 """Does each claim of a proof script hold: proved, refuted with a witness, or undecided with a reason."""
 
-from lyapcheck.answers.check.claim import ClaimResult
-from lyapcheck.answers.check.proof import ProofResult
+from lyapcheck.answers.check.proof import ClaimResult, ProofResult
 
 __all__ = ["ClaimResult", "ProofResult"]

@@ -4,7 +4,7 @@ The searches propose, the checker disposes; this folder asks them in turn and ho
 """
 
 from lyapcheck.answers.epsilon.compute import epsilon
-from lyapcheck.answers.epsilon.consistency import Contradiction
+from lyapcheck.answers.epsilon.four import Contradiction
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 

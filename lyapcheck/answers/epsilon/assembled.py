@@ -7,8 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import asked
-from lyapcheck.answers.epsilon.consistency import findings, require_consistent
-from lyapcheck.answers.epsilon.four import Refutation
+from lyapcheck.answers.epsilon.four import Refutation, findings, require_consistent
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.promise import Promise, promised
 from lyapcheck.search.controlled_arm import ControlledArm

@@ -4,30 +4,97 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.epsilon.annotations import annotations_of
-from lyapcheck.answers.epsilon.data import result_data
-from lyapcheck.answers.epsilon.four import FourEpsilons
+from lyapcheck.answers.epsilon.four import FINDINGS, FourEpsilons, eps0_of
 from lyapcheck.answers.epsilon.words import (
     KINDS,
+    exact,
     notes,
     number_cell,
     ratio_text,
     remarks,
     title,
+    witness_text,
 )
+from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Bullets, Document, Section, Table
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.output.annotations import Annotation
+    from lyapcheck.search.falsify import RisingState
+    from lyapcheck.search.weights import Weighted
 
+_DIGITS = 20
+CERTIFIED, FALSIFIED = "certified", "falsified"
+RULES = {
+    CERTIFIED: "V > 0 and dV/dt < 0 at all states but the origin, for some ε₀ > 0",
+    FALSIFIED: "a state with dV/dt > 0",
+    **FINDINGS,
+}
 HEADS = ("gains", "m", *(f"{kind} ε₀" for kind in KINDS), "certified / falsified")
 NOT_IN_RECORDS = ("corner", "outside", "findings", "assumptions")
 PARTS = ("witness", "weighted")
 """What takes several columns where there is any."""
+
+
+def result_data(result: FourEpsilons) -> dict[str, Any]:
+    """Numbers as exact decimal strings; a missing one is ``None`` and has its reason under ``reasons``."""
+    return {
+        "name": result.name,
+        "m": result.m,
+        "robot": result.robot,
+        **{kind: exact(getattr(result, kind)) for kind in KINDS},
+        "scalar_grade": result.scalar_grade,
+        "ratio": ratio_text(result.ratio),
+        "certified_by": result.certified_by or None,
+        "witness": None if result.witness is None else _witness(result.witness),
+        "boxes": result.boxes,
+        "weighted": None if result.weighted is None else _weighted(result.weighted),
+        "ranges": result.ranges,
+        "unvaried": exact(eps0_of(result.unvaried)),
+        "outside": list(result.outside),
+        "corner": {name: exact(value) for name, value in result.corner.items()},
+        "seed": result.seed,
+        "findings": list(result.findings),
+        "reasons": dict(result.reasons),
+        "assumptions": list(result.assumptions),
+    }
+
+
+def _weighted(weighted: Weighted) -> dict[str, Any]:
+    loop = weighted.proof.loop
+    return {
+        "eps0": exact(loop.eps0),
+        "lambda": [exact(scale) for scale in loop.Lambda],
+        "eps0_lambda": [exact(value) for value in weighted.products],
+        "boxes": weighted.proof.boxes,
+        "states": weighted.states,
+    }
+
+
+def _witness(witness: RisingState) -> dict[str, Any]:
+    state = {name: [exact(x) for x in getattr(witness.state, name)] for name in ("q", "e", "w")}
+    rate = dict(zip(("lower", "upper"), decimals(witness.rate, _DIGITS), strict=True))
+    return {"eps0": exact(witness.eps0), **state, "rate": rate, "kind": witness.kind}
+
+
+def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotation]:
+    """Whether an ε₀ is certified; then, as remarks, what is falsified and what follows from the numbers."""
+    about = partial(Annotation, group=result.name, **({} if file is None else file.spot(result.gains)))
+    level = Level.UNDECIDED if result.promise is None else Level.PASSED
+    message = f"no ε₀ is certified: {result.reasons.get(CERTIFIED, '')}" if result.promise is None else ""
+    outcome = [about(level=level, rule=CERTIFIED, rule_text=RULES[CERTIFIED], case="ε₀", message=message)]
+    said = {} if result.witness is None else {FALSIFIED: f"falsified {witness_text(result.witness)}"}
+    said |= {rule: text for rule, text in FINDINGS.items() if text in result.findings}
+    outcome += [
+        about(level=Level.REMARK, rule=rule, rule_text=RULES[rule], case="ε₀", message=text)
+        for rule, text in said.items()
+    ]
+    return outcome
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.answers.gate.friction import Fact, farthest, friction_lines, held
-from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
-from lyapcheck.answers.gate.stability import remarks
+from lyapcheck.answers.gate.friction import Fact, damping_lines, farthest, friction_lines, held
+from lyapcheck.answers.gate.judge import BREAKS_19, GRAVITY, GateResult
 from lyapcheck.answers.gate.words import (
     KEYS,
     RULES,
@@ -25,6 +24,7 @@ from lyapcheck.answers.gate.words import (
     value_text,
 )
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
+from lyapcheck.control.deciding import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
@@ -32,6 +32,15 @@ from lyapcheck.output.document import Bullets, Document, Section, Table
 from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
+_NO_ARM = (
+    "(19) fails, but it is only sufficient; stability is not judged without the arm: name one with robot = …"
+)
+_SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g keeps each joint within its limit"
+_NO_FRICTION = (
+    "no viscous friction is known of a joint (λmin(B) = 0), so (19) admits no k_v. Without it the origin "
+    "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
+    "error, no bound under a disturbance. A measured friction goes into [bounds] viscous_min"
+)
 HEADS = ("", "condition", "joint", "value", "limit", "margin", "largest admissible")
 NAMED = "!"
 """Accepted, with a fact that no condition is about."""
@@ -39,6 +48,64 @@ DIGITS, MARGIN_DIGITS = 20, 12
 """Significant digits of limits and of margins in data; people see fewer."""
 LEVELS = {ACCEPTED: Level.PASSED, REJECTED: Level.FAILED, UNDECIDED: Level.UNDECIDED}
 NO_DECISION = "* shown, but does not decide; --condition chooses what does"
+
+
+def remarks(result: GateResult) -> list[str]:
+    """What the conditions say about each other, and the bench about the gains, a sentence each."""
+    damping, joints = result.verdict_of(("19",)), result.verdict_of(("10p",))
+    missing = [check for check in result.checks if check.id in CERTIFICATES and check.verdict != ACCEPTED]
+    outcome = _without_19(result) if damping == REJECTED else []
+    if missing and result.verdict_of(("10p", "19")) == ACCEPTED:
+        outcome += [f"(10p) and (19) hold, yet no {check.id} certificate was found" for check in missing]
+    if joints == REJECTED and result.verdict_of(("10i",)) == ACCEPTED and "10p" in result.deciding:
+        outcome.append(_SINGLE + _accepting(result))
+    elif result.saturates and result.stable is not None:
+        words = "(10i) fails: a motor may saturate, and stability is proved only while none does"
+        outcome.append(result.stable.own_promise.says(words))
+    model, gains = result.limits.model, result.gains
+    if not result.explained or model is None:
+        return outcome
+    return [*outcome, *friction_lines(gains, model, list(held(gains, model))), *damping_lines(gains, model)]
+
+
+def _without_19(result: GateResult) -> list[str]:
+    known, frictionless = result.stable, result.limits.viscous_min == 0
+    if known is not None:
+        where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
+        how = "proved stable while no motor saturates" if result.saturates else "proved stable without it"
+        outcome = f"(19) fails, yet the gains are {how}: {_proof(known, where)}"
+        outcome += _accepting(result) if "19" in result.deciding else ""
+        said = [outcome, _NO_FRICTION] if frictionless else [outcome]
+        return [known.own_promise.says(words) for words in said]
+    if not result.limits.robot:
+        return [_NO_ARM]
+    if frictionless:
+        return []
+    asked = set(CERTIFICATES) & set(result.deciding)
+    return [
+        f"(19) fails, but it is only sufficient{'' if asked else '; --condition scalar looks for a proof'}"
+    ]
+
+
+def _proof(known: Check, where: str) -> str:
+    if known.value is None:
+        return f"M(q) ≻ 0 is proved for the arm {where}, the rest is LaSalle's theorem"
+    return f"dV/dt < 0 with ε₀ = {decimal_text(known.value)} ({known.id} certificate, for the arm {where})"
+
+
+def _accepting(result: GateResult) -> str:
+    """The options with which the gate would accept, by what this run has shown; empty where it has not."""
+    if result.verdict_of((GRAVITY,)) == REJECTED:
+        return ""  # a false bound of gravity is rejected whatever decides
+    known = result.stable
+    instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}
+    if known is not None and result.verdict_of(("19",)) == REJECTED:
+        instead["19"] = known.id
+    wanted = dict.fromkeys(instead.get(name, name) for name in result.deciding)
+    others = tuple(name for name in wanted if known is None or name != known.id)
+    if others and result.verdict_of(others) != ACCEPTED:
+        return ""
+    return f"; {' '.join(f'--condition {name}' for name in wanted)} accepts it"
 
 
 class GateAnswer(tuple[GateResult, ...], Answer):

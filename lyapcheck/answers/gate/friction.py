@@ -1,4 +1,8 @@
-"""What dry friction does to gains that theory accepts, as the checker judges it.
+"""What an engineer at the bench should know of accepted gains: how they swing, where they may rest.
+
+Near the goal a joint that moves alone obeys J ë + b ė + k_v h(ė) + k_p h(e) = 0. With h(x) = L x, which it is
+at most, the damping ratio is ζ = (b + L k_v)/(2 √(J L k_p)), J the largest M_ii. Dry friction f holds the
+joint wherever k_p |h(e)| ≤ f. That is in floating point; the checker judges
 
     rest   |e_i| ≤ X at every state of rest of (11) within dry friction f: K_p h(e) + d = 0, |d_i| ≤ f_i
     held   k_pi ≤ f_i/γ, so that k_pi |h(e_i)| ≤ f_i for every e: joint i rests wherever it stops
@@ -12,17 +16,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from math import degrees, exp, pi, sqrt
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.bench import rest_errors
+from lyapcheck.answers.gate.otherwise import small
 from lyapcheck.asked import resting as asked_resting
+from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.judgement import ACCEPTED, JudgedStatement, judged_statement
-from lyapcheck.control.resting import DEGREES, dry_friction
+from lyapcheck.control.resting import DEGREES, dry_friction, rest_error
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.promise import promised
+from lyapcheck.robots import trig
 
 if TYPE_CHECKING:
     from lyapcheck.check.expressions.expression import Tree
@@ -30,8 +37,57 @@ if TYPE_CHECKING:
     from lyapcheck.promise import Promise
     from lyapcheck.robots import RobotModel
 
-
+SWINGS = 0.5
+"""A damping ratio below which a joint overshoots by more than a sixth of its step."""
 ANYWHERE = Fraction(10**6)
+Fact = tuple[Fraction, str]
+"""How far from the goal, in degrees, and in words."""
+
+
+def rest_errors(gains: GainSet, model: RobotModel) -> list[Fraction | None]:
+    """Per joint the largest error in rad that dry friction holds, k_p |h(e)| ≤ f; ``None``: it holds any."""
+    unit = Fraction(degrees(1.0)) if gains.angle_unit == "deg" else Fraction(1)
+    ratios = [f / (kp * unit) for kp, f in zip(gains.kp, dry_friction(model), strict=True)]
+    known = named(gains.family, gains.m)
+    if not known.bounded:
+        return [*ratios]
+    _ = known.checked  # or say that the checker does not know the function
+    return [rest_error(gains.family, gains.m, ratio) for ratio in ratios]
+
+
+def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
+    """How gains swing; floating point."""
+    if not small(model.fixed()):
+        return []
+    ratios = damping_ratios(gains, model)
+    text = ", ".join(f"{joint} {ratio:.2f}" for joint, ratio in zip(model.joints, ratios, strict=True))
+    least = min(ratios)
+    end = ""
+    if least < SWINGS:
+        over = 100 * exp(-pi * least / sqrt(1 - least**2))
+        end = f": without dry friction it swings, by about {over:.0f} % of a step"
+    soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
+    return [f"estimated damping ratio{soft}, at the posture of most inertia: {text}{end}"]
+
+
+def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:
+    """ζ of each joint alone, at the arm's nominal numbers."""
+    unit = degrees(1.0) if gains.angle_unit == "deg" else 1.0
+    L = float(named(gains.family, gains.m).constants().L.mid)
+    rows = zip(gains.kp, gains.kv, model.viscous, _inertias(model), strict=True)
+    return [
+        (float(b.value) + L * float(kv) * unit) / (2 * sqrt(J * L * float(kp) * unit))
+        for kp, kv, b, J in rows
+    ]
+
+
+@lru_cache(maxsize=8)
+def _inertias(model: RobotModel) -> tuple[float, ...]:
+    """The largest M_ii of each joint as Fourier sums show it, kg·m²."""
+    nominal = model.fixed()
+    return tuple(
+        float(largest(harmonics(trig.to_terms(nominal.mass[i][i]), model.n))) for i in range(model.n)
+    )
 
 
 def held(gains: GainSet, model: RobotModel) -> dict[int, JudgedStatement]:
@@ -82,10 +138,6 @@ def resting(gains: GainSet, model: RobotModel) -> Rest | None:
     printed = [None if angle is None else angle / DEGREES for angle in degrees]
     promise, _ = promised(asked_resting(gains, dry_friction(model), printed), judged)
     return Rest(judged, promise, degrees)
-
-
-Fact = tuple[Fraction, str]
-"""How far from the goal, in degrees, and in words."""
 
 
 def farthest(gains: GainSet, model: RobotModel) -> Fact | None:

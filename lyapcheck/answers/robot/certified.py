@@ -14,7 +14,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
-from lyapcheck.answers.robot.judged import DecidedProperty, PropertyQuestion
+from lyapcheck.answers.robot.properties import DecidedProperty, PropertyQuestion
 from lyapcheck.asked import bound_of_constant
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, OfLinks
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
@@ -94,7 +94,7 @@ class _Bound:
     margins: tuple[Fraction, ...] = MARGINS
 
 
-def questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterator[PropertyQuestion]:
+def bound_questions(model: RobotModel, constants: Sequence[ConstantResult]) -> Iterator[PropertyQuestion]:
     """Bounds of the constants of an arm at nominal parameters, two a constant at most."""
     arm, nominal = ArmBounds(model), model.fixed()
     chain = nominal.chain if model.n <= FEW_JOINTS else None
@@ -151,7 +151,7 @@ def certified(answers: Sequence[DecidedProperty], positive: bool) -> dict[str, C
     """The ends that the checker has accepted, by the name of the constant.
 
     Args:
-        answers: to ``questions``.
+        answers: to ``bound_questions``.
         positive: whether M ≻ 0 is proved: only then ‖M‖ > b, which the refutation of ‖M‖ ≤ b comes to, is a
             statement about λmax(M).
     """

@@ -1,23 +1,121 @@
-"""Properties 2.1–2.8 of an arm, decided by the claims of the paper's own proof script."""
+"""Properties 2.1–2.8 of an arm, and claims about what its source prints, with the verdicts of the checker."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
-from lyapcheck.answers.check import ClaimResult, ProofResult
+from flint import fmpq_mpoly
+
+from lyapcheck.answers.check import ProofResult
 from lyapcheck.answers.check.run import ProposedProof, proposed_proof
-from lyapcheck.answers.robot.judged import about_ranges
+from lyapcheck.asked import over_ranges
 from lyapcheck.certificate import Certificate
-from lyapcheck.claims.decision import Decision, undecided
-from lyapcheck.promise import Promise
-from lyapcheck.robots import RobotModel
+from lyapcheck.check.certificate import About
+from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
+from lyapcheck.check.kinds.gravity import GravityOfPotential
+from lyapcheck.check.statement import Monomials, Statement
+from lyapcheck.claims.decision import Decision, decided, undecided
+from lyapcheck.claims.fresh_check import Judged, judge_afresh
+from lyapcheck.claims.handover import Key
+from lyapcheck.claims.moving_arm import ranges_of
+from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.search_result import SearchResult
+from lyapcheck.claims.statements import Missing
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.promise import Promise, promised
+from lyapcheck.robots import Number, RobotModel, trig
+from lyapcheck.search.inertia import mass_of
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
 FRICTION = "2.7"
 """The property of B, whose statement has no ranges; the others are about M, C and g."""
 _STATE_IT = "state it in an arm file that names this URDF"
+SAYS = {
+    "C torque": "the printed C(q, q̇)q̇ is that of the Christoffel symbols of M",
+    "C rates": "Ṁ(q) = C(q, q̇) + C(q, q̇)ᵀ for the printed C",
+    "g": "the printed g(q) is the gradient of the potential",
+}
+
+
+@dataclass(frozen=True)
+class PropertyQuestion:
+    """A statement in words and as data, with what a search proposes, and what was asked."""
+
+    id: str
+    says: str
+    statement: Statement
+    finding: SearchResult
+    asked: Statement
+
+
+@dataclass(frozen=True)
+class DecidedProperty:
+    """The decision, the certificate if the checker has accepted one, and a promise about all ranges."""
+
+    question: PropertyQuestion
+    decision: Decision
+    certificate: Certificate | None
+    over: Promise | None
+
+
+def judged(model: RobotModel, questions: Iterable[PropertyQuestion]) -> list[DecidedProperty]:
+    """The decisions, in order."""
+    rows = list(questions)
+    made = certificates(model, rows)
+    return answered(model, rows, made, judge_afresh(made))
+
+
+def certificates(model: RobotModel, questions: Iterable[PropertyQuestion]) -> dict[Key, Certificate]:
+    """What a fresh process of the checker is to judge."""
+    return {
+        (row.id, None): Certificate(
+            About(row.id, row.says, None, model.n, model.name),
+            row.statement,
+            row.finding.verdict.value,
+            row.finding.grade.label,
+            row.finding.proof,
+        )
+        for row in questions
+        if row.finding.proof is not None
+    }
+
+
+def answered(
+    model: RobotModel,
+    questions: Iterable[PropertyQuestion],
+    made: Mapping[Key, Certificate],
+    judged: Mapping[Key, Judged],
+) -> list[DecidedProperty]:
+    """The decisions of that process, in order."""
+    answers = []
+    for row in questions:
+        decision = decided(row.finding, judged.get((row.id, None)), row.asked)
+        accepted = None if decision.certificate is None else made[row.id, None]
+        over = about_ranges(row.asked, decision, model.parameters.values(), model)
+        answers.append(DecidedProperty(row, decision, accepted, over))
+    return answers
+
+
+def about_ranges(
+    stated: Statement | Missing, decision: Decision, numbers: Iterable[Number], model: RobotModel
+) -> Promise | None:
+    """The promise that what is proved holds for all values of the ranges, where it does.
+
+    Args:
+        stated: what was asked.
+        decision: on it.
+        numbers: of the arm that it is about.
+        model: the arm.
+    """
+    if decision.promise is None or not isinstance(stated, Statement):
+        return None
+    if not any(number.ranged for number in numbers):
+        return decision.promise
+    asked = over_ranges(stated, model)
+    return None if asked is None else promised(asked, decision.promise.shown)[0]
 
 
 @dataclass(frozen=True)
@@ -56,10 +154,11 @@ def properties(
 
     Friction that nobody has stated is not 0: then 2.7 is open, whatever follows for 0.
     """
-    rows = {
-        row.id: PropertyResult(row.id, row.statement, row.decision, _over(row, model))
-        for row in result.claims
-    }
+    rows = {}
+    for row in result.claims:
+        numbers = model.viscous if row.id == FRICTION else model.parameters.values()
+        over = about_ranges(row.stated, row.decision, numbers, model)
+        rows[row.id] = PropertyResult(row.id, row.statement, row.decision, over)
     made = dict(result.certificates)
     missing = _without_friction(model, assumed=True)
     if missing:
@@ -72,12 +171,68 @@ def properties(
     return tuple(rows[name] for name in IDS), made
 
 
-def _over(row: ClaimResult, model: RobotModel) -> Promise | None:
-    numbers = model.viscous if row.id == FRICTION else model.parameters.values()
-    return about_ranges(row.stated, row.decision, numbers, model)
-
-
 def _without_friction(model: RobotModel, assumed: bool) -> str:
     """The joints whose viscous friction is 0 because nobody stated it, or because the file says so."""
     rows = zip(model.joints, model.viscous, strict=True)
     return ", ".join(joint for joint, number in rows if number.value == 0 and number.assumed is assumed)
+
+
+def print_claims(model: RobotModel) -> tuple[PropertyResult, ...]:
+    """Same torque? Ṁ = C + Cᵀ? Same gravity? Empty where the source prints neither C nor g."""
+    return tuple(map(as_property, judged(model, print_questions(model))))
+
+
+def as_property(answer: DecidedProperty) -> PropertyResult:
+    """A claim about the print with its decision."""
+    name = answer.question.id.removeprefix("printed ")
+    return PropertyResult(name, answer.question.says, answer.decision, answer.over)
+
+
+def print_questions(model: RobotModel) -> list[PropertyQuestion]:
+    """The claims as statements, with what the search proposes."""
+    return [
+        PropertyQuestion(
+            f"printed {name}", SAYS[name], statement, _named(model, propose(statement)), statement
+        )
+        for name, statement in _statements(model).items()
+    ]
+
+
+def _statements(model: RobotModel) -> dict[str, Statement]:
+    printed, ranges = model.printed, ranges_of(model)
+    result: dict[str, Statement] = {}
+    if printed is None:
+        return result
+    numbers = _numbers(model)
+    if printed.coriolis:
+        symbols = printed.symbols(model.ring, numbers, model.n)
+        # each printed term has exactly one rate, so that nothing is left without
+        C = tuple(tuple((*map(_terms, entry), ()) for entry in row) for row in symbols)
+        result["C torque"] = CoriolisTorque(mass_of(model), ranges, C)
+        result["C rates"] = RateOfMass(mass_of(model), ranges, C)
+    if printed.gravity:
+        weights = tuple(map(_terms, printed.weights(model.ring, numbers)))
+        result["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)
+    return result
+
+
+def _terms(polynomial: fmpq_mpoly) -> Monomials:
+    return tuple(trig.to_terms(polynomial))
+
+
+def _named(model: RobotModel, finding: SearchResult) -> SearchResult:
+    """The uncertain numbers of a witness by their names."""
+    if finding.witness is None:
+        return finding
+    names = {f"p{k + 1}": name for k, name in enumerate(model.parameters)}
+    point = {
+        names.get(name, name): decimal_text(Fraction(value)) if name in names else value
+        for name, value in finding.witness["point"].items()
+    }
+    return replace(finding, witness={**finding.witness, "point": point})
+
+
+def _numbers(model: RobotModel) -> dict[str, fmpq_mpoly]:
+    """The numbers of the arm as polynomials of its ring."""
+    known = {name: trig.constant(model.ring, number.value) for name, number in model.numbers.items()}
+    return known | dict(zip(model.parameters, model.ring.gens()[2 * model.n :], strict=True))

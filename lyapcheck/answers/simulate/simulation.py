@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol, TypeVar
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
-from lyapcheck.answers.gain_place import GainPlace, gain_place
+from lyapcheck.output import fields
 from lyapcheck.output.annotations import Annotation, Level
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.simulate.breach import Breach
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.starts import Sweep
+    from lyapcheck.tracking.run import TrackingRun
+
 
 PROMISES, FINISHED = "promises", "finished"
 MARKS = {Level.PASSED: "✓", Level.FAILED: "✗", Level.UNDECIDED: "?"}
@@ -26,33 +34,15 @@ NUMERIC = (
     "there is no certificate."
 )
 BREACH_KEYS = ("promise", "t", "value", "limit", "unit", "grade")
+BREACH = (
+    Field("breach", "breach", to=lambda breach: breach.data, csv=None),
+    Field("", lambda one: breach_record(one.breach), csv="breach"),
+)
+"""What broke, whole for programs and in a few cells for spreadsheets."""
 
 
-class Simulated(Protocol):
-    """What was found for one gain set."""
-
-    @property
-    def name(self) -> str:
-        """The name of the gain set."""
-
-    @property
-    def robot(self) -> str:
-        """The name of the arm."""
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What the reader must know."""
-
-    @property
-    def breach(self) -> Breach | None:
-        """The first promise that it broke."""
-
-    @property
-    def without_dry_friction(self) -> bool:
-        """Whether the arm file gives dry friction that the run leaves out."""
-
-
-Result = TypeVar("Result", bound=Simulated)
+Result = TypeVar("Result", bound="Run | Sweep | TrackingRun")
+"""What was found for one gain set."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +73,8 @@ class Simulation(Answer, Generic[Result]):
 
     promised: ClassVar[str]
     """What theory promises, in words."""
+    fields: ClassVar[tuple[Field, ...]]
+    """What is said of a gain set, and of each joint of it."""
 
     @property
     def exit_code(self) -> Exit:
@@ -141,21 +133,28 @@ class Simulation(Answer, Generic[Result]):
         """A case a gain set."""
         return [self._annotation(name) for name in self._names()]
 
-    @abstractmethod
     def overview(self) -> Table:
-        """A row a gain set."""
+        """A row a gain set, and how it came out."""
+        mark = Field("", lambda one: self.mark(one.name) or NONE, "promises", align="l")
+        whole = [one for one in self.fields if not one.each]
+        return fields.table([*whole, mark], [(one,) for one in self.results])
+
+    def by_joint(self, one: Result, **words: Any) -> Table:
+        """A row a joint of a gain set."""
+        parts = [field for field in self.fields if field.each]
+        return fields.table(parts, [(one, i) for i in range(len(one.joints))], **words)
 
     @abstractmethod
     def section(self, one: Result) -> Section:
         """All that was found for a gain set."""
 
-    @abstractmethod
     def plain_data(self, one: Result) -> dict[str, Any]:
         """The same for programs."""
+        return fields.data(self.fields, one)
 
-    @abstractmethod
     def rows_of(self, one: Result) -> list[dict[str, Any]]:
         """The same as rows of a table."""
+        return fields.records(self.fields, one, len(one.joints))
 
     def opening(self) -> Sequence[Block]:
         """What all gain sets have in common."""
@@ -203,13 +202,9 @@ class Simulation(Answer, Generic[Result]):
         said = [*([] if breach is None else [breach.sentence]), *self.missing(name)]
         rule = PROMISES if self.watches(name) else FINISHED
         text = self.promised if rule == PROMISES else "the run reaches its end"
-        place = self._place(name)
-        return Annotation(self.level(name), rule, text, name, "", "; ".join(said), *place)
-
-    def _place(self, name: str) -> GainPlace:
-        known = () if self.file is None else self.file.gains
-        result = next((gain_set for gain_set in known if gain_set.name == name), None)
-        return GainPlace() if result is None else gain_place(self.file, result)
+        known = {} if self.file is None else {one.name: one for one in self.file.gains}
+        place = self.file.spot(known[name]) if self.file is not None and name in known else {}
+        return Annotation(self.level(name), rule, text, name, "", "; ".join(said), **place)
 
 
 def breach_record(breach: Breach | None) -> dict[str, Any]:
@@ -219,3 +214,38 @@ def breach_record(breach: Breach | None) -> dict[str, Any]:
 
 def _unique(texts: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(texts))
+
+
+def lower(value: float | Fraction | None) -> str:
+    """A limit or an ε₀, rounded down; a dash where there is none."""
+    return NONE if value is None or math.isnan(value) else at_least(value)
+
+
+def upper(value: float | None) -> str:
+    """A bound from above, rounded up; a dash where there is none."""
+    return NONE if value is None or math.isnan(value) else at_most(value)
+
+
+def sized(value: float) -> str:
+    """The size of an error in one digit, rounded up."""
+    return "unknown" if math.isnan(value) else at_most(value, 1)
+
+
+def plain(value: float | None) -> float | None:
+    """The number to nine digits, which is what the accuracy of a run supports; none for NaN and infinity."""
+    return None if value is None or not math.isfinite(value) else float(f"{value:.9g}")
+
+
+def plains(values: Iterable[float]) -> list[float | None]:
+    """The same for each number."""
+    return [plain(float(value)) for value in values]
+
+
+def degrees(values: Iterable[float]) -> list[float | None]:
+    """Angles in rad for programs."""
+    return plains(map(math.degrees, values))
+
+
+def row(values: Iterable[float]) -> str:
+    """Numbers in parentheses."""
+    return f"({', '.join(shown(value, 'g') for value in values)})"

@@ -8,22 +8,56 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row
-from lyapcheck.answers.simulate.quantities import quantities
 from lyapcheck.answers.simulate.runs import SETTLED
-from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.answers.simulate.samples import quantities
+from lyapcheck.answers.simulate.simulation import (
+    BREACH,
+    Simulation,
+    breach_record,
+    degrees,
+    lower,
+    plain,
+    plains,
+    row,
+)
+from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
+from lyapcheck.output.fields import Field, records
 from lyapcheck.simulate.starts import SHARES, Sweep, quantiles
 
-OVERVIEW = ("gains", "finished", "V rose in", "beyond a motor's limit in", "ε₀", "promises")
 QUANTILES = tuple("least" if s == 0 else "most" if s == 1 else f"{100 * s:g} %" for s in SHARES)
-HEADS = ("quantity", *QUANTILES, "without")
 WITHOUT = "Of each quantity: its quantiles over the runs, and how many runs are without it."
+
+
+FIELDS = (
+    Field("name", "name", "gains", align="l"),
+    Field("m", "gains.family.m"),
+    Field("robot", "robot"),
+    Field("kind", lambda one: "random starts"),
+    Field("runs", "starts.count"),
+    Field("spread", lambda one: plain(math.degrees(one.starts.spread))),
+    Field("seed", "starts.seed"),
+    Field("start", "task.q0", to=degrees, csv=None),
+    Field("target", "task.q_d", to=degrees, csv=None),
+    Field("time", "task.T"),
+    Field("", lambda one: f"{one.finished} of {one.starts.count}", "finished", csv=None),
+    Field("finished", "finished"),
+    Field("V_rose", lambda one: _count(one.risen), "V rose in"),
+    Field("beyond_limits", lambda one: _count(one.beyond), "beyond a motor's limit in"),
+    Field("eps0", "eps0", "ε₀", lower),
+    Field("shares", lambda one: list(SHARES), csv=None),
+    Field(
+        "quantiles", lambda one: {of.name: plains(quantiles(of.values)) for of in quantities(one)}, csv=None
+    ),
+    BREACH[0],
+)
+"""Units in the names; quantiles by name."""
 
 
 class RandomStarts(Simulation[Sweep]):
     """Quantiles of the indices over runs from random starts to a set point."""
 
+    fields = FIELDS
     promised = "V falls, every motor stays within its limit"
 
     def about(self) -> str:
@@ -50,69 +84,30 @@ class RandomStarts(Simulation[Sweep]):
         """Settling, and the last column."""
         return SETTLED, WITHOUT
 
-    def overview(self) -> Table:
-        """How many runs ended, and how many broke a promise."""
-        rows = [
-            (
-                one.name,
-                f"{one.finished} of {one.starts.count}",
-                str(_count(one.risen)),
-                str(_count(one.beyond)),
-                lower(one.eps0),
-                self.mark(one.name),
-            )
-            for one in self.results
-        ]
-        return Table(OVERVIEW, tuple(rows), align="lrrrrl")
-
     def section(self, one: Sweep) -> Section:
         """A row a quantity; why runs did not reach their end."""
         member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
-        rows = [
-            (result.name, *(cell(x, result.form) for x in quantiles(result.values)), str(result.without))
-            for result in quantities(one)
-        ]
         reasons = dict.fromkeys(reason for reason in one.runs.failure if reason)
         failed = [Bullets(tuple(f"not finished: {reason}" for reason in reasons))] if reasons else []
-        blocks: tuple[Block, ...] = (*failed, Table(HEADS, tuple(rows)))
-        return Section(f"{self.mark(one.name)} {one.name}{member}", blocks)
-
-    def plain_data(self, one: Sweep) -> dict[str, Any]:
-        """Quantiles by name, units in the names."""
-        return {
-            "name": one.name,
-            "m": one.gains.family.m,
-            "robot": one.robot,
-            "kind": "random starts",
-            "runs": one.starts.count,
-            "spread": plain(math.degrees(one.starts.spread)),
-            "seed": one.starts.seed,
-            "start": plains(np.degrees(one.task.q0)),
-            "target": plains(np.degrees(one.task.q_d)),
-            "time": one.task.T,
-            "finished": one.finished,
-            "eps0": one.eps0,
-            "V_rose": _count(one.risen),
-            "beyond_limits": _count(one.beyond),
-            "shares": list(SHARES),
-            "quantiles": {result.name: plains(quantiles(result.values)) for result in quantities(one)},
-            "breach": None if one.breach is None else one.breach.data,
-        }
+        rows = tuple(
+            (of.name, *(shown(x, of.form) for x in quantiles(of.values)), str(of.without))
+            for of in quantities(one)
+        )
+        heads = ("quantity", *QUANTILES, "without")
+        return Section(f"{self.mark(one.name)} {one.name}{member}", (*failed, Table(heads, rows)))
 
     def rows_of(self, one: Sweep) -> list[dict[str, Any]]:
         """A row a gain set and quantity."""
-        data = self.plain_data(one)
-        keys = ("name", "m", "robot", "kind", "runs", "spread", "seed", "time", "finished", "eps0")
-        head = {key: data[key] for key in (*keys, "V_rose", "beyond_limits")}
+        (head,) = records(self.fields, one)
         return [
             {
                 **head,
-                "quantity": result.name,
-                **dict(zip(QUANTILES, data["quantiles"][result.name], strict=True)),
-                "without": result.without,
+                "quantity": of.name,
+                **dict(zip(QUANTILES, plains(quantiles(of.values)), strict=True)),
+                "without": of.without,
                 "breach": breach_record(one.breach),
             }
-            for result in quantities(one)
+            for of in quantities(one)
         ]
 
 

@@ -3,41 +3,128 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.numbers import cell, lower, plain, plains, row, sized
-from lyapcheck.answers.simulate.simulation import Simulation, breach_record
+from lyapcheck.answers.simulate.simulation import (
+    BREACH,
+    Simulation,
+    degrees,
+    lower,
+    plain,
+    plains,
+    row,
+    sized,
+)
 from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most
-from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Paragraph, Section
+from lyapcheck.output.fields import Field, data, records
 from lyapcheck.tracking.run import TrackingRun
 
-OVERVIEW = (
-    "gains",
-    "L2 [°]",
-    "ε₀",
-    "estimated Θ′ ≻ 0 up to",
-    "estimated to fall",
-    "V(0) [J]",
-    "V at end [J]",
-    "promises",
-)
 ESTIMATED = (
     "Estimated: by theory at the arm's nominal numbers, for all times and all motions from this start, "
     "with bounds of M, C and q̇_d that no certificate shows; seen: in one run."
 )
-PER_JOINT = ("start", "rms", "peak_error", "entered", "final_error", "peak_torque", "torque_limit")
-PER_RUN = ("L2", "band", "V_start", "V_end", "accuracy", "work_balance", "seen")
+
+
+def up(value: Fraction | None) -> str:
+    """A bound in four digits, never rounded down; a dash where there is none."""
+    return NONE if value is None else at_most(max(value, Fraction(0)))
+
+
+def above(value: Fraction) -> float:
+    """The smallest double that is not below."""
+    return Enclosure(value, value).float_upper
+
+
+def all_above(values: Iterable[Fraction]) -> list[float]:
+    """The same of each."""
+    return list(map(above, values))
+
+
+def _error_rate(one: TrackingRun) -> float:
+    return float(np.max(np.linalg.norm(one.motion.w, axis=1)))
+
+
+def _inside(one: TrackingRun) -> list[str]:
+    """Whether the torque of a joint is estimated to stay inside its motor's limit, or was seen to."""
+    totals = [None] * len(one.joints) if one.promise.torque is None else one.promise.torque.total
+    rows = zip(one.torque_limit, one.indices.peak_torque, totals, strict=True)
+    return [
+        ""
+        if limit is None
+        else "NO"
+        if peak > limit
+        else "estimated"
+        if total is not None and total <= limit
+        else "seen"
+        for limit, peak, total in rows
+    ]
+
+
+def _yes(whether: bool) -> str:
+    return "yes" if whether else "no"
+
+
+SEEN = (
+    Field("reference_speed", "seen_speed", to=plain),
+    Field("error_rate", lambda one: plain(_error_rate(one))),
+    Field("tightness", "tightness", to=plain),
+)
+PROMISED = (
+    Field("reference_speed", "promise.suprema.speed", to=above),
+    Field("reference_acceleration", "promise.suprema.acceleration_norm", to=above),
+    Field("eps0", "promise.eps0"),
+    Field("largest_eps0", "promise.largest", to=decimal_text),
+    Field("V_falls", "promise.falls"),
+    Field("reason", "promise.reason"),
+    Field("torque_bound", "promise.torque.total", to=all_above, csv=None),
+    Field("error_rate", "promise.torque.error_rate", to=above),
+)
+FIELDS = (
+    Field("name", "name", "gains", align="l"),
+    Field("m", "gains.family.m"),
+    Field("robot", "robot"),
+    Field("kind", lambda one: "tracking"),
+    Field("reference", "reference.sentence"),
+    Field("complete", "complete"),
+    Field("time", "T"),
+    Field("reached", lambda one: plain(one.motion.t[-1])),
+    Field("joints", "joints", "joint", to=list, align="l", each=True, csv="joint"),
+    Field("start", lambda one: one.motion.q[0], to=degrees, each=True),
+    Field("rms", "indices.rms", "rms [°]", "z.4f", plains, each=True),
+    Field("peak_error", "indices.peak_error", "peak error [°]", "z.3f", plains, each=True),
+    Field("entered", "indices.entered", "within {band} from [s]", "z.3f", plains, each=True),
+    Field("final_error", "indices.final_error", "final error [°]", "z.4f", plains, each=True),
+    Field("peak_torque", "indices.peak_torque", "peak torque [N·m]", "z.2f", plains, each=True),
+    Field("", "promise.torque.total", "estimated [N·m]", up, all_above, each=True, csv="promised_torque"),
+    Field("torque_limit", "torque_limit", "limit [N·m]", lower, list, each=True),
+    Field("", _inside, "inside limit", align="l", each=True, csv=None),
+    Field("L2", "indices.L2", "L2 [°]", ".4f", plain),
+    Field("", "promise.eps0", "ε₀", lower, csv=None),
+    Field("", "promise.largest", "estimated Θ′ ≻ 0 up to", lower, csv=None),
+    Field("", "promise.falls", "estimated to fall", _yes, align="l", csv=None),
+    Field("band", lambda one: plain(math.degrees(one.band))),
+    Field("V_start", lambda one: one.V[0], "V(0) [J]", ".5g", plain),
+    Field("V_end", lambda one: one.V[-1], "V at end [J]", ".3g", plain),
+    Field("accuracy", "accuracy", to=plain),
+    Field("work_balance", "work_balance", to=plain),
+    Field("seen", lambda one: data(SEEN, one)),
+    Field("promised", lambda one: data(PROMISED, one), csv=None),
+    Field("", lambda one: records(PROMISED, one)[0], csv="promised"),
+    *BREACH,
+)
+"""Angles in degrees, rates in rad/s; what is promised is rounded outward."""
 
 
 class TrackingRuns(Simulation[TrackingRun]):
     """Runs along a reference, with their indices beside what theory promises."""
 
+    fields = FIELDS
     promised = "dV/dt stays below −zᵀΘ'z, each |τ_i| within its bound for (21), every motor within its limit"
 
     def about(self) -> str:
@@ -55,73 +142,10 @@ class TrackingRuns(Simulation[TrackingRun]):
         """What is estimated."""
         return (ESTIMATED,)
 
-    def overview(self) -> Table:
-        """L2, ε₀ and V of each run."""
-        rows = []
-        for one in self.results:
-            eps0 = lower(one.promise.eps0), lower(one.promise.largest), "yes" if one.promise.falls else "no"
-            ends = f"{one.V[0]:.5g}", f"{one.V[-1]:.3g}"
-            rows.append((one.name, cell(one.indices.L2, ".4f"), *eps0, *ends, self.mark(one.name)))
-        return Table(OVERVIEW, tuple(rows), align="lrrrlrrl")
-
     def section(self, one: TrackingRun) -> Section:
         """A row a joint, and what is estimated beside what was seen."""
-        table = Table(_heads(one), tuple(_rows(one)), align="lrrrrrrrl")
+        table = self.by_joint(one, band=f"{math.degrees(one.band):g}°")
         return Section(f"{self.mark(one.name)} {_headline(one)}".strip(), (table, Bullets(_facts(one))))
-
-    def plain_data(self, one: TrackingRun) -> dict[str, Any]:
-        """Rates in rad/s; what is promised is rounded outward."""
-        result, motion = one.indices, one.motion
-        return {
-            "name": one.name,
-            "m": one.gains.family.m,
-            "robot": one.robot,
-            "kind": "tracking",
-            "reference": one.reference.sentence,
-            "complete": one.complete,
-            "time": one.T,
-            "reached": plain(motion.t[-1]),
-            "start": plains(np.degrees(motion.q[0])),
-            "joints": list(one.joints),
-            "L2": plain(result.L2),
-            "rms": plains(result.rms),
-            "peak_error": plains(result.peak_error),
-            "final_error": plains(result.final_error),
-            "band": plain(math.degrees(one.band)),
-            "entered": plains(result.entered),
-            "peak_torque": plains(result.peak_torque),
-            "torque_limit": list(one.torque_limit),
-            "V_start": plain(one.V[0]),
-            "V_end": plain(one.V[-1]),
-            "accuracy": plain(one.accuracy),
-            "work_balance": plain(one.work_balance),
-            "seen": {
-                "reference_speed": plain(one.seen_speed),
-                "error_rate": plain(_error_rate(one)),
-                "tightness": plain(one.tightness),
-            },
-            "promised": _promise(one),
-            "breach": None if one.breach is None else one.breach.data,
-        }
-
-    def rows_of(self, one: TrackingRun) -> list[dict[str, Any]]:
-        """A row a run and joint; names and units as in `data`."""
-        data = self.plain_data(one)
-        keys = ("name", "m", "robot", "kind", "reference", "complete", "time", "reached")
-        promised = data["promised"]
-        bounds = promised.pop("torque_bound")
-        return [
-            {
-                **{key: data[key] for key in keys},
-                "joint": joint,
-                **{key: data[key][i] for key in PER_JOINT},
-                "promised_torque": None if bounds is None else bounds[i],
-                **{key: data[key] for key in PER_RUN},
-                "promised": promised,
-                "breach": breach_record(one.breach),
-            }
-            for i, joint in enumerate(one.joints)
-        ]
 
 
 def _headline(one: TrackingRun) -> str:
@@ -161,65 +185,3 @@ def _promised(one: TrackingRun) -> list[str]:
         most, seen = up(promise.torque.error_rate), _error_rate(one)
         lines.append(f"estimated: ‖q̇ − q̇_d‖ ≤ {most} rad/s, seen {at_most(seen)}")
     return lines
-
-
-def _error_rate(one: TrackingRun) -> float:
-    return float(np.max(np.linalg.norm(one.motion.w, axis=1)))
-
-
-def _heads(one: TrackingRun) -> tuple[str, ...]:
-    within = f"within {math.degrees(one.band):g}° from [s]"
-    heads = ("joint", "rms [°]", "peak error [°]", within, "final error [°]", "peak torque [N·m]")
-    return (*heads, "estimated [N·m]", "limit [N·m]", "inside limit")
-
-
-def _rows(one: TrackingRun) -> list[tuple[str, ...]]:
-    result, torque = one.indices, one.promise.torque
-    return [
-        (
-            joint,
-            cell(result.rms[i], "z.4f"),
-            cell(result.peak_error[i], "z.3f"),
-            cell(result.entered[i], "z.3f"),
-            cell(result.final_error[i], "z.4f"),
-            cell(result.peak_torque[i], "z.2f"),
-            NONE if torque is None else up(torque.total[i]),
-            lower(one.torque_limit[i]),
-            _inside(one, i),
-        )
-        for i, joint in enumerate(one.joints)
-    ]
-
-
-def _inside(one: TrackingRun, i: int) -> str:
-    """Whether the torque of a joint is estimated to stay inside its motor's limit, or was seen to."""
-    limit, torque = one.torque_limit[i], one.promise.torque
-    if limit is None:
-        return ""
-    if one.indices.peak_torque[i] > limit:
-        return "NO"
-    return "estimated" if torque is not None and torque.total[i] <= limit else "seen"
-
-
-def _promise(one: TrackingRun) -> dict[str, Any]:
-    promise, torque = one.promise, one.promise.torque
-    return {
-        "reference_speed": _double_above(promise.suprema.speed),
-        "reference_acceleration": _double_above(promise.suprema.acceleration_norm),
-        "eps0": promise.eps0,
-        "largest_eps0": None if promise.largest is None else decimal_text(promise.largest),
-        "V_falls": promise.falls,
-        "reason": promise.reason,
-        "torque_bound": None if torque is None else [_double_above(x) for x in torque.total],
-        "error_rate": None if torque is None else _double_above(torque.error_rate),
-    }
-
-
-def _double_above(value: Fraction) -> float:
-    """The smallest double that is not below."""
-    return Enclosure(value, value).float_upper
-
-
-def up(value: Fraction) -> str:
-    """A bound in four digits, never rounded down."""
-    return at_most(max(value, Fraction(0)))

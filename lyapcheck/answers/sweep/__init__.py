@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.sweep.ask import batches
-from lyapcheck.answers.sweep.plan import Plan
+from lyapcheck.answers.sweep.plan import Plan, read_plan
 from lyapcheck.answers.sweep.question import Answered, Row
-from lyapcheck.answers.sweep.reader import read_plan
+from lyapcheck.answers.sweep.workers import answers_here, answers_of_cluster, batches
 from lyapcheck.compiled.threads import processors
 
 if TYPE_CHECKING:
@@ -28,14 +27,10 @@ def asked(plan: Plan, workers: int, scheduler: str | None = None) -> Iterator[An
     """
     work = batches(plan.questions())
     if scheduler is not None:
-        from lyapcheck.answers.sweep import cluster
-
-        results = cluster.answers(work, scheduler, plan.count)
+        results = answers_of_cluster(work, scheduler, plan.count)
     else:
-        from lyapcheck.answers.sweep import local
-
         fewer = min(workers, plan.count)  # cores that are left share the boxes of one question
-        results = local.answers(work, fewer, jobs=workers // max(1, fewer))
+        results = answers_here(work, fewer, jobs=workers // max(1, fewer))
     for result in results:
         yield from result
 

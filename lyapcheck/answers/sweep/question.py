@@ -1,21 +1,30 @@
-"""One question of a sweep, and what came of it."""
+"""One question of a sweep, about an arm that a process reads once, and what came of it."""
 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.sweep.arms import arm
+from lyapcheck import store
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots import load
+from lyapcheck.robots.vary import Vary
+from lyapcheck.simulate.task import PAPER_TASK, Task, task_for
 from lyapcheck.verdicts import Exit, Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
+    from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
 
+MOST = 16
+"""Arms that a process keeps."""
 Row = dict[str, Any]
 COLUMNS: Mapping[str, str] = {
     "index": "integer",
@@ -38,7 +47,6 @@ COLUMNS: Mapping[str, str] = {
     "answer": "data",
 }
 """The columns of a row, and what they hold; a cell that does not apply is empty."""
-
 VERDICTS: Mapping[Exit, str] = {
     Exit.PROVED: Verdict.PROVED.value,
     Exit.REFUTED: Verdict.REFUTED.value,
@@ -46,6 +54,37 @@ VERDICTS: Mapping[Exit, str] = {
     Exit.INTERNAL: Verdict.ERROR.value,
 }
 """What the exit codes of commands say."""
+STEP = 45.0
+"""Degrees, of every joint of an arm that the paper's experiment does not fit."""
+
+
+@dataclass(frozen=True)
+class UncertainArm:
+    """An arm with its uncertainties.
+
+    Args:
+        model: the arm.
+        ranges: what varies.
+        digest: of all its numbers.
+        limits: by its name, as the gate takes them; read when it is first asked.
+    """
+
+    model: RobotModel
+    ranges: tuple[Vary, ...]
+    digest: str
+    limits: dict[str, ArmLimits] = field(default_factory=dict)
+
+
+@lru_cache(maxsize=MOST)
+def arm(robot: str, variation: tuple[str, ...] = ()) -> UncertainArm:
+    """The arm of a name or file, with ranges as ``--vary`` takes them.
+
+    Raises:
+        InputError: no such arm, or a range of nothing that it has.
+    """
+    ranges = tuple(map(Vary.parsed, variation))
+    model = load(robot, vary=ranges)
+    return UncertainArm(model, ranges, store.exact(model))
 
 
 @dataclass(frozen=True)
@@ -147,3 +186,15 @@ def answered(
 def line_of(row: Row) -> str:
     """A row as one line of JSON, its columns in their order."""
     return json.dumps(row, ensure_ascii=False, allow_nan=False, separators=(",", ":")) + "\n"
+
+
+def task_of(model: RobotModel, options: Mapping[str, Any]) -> Task:
+    """From ``start`` to ``target``, in degrees: from home to the paper's goal, where nothing else is said.
+
+    Raises:
+        InputError: angles for another number of joints, or out of every range.
+    """
+    paper = PAPER_TASK.q_d if model.n == len(PAPER_TASK.q_d) else (math.radians(STEP),) * model.n
+    target = tuple(map(math.radians, options["target"])) or paper
+    start = tuple(map(math.radians, options["start"])) or (0.0,) * model.n
+    return task_for(model.n, target, start, None, options["time"])

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.tune.data import joint_records, limits_data, set_data, targets_data
-from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, GainComparison, TunedSet
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.control.gains import Bounds
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.deciding import DECIDING
+from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_least
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.digits import at_least, at_most, decimals, shown
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section
+from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.effect import Effect
+    from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 
-HEADS = ("joint", "k_p", "k_v", "(10p) limit", "(19) limit", "k_p ends at", "k_v ends at")
-DAMPING_HEAD = "ζ"
-COMPARED_HEADS = ("joint", "k_p", "k_v", "k_p left", "of the largest", "share of (10p)", "breaks")
+TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
 BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
 MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
 NONE_FOUND = {
@@ -40,6 +40,224 @@ DAMPED = (
 LIMIT_DIGITS = 6
 """Significant digits of limits, as the gate shows them."""
 LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
+DIGITS = 20
+"""Of limits, for programs."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One member's run: degrees, the largest share of a motor's limit, rad/s; the worst joint each.
+
+    ``rest`` is how far from the goal dry friction may hold a joint; infinite where it holds it anywhere.
+    """
+
+    m: int
+    L2: float
+    final: float
+    share: float
+    speed: float
+    rest: float
+
+
+def _six(value: float) -> float | None:
+    """Six digits; none for infinity."""
+    return float(f"{value:.6g}") if math.isfinite(value) else None
+
+
+def _rest(value: float) -> str:
+    return "anywhere" if math.isinf(value) else at_most(value) if value > 0 else "—"
+
+
+EFFECT = (
+    Field("m", "m", "m", align="l"),
+    Field("L2", "L2", "L2 [°]", ".2f", _six),
+    Field("final", "final", "error at the end [°]", ".2f", _six),
+    Field("share", "share", "torque share", ".2f", _six),
+    Field("speed", "speed", "top speed [rad/s]", ".2f", _six),
+    Field("rest", "rest", "friction leaves [°]", _rest, _six),
+)
+
+
+def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Effect, ...]:
+    """A run by the equations for each member; one that could not be finished is left out.
+
+    Soundness: floating point; one motion says nothing of others.
+    """
+    # what runs is loaded only by those who have no runs yet
+    import numpy as np
+
+    from lyapcheck.answers.gate.friction import rest_errors
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.run import SimulationFailed
+
+    result = []
+    for gains in sets:
+        try:
+            run = simulate(gains, model, task.q_d, task.q0, task.w0, task.T, stop=False)
+        except SimulationFailed:
+            continue
+        limits = np.array([np.nan if most is None else most for most in run.torque_limit])
+        share = float(np.nanmax(run.peak_torque / limits)) if not np.all(np.isnan(limits)) else math.nan
+        rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model))
+        final, speed = float(np.max(np.abs(run.indices.final_error))), float(np.max(np.abs(run.w)))
+        result.append(Effect(gains.m or 0, run.L2, final, share, speed, rest))
+    return tuple(result)
+
+
+def effect_section(result: Sequence[Effect], target: Sequence[float], time: float) -> Section:
+    """Runs to a target, degrees, in a time, s, beside each other, and what they show in one sentence."""
+    goal = ", ".join(shown(x, "g") for x in target)
+    first, last = result[0], result[-1]
+    L2, final, speed = (
+        f"from {shown(getattr(first, name), '.1f')}{unit} to {shown(getattr(last, name), '.1f')}{unit}"
+        for name, unit in (("L2", "°"), ("final", "°"), ("speed", ""))
+    )
+    says = (
+        f"Simulated by (11), without dry friction: in {shown(time, 'g')} s from rest to ({goal})°, from "
+        f"m = {first.m} to m = {last.m}: L2 goes {L2}, the error at the end {final}, the top speed {speed} "
+        "rad/s. For m ≥ 2 h is flat at the goal."
+    )
+    blocks: tuple[Block, ...] = (table(EFFECT, [(one,) for one in result]), Paragraph(says))
+    return Section("Simulated: what m does", blocks)
+
+
+@dataclass(frozen=True)
+class TunedJoint:
+    """The gains of one joint and what forbids larger ones.
+
+    Args:
+        name: of the joint.
+        kp: N·m, exact.
+        kv: N·m, exact.
+        sum_limit: what (10p) keeps k_p + k_v below, N·m.
+        kv_limit: what (19) keeps k_v below, N·m.
+        kp_bound: ``10p`` or ``damping``: what one unit more of k_p would break.
+        kv_bound: ``19`` or ``10p``: what one unit more of k_v would break.
+        damping: the damping ratio from below, where one was asked for.
+    """
+
+    name: str
+    kp: Fraction
+    kv: Fraction
+    sum_limit: Enclosure
+    kv_limit: Enclosure
+    kp_bound: str
+    kv_bound: str
+    damping: Fraction | None = None
+
+
+@dataclass(frozen=True)
+class ComparedJoint:
+    """A joint's gains from elsewhere beside the tuned ones.
+
+    Args:
+        name: of the joint.
+        kp: theirs, N·m.
+        kv: theirs, N·m.
+        kp_left: tuned k_p less theirs: what they left on the table, N·m.
+        kp_left_share: the same as a share of the tuned k_p, from below.
+        used: the share of (10p)'s limit that they use, from below.
+        broken: the conditions that they break.
+    """
+
+    name: str
+    kp: Fraction
+    kv: Fraction
+    kp_left: Fraction
+    kp_left_share: Fraction
+    used: Fraction
+    broken: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class GainComparison:
+    """A gain set from elsewhere beside the tuned one."""
+
+    name: str
+    source: str
+    joints: tuple[ComparedJoint, ...]
+
+
+@dataclass(frozen=True)
+class TunedSet:
+    """The gains for one member; ``reasons`` says why there are none."""
+
+    name: str
+    m: int
+    status: str
+    joints: tuple[TunedJoint, ...] = ()
+    reasons: tuple[str, ...] = ()
+    program: str = ""
+    comparison: GainComparison | None = None
+
+    @property
+    def gains(self) -> GainSet | None:
+        """As the gate reads them."""
+        if self.status != TUNED:
+            return None
+        kp, kv = tuple(j.kp for j in self.joints), tuple(j.kv for j in self.joints)
+        return GainSet(self.name, self.m, kp, kv, condition=DECIDING)
+
+
+def ends(value: Enclosure) -> dict[str, str]:
+    """A limit for programs."""
+    return dict(zip(("lower", "upper"), decimals(value, DIGITS), strict=True))
+
+
+def texts(values: Iterable[Fraction | None]) -> list[str | None]:
+    """Exact numbers for programs."""
+    return [None if value is None else decimal_text(value) for value in values]
+
+
+def _limit(value: Enclosure) -> str:
+    return at_least(value, LIMIT_DIGITS)
+
+
+def _percent(share: Fraction) -> str:
+    return f"{at_least(100 * share)} %"
+
+
+def _broken(names: Sequence[str]) -> str:
+    return ", ".join(BOUNDS[name] for name in names) or "nothing"
+
+
+ASKED = (
+    Field("digits", "digits"),
+    *(Field(key, key, to=texts) for key in ("peak_share", "kv_share", "kv_min", "damping")),
+)
+TUNED_TO = (
+    Field("torque", "torque", to=texts),
+    Field("gravity", "gravity", to=texts),
+    Field("viscous_min", "viscous_min", to=decimal_text),
+)
+"""N·m and N·m·s/rad."""
+COMPARED = (
+    Field("joint", "name", "joint", align="l"),
+    Field("kp", "kp", "k_p", decimal_text, decimal_text),
+    Field("kv", "kv", "k_v", decimal_text, decimal_text),
+    Field("kp_left", "kp_left", "k_p left", decimal_text, decimal_text),
+    Field("kp_left_share", "kp_left_share", "of the largest", _percent, decimal_text),
+    Field("used", "used", "share of (10p)", _percent, decimal_text),
+    Field("broken", "broken", "breaks", _broken, list, "l"),
+)
+
+
+def of_joint(digits: int, damped: bool) -> tuple[Field, ...]:
+    """What is said of a joint, its gains with so many decimal places."""
+
+    def gain(value: Fraction) -> str:
+        return decimal_text(value, digits)
+
+    return (
+        Field("joint", "name", "joint", align="l"),
+        Field("kp", "kp", "k_p", gain, gain),
+        Field("kv", "kv", "k_v", gain, gain),
+        Field("sum_limit", "sum_limit", "(10p) limit", _limit, ends),
+        Field("kv_limit", "kv_limit", "(19) limit", _limit, ends),
+        Field("kp_bound", "kp_bound", "k_p ends at", BOUNDS.__getitem__, align="l"),
+        Field("kv_bound", "kv_bound", "k_v ends at", BOUNDS.__getitem__, align="l"),
+        Field("damping", "damping", "ζ" if damped else "", at_least, decimal_text),
+    )
 
 
 @dataclass(frozen=True)
@@ -80,8 +298,6 @@ class Tuning(Answer):
         """A table a member, one for what it is compared with, and what it all rests on."""
         blocks: list[Block] = [_section(item, self.targets.digits) for item in self.sets]
         if self.task is not None and len(self.effects) > 1:
-            from lyapcheck.answers.tune.effect import effect_section
-
             blocks.append(effect_section(self.effects, [math.degrees(x) for x in self.task.q_d], self.task.T))
         return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
 
@@ -89,16 +305,45 @@ class Tuning(Answer):
         """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as strings."""
         return {
             "robot": self.robot,
-            "targets": targets_data(self.targets),
-            "limits": limits_data(self.limits),
+            "targets": data(ASKED, self.targets),
+            "limits": data(TUNED_TO, self.limits),
             "assumptions": list(self.limits.assumptions),
-            "results": [set_data(item, self.targets.digits) for item in self.sets],
-            "effects": [one.data for one in self.effects],
+            "results": [self._set(item) for item in self.sets],
+            "effects": [data(EFFECT, one) for one in self.effects],
         }
 
     def records(self) -> list[dict[str, Any]]:
-        """A row a joint of each member."""
-        return joint_records(self.data()["results"])
+        """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
+        rows = []
+        for item in self.data()["results"]:
+            head = {key: item[key] for key in ("name", "m", "status")}
+            beside = (item["comparison"] or {"joints": [{}] * len(item["joints"])})["joints"]
+            for joint, other in zip(item["joints"], beside, strict=True):
+                compared = {key: other[key] for key in other if key != "joint"}
+                if compared:
+                    compared["broken"] = ", ".join(compared["broken"])
+                rows.append(head | joint | ({"compared": compared} if compared else {}))
+            if not item["joints"]:
+                rows.append(head | {"reasons": "; ".join(item["reasons"])})
+        return rows
+
+    def _set(self, item: TunedSet) -> dict[str, Any]:
+        fields, other = of_joint(self.targets.digits, False), item.comparison
+        return {
+            "name": item.name,
+            "m": item.m,
+            "status": item.status,
+            "reasons": list(item.reasons),
+            "joints": [data(fields, joint) for joint in item.joints],
+            "program": item.program or None,
+            "comparison": None
+            if other is None
+            else {
+                "name": other.name,
+                "source": other.source,
+                "joints": [data(COMPARED, joint) for joint in other.joints],
+            },
+        }
 
     def _verdict(self) -> str:
         """The worst of the members decides."""
@@ -124,41 +369,9 @@ def _section(item: TunedSet, digits: int) -> Section:
     title = f"{MARKS[item.status]} {item.name} (m = {item.m})"
     if item.status != TUNED:
         return Section(f"{title}: {item.status}", (Bullets(item.reasons),))
-    compared = () if item.comparison is None else (_compared(item.comparison),)
-    return Section(title, (_tuned(item, digits), *compared))
-
-
-def _tuned(item: TunedSet, digits: int) -> Table:
     damped = any(joint.damping is not None for joint in item.joints)
-    rows: list[Sequence[str]] = [
-        (
-            joint.name,
-            decimal_text(joint.kp, digits),
-            decimal_text(joint.kv, digits),
-            at_least(joint.sum_limit, LIMIT_DIGITS),
-            at_least(joint.kv_limit, LIMIT_DIGITS),
-            BOUNDS[joint.kp_bound],
-            BOUNDS[joint.kv_bound],
-            *([] if joint.damping is None else [at_least(joint.damping)]),
-        )
-        for joint in item.joints
-    ]
-    heads = (*HEADS, DAMPING_HEAD) if damped else HEADS
-    return Table(heads, tuple(map(tuple, rows)), align="lrrrrllr"[: len(heads)])
-
-
-def _compared(comparison: GainComparison) -> Table:
-    rows = tuple(
-        (
-            joint.name,
-            decimal_text(joint.kp),
-            decimal_text(joint.kv),
-            decimal_text(joint.kp_left),
-            f"{at_least(100 * joint.kp_left_share)} %",
-            f"{at_least(100 * joint.used)} %",
-            ", ".join(BOUNDS[name] for name in joint.broken) or "nothing",
-        )
-        for joint in comparison.joints
-    )
-    beside = f"Beside {comparison.name} of {comparison.source}:"
-    return Table(COMPARED_HEADS, rows, beside, "lrrrrrl")
+    tables = [table(of_joint(digits, damped), [(joint,) for joint in item.joints])]
+    if (other := item.comparison) is not None:
+        beside = f"Beside {other.name} of {other.source}:"
+        tables.append(table(COMPARED, [(joint,) for joint in other.joints], beside))
+    return Section(title, tuple(tables))

@@ -29,7 +29,7 @@ class Targets:
         kv_share: the share that k_v takes, at least, of the largest k_v that (19) admits, in (0, 1]; ``None``
             is 1 where no ``kv_min`` is given, and otherwise leaves the matter to ``kv_min``.
         kv_min: a lower bound of k_v, N·m.
-        damping: a lower bound of the damping ratio ζ_i of each joint; see ``lyapcheck.answers.tune.damping``.
+        damping: a lower bound of the damping ratio ζ_i of each joint; see ``lyapcheck.answers.tune.largest``.
     """
 
     digits: int = 3

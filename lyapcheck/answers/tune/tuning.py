@@ -5,32 +5,73 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from math import floor
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.words import advice
-from lyapcheck.answers.tune.answer import Tuning
-from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.compare import compare
-from lyapcheck.answers.tune.damping import Damping, damping_of
-from lyapcheck.answers.tune.gain_range import GainRange, gain_range_of
-from lyapcheck.answers.tune.obstacles import impossible, obstacle, unknown
-from lyapcheck.answers.tune.program import propose
-from lyapcheck.answers.tune.results import INFEASIBLE, TUNED, UNDECIDED, TunedJoint, TunedSet
-from lyapcheck.answers.tune.rounding import best_units, binding
+from lyapcheck.answers.tune.answer import (
+    INFEASIBLE,
+    TUNED,
+    UNDECIDED,
+    ComparedJoint,
+    GainComparison,
+    TunedJoint,
+    TunedSet,
+    Tuning,
+    effects,
+)
+from lyapcheck.answers.tune.largest import (
+    Damping,
+    GainRange,
+    best_units,
+    binding,
+    damping_of,
+    gain_range_of,
+    propose,
+)
+from lyapcheck.answers.tune.limits import arm_limits, impossible, obstacle, unknown
 from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
-from lyapcheck.control.conditions import ACCEPTED, gamma_of
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, check_10p, check_19, gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import round_down
 from lyapcheck.robots import RobotModel, load
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.effect import Effect
+    from lyapcheck.answers.tune.answer import Effect
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
 
 WRITTEN_PLACES = 12
+
+
+def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> GainComparison | None:
+    """The gains of the same member in another file, judged by the same limits; ``None`` where it has none."""
+    if against is None or tuned.gains is None:
+        return None
+    for item in against.gains:
+        if item.m == tuned.m and item.family == "hyperbolic" and item.n == limits.n:
+            return GainComparison(item.name, against.path, _joints(tuned, item, limits))
+    return None
+
+
+def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJoint, ...]:
+    gamma = gamma_of(other)
+    torques, dampings = check_10p(other, limits, gamma), check_19(other, limits, gamma)
+    result = []
+    for i, joint in enumerate(tuned.joints):
+        kp, kv = other.kp[i], other.kv[i]
+        broken = tuple(check.id for check in (torques[i], dampings[i]) if check.verdict == REJECTED)
+        left = joint.kp - kp
+        shares = _millionths(left / joint.kp), _millionths((kp + kv) / joint.sum_limit.upper)
+        result.append(ComparedJoint(joint.name, kp, kv, left, *shares, broken))
+    return tuple(result)
+
+
+def _millionths(share: Fraction) -> Fraction:
+    """A share to six decimal places, from below."""
+    return Fraction(floor(share * 10**6), 10**6)
 
 
 def tune(
@@ -49,7 +90,7 @@ def tune(
         members: m of each gain set.
         targets: the trade between stiffness, damping and torque; by default as much damping as (19) admits.
         bounds: limits to take instead of the arm's.
-        against: gains to compare with; see ``lyapcheck.answers.tune.compare``.
+        against: gains to compare with; see ``lyapcheck.answers.tune.tuning``.
         varies: ranges of the arm's numbers that the limits are to hold for.
         task: a motion on which the members are compared by runs.
 
@@ -83,20 +124,16 @@ def tune(
     tuned = [item.gains for item in sets if item.gains is not None]
     seen: tuple[Effect, ...] = ()
     if task is not None and len(tuned) > 1:
-        from lyapcheck.answers.tune.effect import effects
-
         seen = effects(tuned, model, task)
     return Tuning(robot, model.title, wanted, limits, repeated, compared, task, seen)
 
 
 def _for_each_joint(targets: Targets, n: int) -> Targets:
-    return replace(
-        targets,
-        peak_share=joint_values(targets.peak_share, n),
-        kv_share=None if targets.kv_share is None else joint_values(targets.kv_share, n),
-        kv_min=None if targets.kv_min is None else joint_values(targets.kv_min, n),
-        damping=None if targets.damping is None else joint_values(targets.damping, n),
-    )
+    given = {name: getattr(targets, name) for name in ("peak_share", "kv_share", "kv_min", "damping")}
+    each: dict[str, Any] = {
+        name: joint_values(values, n) for name, values in given.items() if values is not None
+    }
+    return replace(targets, **each)
 
 
 def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:

@@ -6,25 +6,19 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import Progress
-from lyapcheck.cli.arm import require_joints, robot_name
-from lyapcheck.cli.complaints import Complaints
+from lyapcheck._types import part
 from lyapcheck.cli.options import add_certificates, add_format, add_robot, add_vary, varies
-from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates
+from lyapcheck.cli.values import Complaints, gains_on_arm, require_joints
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from lyapcheck.answers.bounds.compare import BoundsComparison
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.vary import Vary
-    from lyapcheck.simulate.task import Task
 
 MOST_TORQUE = 1e6
 
@@ -72,14 +66,13 @@ def run(
       lyapcheck bounds gains.toml --friction 3,2,0.5
       lyapcheck bounds gains.toml --vary coulomb=-10%..+20%
     """
+    from lyapcheck.answers.bounds import Comparisons, compare
+    from lyapcheck.answers.bounds import certificates as certificates_of
     from lyapcheck.cli.task import task_of
-    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
 
-    gain_file = read_gain_file(file)
-    name, ranges = robot_name(robot, [gain_file]), varies(vary)
-    with arm_named_in(gain_file, robot):
-        model = load(name)
+    gain_file, name, model = gains_on_arm(file, robot)
+    ranges = varies(vary)
     varied = (load(name, vary=ranges), ranges) if ranges else None
     require_joints([gain_file], model)
     wrong = Complaints()
@@ -87,17 +80,15 @@ def run(
     dry = None if friction is None else wrong.reading(_torques, friction, model)
     task = wrong.result(task_of, model, target, start, time)
     folder = None if certificates is None else open_folder("--certificates", certificates)
+    count, result = len(gain_file.gains), []
     with progress("bounds") as advance:
-        result = _compare(gain_file.gains, model, task, (angle, dry), varied, advance)
+        for done, one in enumerate(gain_file.gains):
+            told = part(advance, done / count, (done + 1) / count, f"{one.name}: ")
+            result.append(compare(one, model, task, angle, dry, varied=varied, on_progress=told))
     if folder is not None:
-        from lyapcheck.answers.bounds.certificates import certificates as certificates_of
-
         write_certificates(folder, *map(certificates_of, result))
-    from lyapcheck.answers.bounds.answer import Comparisons
-
     show(Comparisons(tuple(result), gain_file), format)
-    whole = all(one.proved for one in result)
-    return Exit.PROVED if whole else Exit.UNDECIDED
+    return Exit.PROVED if all(one.proved for one in result) else Exit.UNDECIDED
 
 
 def _angle(delta: float) -> float:
@@ -110,7 +101,7 @@ def _angle(delta: float) -> float:
 
 def _torques(text: str, model: RobotModel) -> tuple[Fraction, ...]:
     """Torques in N·m, one a joint and none below 0."""
-    from lyapcheck.cli.decimals import parse_decimals
+    from lyapcheck.cli.values import parse_decimals
 
     option = "--friction"
     values = parse_decimals(option, text) or ()
@@ -118,24 +109,3 @@ def _torques(text: str, model: RobotModel) -> tuple[Fraction, ...]:
         rule = f"must be {model.n} torques from 0 to {MOST_TORQUE:g} N·m"
         raise argument_error(option, text, rule, f"write {option} {','.join(['0.1'] * model.n)}")
     return values
-
-
-def _compare(
-    gains: tuple[GainSet, ...],
-    model: RobotModel,
-    task: Task,
-    asked: tuple[float, tuple[Fraction, ...] | None],
-    varied: tuple[RobotModel, tuple[Vary, ...]] | None,
-    advance: Progress,
-) -> list[BoundsComparison]:
-    """The bounds of every gain set."""
-    from lyapcheck.answers.bounds.compare import compare
-
-    result = []
-    for done, gain_set in enumerate(gains):
-
-        def report(fraction: float, note: str, done: int = done, name: str = gain_set.name) -> None:
-            advance((done + fraction) / len(gains), f"{name}: {note}")
-
-        result.append(compare(gain_set, model, task, *asked, varied=varied, on_progress=report))
-    return result

@@ -56,10 +56,9 @@ def run(
 
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.fresh_check import ContradictionError
-    from lyapcheck.cli.m_range import parse_m
-    from lyapcheck.cli.output import open_folder, write_certificates
     from lyapcheck.cli.progress import progress
-    from lyapcheck.cli.show import show
+    from lyapcheck.cli.show import open_folder, show, write_certificates
+    from lyapcheck.cli.values import parse_m
     from lyapcheck.errors import argument_error
 
     if n is not None and robot is not None:
@@ -76,7 +75,7 @@ def run(
         sys.stderr.write(f"ALARM: {alarm}\n")
         return Exit.INTERNAL
     if gains is not None:
-        from lyapcheck.answers.check.gains import left_out
+        from lyapcheck.answers.check.run import left_out
         from lyapcheck.output.escapes import printable
 
         for sentence in left_out(gains, result.n, result.ms):

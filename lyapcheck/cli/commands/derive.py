@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_format, add_members
 from lyapcheck.cli.show import show
+from lyapcheck.cli.values import parse_m
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 

@@ -7,8 +7,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import Progress
-from lyapcheck.cli.arm import require_joints, robot_name
+from lyapcheck._types import Progress, part
 from lyapcheck.cli.options import (
     add_certificates,
     add_format,
@@ -18,9 +17,9 @@ from lyapcheck.cli.options import (
     add_vary,
     varies,
 )
-from lyapcheck.cli.output import open_folder, write_certificates
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates
+from lyapcheck.cli.values import gains_on_arm, require_joints
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
@@ -40,8 +39,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_gain_file(parser)
     add_robot(parser)
-    about = "Only the gain sets of these members: 3, 1,2,5 or 1:12."
-    parser.add_argument("--m", metavar="M", help=about)
+    parser.add_argument("--m", metavar="M", help="Only the gain sets of these members: 3, 1,2,5 or 1:12.")
     parser.add_number("--max-boxes", int, "Budget of branch and bound.", default=400_000, least=1)
     parser.add_number(
         "--jobs",
@@ -96,15 +94,11 @@ def run(
       lyapcheck epsilon gains.toml --m 1 --certificates proof/
       lyapcheck epsilon gains.toml --robot pelican2 --spread 5
     """
-    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
 
-    gain_file = read_gain_file(file)
-    ranged = varies(vary)
-    name, share = robot_name(robot, [gain_file]), _share(spread)
-    with arm_named_in(gain_file, robot):
-        own = load(name, spread=share)
-        model = load(name, spread=share, vary=ranged) if ranged else own
+    ranged, share = varies(vary), _share(spread)
+    gain_file, name, own = gains_on_arm(file, robot, spread=share)
+    model = load(name, spread=share, vary=ranged) if ranged else own
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
@@ -139,7 +133,7 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
     """The gain sets of the members asked for."""
     if m is None:
         return list(gain_file.gains)
-    from lyapcheck.cli.m_range import parse_m
+    from lyapcheck.cli.values import parse_m
 
     members = parse_m(m)
     chosen = [gain_set for gain_set in gain_file.gains if gain_set.m in members]
@@ -171,19 +165,14 @@ def _each(
     nominal = replace(options, ranges=False, weights=False)
     left_out = outside(own, model)
     for done, gain_set in enumerate(gains):
-
-        def ask(
-            arm: RobotModel, asked: Options, low: float, high: float, done: int = done, of: GainSet = gain_set
-        ) -> EpsilonResult:
-            def report(fraction: float, note: str) -> None:
-                advance((done + low + (high - low) * fraction) / len(gains), f"{of.name}: {note}")
-
-            return kept_epsilon(of, arm, asked, report)
-
+        about = f"{gain_set.name}: "
+        low, middle, high = ((done + share) / len(gains) for share in (0.0, WITH_RANGES, 1.0))
         began = perf_counter()
-        result = replace(ask(model, options, 0.0, WITH_RANGES if options.ranges else 1.0), outside=left_out)
+        first = part(advance, low, middle if options.ranges else high, about)
+        result = replace(kept_epsilon(gain_set, model, options, first), outside=left_out)
         if result.corner and not left_out:  # something ranges: what that costs is asked too
-            result = replace(result, unvaried=ask(own, nominal, WITH_RANGES, 1.0).promise)
+            found = kept_epsilon(gain_set, own, nominal, part(advance, middle, high, about))
+            result = replace(result, unvaried=found.promise)
         results.append(result)
         seconds.append(perf_counter() - began)
     return results, seconds

@@ -73,7 +73,7 @@ def run(
 
     folder = None
     if certificates is not None:
-        from lyapcheck.cli.output import open_folder
+        from lyapcheck.cli.show import open_folder
 
         folder = open_folder("--certificates", certificates)
     results: list[GateAnswer] = []
@@ -105,7 +105,7 @@ def run(
 def _write_certificates(folder: Path, answer: GateAnswer) -> None:
     """One file for each check that was decided."""
     from lyapcheck.answers.gate.certificates import certificates
-    from lyapcheck.cli.output import write_certificates
+    from lyapcheck.cli.show import write_certificates
 
     made = certificates(answer)
     write_certificates(folder, made.certificates)

@@ -73,7 +73,7 @@ def run(folder: Path) -> Exit:
       lyapcheck init bench && lyapcheck gate bench/gains.toml
       lyapcheck tune arm.urdf --out gains.toml    instead, for a URDF file
     """
-    from lyapcheck.cli.output import open_folder, write_whole
+    from lyapcheck.cli.show import open_folder, write_whole
 
     place = open_folder("DIR", folder)
     there = [name for name in (GAINS, ARM) if (place / name).exists()]

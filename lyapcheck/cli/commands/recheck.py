@@ -57,9 +57,9 @@ def run(
     if not installed("flint"):  # else it is the process that judges that does not start
         raise lacking("flint")
     if kernel or kernel_files is not None:
-        from lyapcheck.answers.kernel import writer
-        from lyapcheck.cli.output import open_folder
+        from lyapcheck.answers.recheck import writer
         from lyapcheck.cli.progress import progress
+        from lyapcheck.cli.show import open_folder
 
         folder = None if kernel_files is None else open_folder("--kernel-files", kernel_files)
         with progress("kernel") as advance:

@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.arm import require_joints, robot_name
 from lyapcheck.cli.options import add_no_store
 from lyapcheck.cli.progress import progress
+from lyapcheck.cli.values import require_joints, robot_name
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
@@ -112,7 +112,7 @@ def _formats(text: str) -> tuple[str, ...]:
 
 def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     """What the arguments ask for, or every problem with it."""
-    from lyapcheck.cli.m_range import parse_m
+    from lyapcheck.cli.values import parse_m
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.control.paper import paper_gain_file
     from lyapcheck.report.subject import Subject

@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "A built-in arm, or an arm file (.toml, .urdf)."
-    parser.add_argument("robot", metavar="NAME|FILE", help=about)
+    parser.add_argument("robot", metavar="NAME|FILE", help="A built-in arm, or an arm file (.toml, .urdf).")
     about = "For a URDF: the link that ends the chain; the longest chain if missing."
     parser.add_argument("--tip", metavar="LINK", help=about)
     about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
@@ -55,11 +54,11 @@ def run(
       lyapcheck robot arm.urdf --tip hand --certificates proof/
       lyapcheck robot buap3 --export arm.toml
     """
-    from lyapcheck.cli.output import open_folder, write_certificates, write_whole
+    from lyapcheck.cli.show import open_folder, write_certificates, write_whole
     from lyapcheck.robots import load, names
 
     if export is not None:
-        from lyapcheck.cli.output import require_writable
+        from lyapcheck.cli.show import require_writable
         from lyapcheck.robots.export import arm_text
 
         if str(export) == "-":

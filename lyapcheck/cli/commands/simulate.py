@@ -2,21 +2,237 @@
 
 from __future__ import annotations
 
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from lyapcheck.cli.arm import robot_name
-from lyapcheck.cli.complaints import Complaints
-from lyapcheck.cli.eps0 import Eps0, eps0_of
-from lyapcheck.cli.motions import Job, Output, follow, regulate, spread_out
+from lyapcheck._types import Progress
 from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
-from lyapcheck.cli.output import open_folder
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.task import check_options, check_places, request_of, starts_of, task_of
+from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
+from lyapcheck.cli.task import Eps0, check_options, check_places, eps0_of, request_of, starts_of, task_of
+from lyapcheck.cli.values import Complaints, gains_on_arm
+from lyapcheck.output.escapes import document_text
+from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
+    from lyapcheck.certificate import Certificate
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.verdicts import Exit
+    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.starts import Starts, Sweep
+    from lyapcheck.simulate.task import Task
+    from lyapcheck.tracking.reference import Reference
+    from lyapcheck.tracking.request import TrackingRequest
+    from lyapcheck.tracking.run import TrackingRun
+
+
+def plot_run(run: Run, number: int, place: Path) -> None:
+    """Errors, torques and V of one run, as in Figs. 3 to 10 of the paper; ``number`` counts from 1."""
+    from lyapcheck.answers.simulate.samples import runs_csv
+    from lyapcheck.report.figures import motion
+    from lyapcheck.report.figures.lyapunov import draw_lyapunov
+
+    stem = file_stem(run.name, number)
+    write_whole(place / f"{stem}.csv", runs_csv([run]))
+    if run.t.size < 2:
+        return
+    title = f"{run.name} on {run.robot}, {run.kind}"
+    figures = {
+        "errors": motion.draw_errors(title, run.t, run.e, run.joints),
+        "torques": motion.draw_torques(title, run.t, run.tau, run.joints, run.torque_limit),
+        "lyapunov": draw_lyapunov(title, run.t, run.V, run.dV),
+    }
+    _write(figures, place, stem)
+
+
+def plot_tracking(run: TrackingRun, number: int, place: Path) -> None:
+    """Angles beside the reference, errors, torques and V of one tracking run."""
+    from lyapcheck.answers.simulate.samples import tracking_csv
+    from lyapcheck.report.figures import motion
+    from lyapcheck.report.figures.lyapunov import draw_lyapunov
+
+    stem = file_stem(run.name, number)
+    write_whole(place / f"{stem}.csv", tracking_csv([run]))
+    m = run.motion
+    if m.t.size < 2:
+        return
+    title = f"{run.name} on {run.robot}, tracking"
+    figures = {
+        "angles": motion.draw_tracking(title, m.t, m.q, m.goal, run.joints),
+        "errors": motion.draw_errors(title, m.t, m.e, run.joints),
+        "torques": motion.draw_torques(title, m.t, m.tau, run.joints, run.torque_limit),
+        "lyapunov": draw_lyapunov(title, m.t, run.V, run.dV, run.bound),
+    }
+    _write(figures, place, stem)
+
+
+def file_stem(name: str, number: int) -> str:
+    """A gain set's name as part of a file name; two names never become one file."""
+    stem = re.sub(r"[^\w.-]+", "_", name)
+    return stem if stem == name else f"{stem}-{number}"
+
+
+def _write(figures: dict[str, Any], place: Path, stem: str) -> None:
+    from lyapcheck.report.figures.style import png, svg
+
+    for name, figure in figures.items():
+        write_whole(place / f"{stem}-{name}.svg", svg(figure))
+        write_whole(place / f"{stem}-{name}.png", png(figure))
+
+
+@dataclass(frozen=True)
+class Output:
+    """Where results go, and how."""
+
+    csv: str | None
+    plot: Path | None
+    form: str
+    certificates: Path | None = None
+
+    def write(self, answer: Simulation[Any], samples: Callable[[], str]) -> Exit:
+        """Samples to their file or to standard output, else the answer there; what went wrong to the other.
+
+        Returns:
+            The exit code of the answer.
+        """
+        if self.csv is not None and self.csv != "-":
+            write_whole(Path(self.csv), samples())
+        if self.csv == "-":
+            sys.stdout.write(document_text(samples()))
+        else:
+            show(answer, self.form)
+        for sentence in answer.complaints():
+            print(sentence, file=sys.stderr)
+        return answer.exit_code
+
+
+@dataclass(frozen=True)
+class Job:
+    """The gain sets of a file on an arm, and the progress of them all."""
+
+    file: GainFile
+    model: RobotModel
+    output: Output
+    advance: Progress
+    unfinished: list[Unfinished] = field(default_factory=list)
+    varied: tuple[tuple[str, RobotModel], ...] = ()
+    """The arm at other values of its numbers, each with what was changed."""
+    arms: str = ""
+    """All of these arms in words."""
+
+    @property
+    def cases(self) -> list[tuple[GainSet, RobotModel]]:
+        """Each gain set on the arm, and on the arm at other values, then named after them."""
+        result = []
+        for gain_set in self.file.gains:
+            result.append((gain_set, self.model))
+            result += [(replace(gain_set, name=f"{gain_set.name}: {what}"), arm) for what, arm in self.varied]
+        return result
+
+    def each(self) -> list[tuple[GainSet, Progress]]:
+        """Each gain set with its share of the progress of all."""
+        gains = self.file.gains
+        return [(one, _share_of(self.advance, done, len(gains), one.name)) for done, one in enumerate(gains)]
+
+    def fail(self, gain_set: GainSet, reason: str) -> None:
+        """Keep why not all that was asked of a gain set could be found out."""
+        from lyapcheck.answers.simulate.simulation import Unfinished
+
+        self.unfinished.append(Unfinished(gain_set.name, reason))
+
+    def watching(self, eps0: Eps0, gain_set: GainSet, progress: Progress) -> float:
+        """The ε₀ to watch V with; 0 where none is certified, which is noted."""
+        number = eps0.of(gain_set, self.model, progress)
+        if number is None:
+            name = f"{gain_set.name} on {self.model.name}"
+            self.fail(gain_set, f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
+        return number or 0.0
+
+
+def _share_of(advance: Progress, done: int, cases: int, name: str) -> Progress:
+    return lambda fraction, note: advance((done + fraction) / cases, note or name)
+
+
+def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
+    """The set-point task, by the equations or on the bench."""
+    from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
+    from lyapcheck.answers.simulate.samples import runs_csv
+    from lyapcheck.files.names import file_stem
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
+    from lyapcheck.simulate.trial import experiment
+
+    runs: list[Run] = []
+    broken: dict[str, Certificate] = {}
+    mover = experiment if bench else partial(simulate, stop=stop)
+    for done, (gain_set, arm) in enumerate(job.cases):
+        told = _share_of(job.advance, done, len(job.cases), gain_set.name)
+        number = job.watching(eps0, gain_set, told)
+        way = (task.q_d, task.q0, task.w0, task.T)
+        try:
+            runs.append(mover(gain_set, arm, *way, eps0=number, on_progress=told))
+        except SimulationFailed as failure:
+            if not isinstance(failure, PromiseBroken):
+                job.fail(gain_set, failure.reason)
+            runs += [] if failure.partial is None else [failure.partial]
+        if job.output.certificates is not None and not bench and runs:
+            certificate = breach_certificate(runs[-1], gain_set, arm)
+            if certificate is not None and runs[-1].name == gain_set.name:
+                broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
+    if job.output.plot is not None:
+        for number, run in enumerate(runs, start=1):
+            plot_run(run, number, job.output.plot)
+    if job.output.certificates is not None:
+        write_certificates(job.output.certificates, broken)
+    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms)
+    return job.output.write(answer, lambda: runs_csv(runs))
+
+
+def follow(job: Job, reference: Reference, request: TrackingRequest, *, stop: bool) -> Exit:
+    """The tracking scheme (21) along a reference."""
+    from lyapcheck.answers.simulate.samples import tracking_csv
+    from lyapcheck.answers.simulate.tracking import TrackingRuns
+    from lyapcheck.tracking.run import TrackingFailed
+    from lyapcheck.tracking.simulation import track_as_asked
+
+    runs: list[TrackingRun] = []
+    for gain_set, told in job.each():
+        try:
+            run = track_as_asked(gain_set, job.model, reference, request, stop=stop, on_progress=told)
+        except TrackingFailed as failure:
+            run = failure.partial
+            if run.breach is None:
+                job.fail(gain_set, failure.reason)
+        runs.append(run)
+    if job.output.plot is not None:
+        for number, run in enumerate(runs, start=1):
+            plot_tracking(run, number, job.output.plot)
+    answer = TrackingRuns(tuple(runs), tuple(job.unfinished), job.file)
+    return job.output.write(answer, lambda: tracking_csv(runs))
+
+
+def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
+    """The set-point task from many random starts."""
+    from lyapcheck.answers.simulate.samples import starts_csv
+    from lyapcheck.answers.simulate.starts import RandomStarts
+    from lyapcheck.simulate.starts import sweep
+
+    result: list[Sweep] = []
+    for gain_set, told in job.each():
+        number = job.watching(eps0, gain_set, told)
+        result.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=told))
+        left = starts.count - result[-1].finished
+        if left:
+            job.fail(gain_set, f"{gain_set.name} on {job.model.name}: {left} of {starts.count} runs")
+    answer = RandomStarts(tuple(result), tuple(job.unfinished), job.file)
+    return job.output.write(answer, lambda: starts_csv(result))
 
 
 def arguments(parser: Parser) -> None:
@@ -93,15 +309,11 @@ def run(
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
       lyapcheck simulate gains.toml --eps0 1 --certificates breaches/
     """
-    from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners, corners_text, outside
     from lyapcheck.tracking.reference import read_reference
 
-    gain_file = read_gain_file(file)
-    name = robot_name(robot, [gain_file])
-    with arm_named_in(gain_file, robot):
-        model = load(name)
+    gain_file, name, model = gains_on_arm(file, robot)
     wrong = Complaints()
     watched = wrong.reading(eps0_of, eps0) or Eps0(None)
     given = {

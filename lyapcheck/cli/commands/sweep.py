@@ -16,7 +16,7 @@ from lyapcheck.output.formats import Format
 
 if TYPE_CHECKING:
     from lyapcheck.answers.sweep.question import Answered
-    from lyapcheck.answers.sweep.tally import Tally
+    from lyapcheck.answers.sweep.result import Tally
     from lyapcheck.cli.parser import Parser
     from lyapcheck.verdicts import Exit
 
@@ -68,9 +68,7 @@ def run(
     """
     from lyapcheck.answers.sweep import asked, read_plan
     from lyapcheck.answers.sweep.folder import Folder
-    from lyapcheck.answers.sweep.page import files
-    from lyapcheck.answers.sweep.result import SweepAnswer
-    from lyapcheck.answers.sweep.tally import Tally
+    from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
     from lyapcheck.compiled.threads import processors
 
     if resume and out is None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.m_range import parse_m
 from lyapcheck.cli.options import add_certificates, add_format, add_members
-from lyapcheck.cli.output import open_folder, write_certificates, write_whole
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
+from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
@@ -66,13 +65,13 @@ def run(
     if robot is not None:
         from dataclasses import replace
 
-        from lyapcheck.answers.tune.budget import torque_budget
+        from lyapcheck.answers.tune.limits import torque_budget
 
         table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:
         _draw(table, folder)
     if proofs is not None:
-        from lyapcheck.answers.table_certificates import certificates as certificates_of
+        from lyapcheck.answers.table import certificates as certificates_of
 
         write_certificates(proofs, certificates_of(table))
     show(table, format)

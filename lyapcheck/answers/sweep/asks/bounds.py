@@ -6,12 +6,16 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from lyapcheck.answers.bounds.certificates import certificates
-from lyapcheck.answers.bounds.compare import compare
-from lyapcheck.answers.bounds.data import comparison_data
-from lyapcheck.answers.sweep.arms import UncertainArm, arm
-from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
-from lyapcheck.answers.sweep.tasks import task_of
+from lyapcheck.answers.bounds import certificates, compare, comparison_data
+from lyapcheck.answers.sweep.question import (
+    VERDICTS,
+    Answered,
+    Question,
+    UncertainArm,
+    answered,
+    arm,
+    task_of,
+)
 from lyapcheck.verdicts import Exit
 
 OPTIONS = {"delta": 1.0, "time": 10.0, "target": (), "start": ()}

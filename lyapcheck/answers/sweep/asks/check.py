@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from lyapcheck.answers.check.run import run_proof
-from lyapcheck.answers.sweep.arms import UncertainArm
-from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, UncertainArm, answered
 from lyapcheck.control.gains import GainFile
 from lyapcheck.verdicts import Exit
 

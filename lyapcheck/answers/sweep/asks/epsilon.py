@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.answers.epsilon.data import result_data
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.epsilon.options import Options
+from lyapcheck.answers.epsilon.result import result_data
 from lyapcheck.answers.epsilon.words import exact
-from lyapcheck.answers.sweep.arms import UncertainArm
-from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, UncertainArm, answered
 from lyapcheck.verdicts import Exit
 
 OPTIONS = {"max_boxes": 100_000, "starts": 30}

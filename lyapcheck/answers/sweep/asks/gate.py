@@ -7,10 +7,9 @@ from dataclasses import replace
 from typing import Any
 
 from lyapcheck.answers.gate.answer import GateAnswer
+from lyapcheck.answers.gate.certificates import whole
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
-from lyapcheck.answers.gate.whole import whole
-from lyapcheck.answers.sweep.arms import UncertainArm
-from lyapcheck.answers.sweep.question import Answered, Question, answered
+from lyapcheck.answers.sweep.question import Answered, Question, UncertainArm, answered
 from lyapcheck.control.arm_limits import arm_limits, varied_limits
 from lyapcheck.control.conditions import UNDECIDED
 from lyapcheck.control.gains import GainFile

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from lyapcheck.answers.robot import build
-from lyapcheck.answers.robot.extent import NOMINAL, extent
-from lyapcheck.answers.sweep.arms import UncertainArm
-from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
+from lyapcheck.answers.robot.answer import NOMINAL, extent
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, UncertainArm, answered
 from lyapcheck.verdicts import Verdict
 
 OPTIONS = {"max_boxes": 20_000}

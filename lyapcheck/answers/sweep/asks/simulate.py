@@ -10,9 +10,7 @@ from typing import Any
 
 from lyapcheck.answers.simulate.runs import SetPointRuns
 from lyapcheck.answers.simulate.simulation import Unfinished
-from lyapcheck.answers.sweep.arms import UncertainArm
-from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, answered
-from lyapcheck.answers.sweep.tasks import task_of
+from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, UncertainArm, answered, task_of
 from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed

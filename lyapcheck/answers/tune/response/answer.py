@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
-from lyapcheck.answers.tune.response.trial import Trial
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, NAMES, Trials
+from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.fields import Field, records, table
 from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
@@ -27,16 +29,6 @@ IN_WORDS = {BY_19: "(19)", BY_PROOF: "proof"}
 STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
 """The condition of a set that shows stability, in words."""
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
-HEADS = (
-    "joint",
-    "k_p",
-    "k_v",
-    "overshoot [%]",
-    "settles [s]",
-    "torque share",
-    "friction leaves [°]",
-    "held by",
-)
 NONE = "—"
 FAR = 100
 """Ratios from here on are not told apart."""
@@ -158,7 +150,9 @@ class BenchTuning(Answer):
         tasks = "; ".join(f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks)
         arms = f", each on {self.arms}" if self.arms else ""
         asked = Paragraph(f"Asked: {self.bench.wishes.text()}. Simulated from rest, {tasks}{arms}.")
-        warning = Paragraph(f"Other motions and lower rates may miss the targets.{self._assumed()}")
+        assumed = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
+        friction = f" The viscous friction of {', '.join(assumed)} is assumed." if assumed else ""
+        warning = Paragraph(f"Other motions and lower rates may miss the targets.{friction}")
         lines = [*self._given_up(), *self.missing]
         said = (Bullets(tuple(lines)),) if lines else ()
         blocks = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
@@ -207,11 +201,6 @@ class BenchTuning(Answer):
         """Of a set that meets the targets, perhaps only without the dry friction of the file."""
         return "!" if self.dry else "✓"
 
-    def _assumed(self) -> str:
-        """Which friction of the arm is only assumed, as a sentence."""
-        joints = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
-        return f" The viscous friction of {', '.join(joints)} is assumed." if joints else ""
-
     def missed(self, one: Candidate) -> list[str]:
         """The targets that a set misses, with the joints and by which factor; or what else it lacks."""
         return [*self._missed_in_motions(one), *([] if one.stable else [one.shown])]
@@ -249,23 +238,30 @@ class BenchTuning(Answer):
         return Table(OVERVIEW, tuple(rows), align="llrlrrrrr", keys=2)
 
     def _section(self, one: Candidate) -> Section:
-        digits = self.bench.digits
-        rows = [
-            (
-                joint,
-                decimal_text(one.gains.kp[i], digits),
-                decimal_text(one.gains.kv[i], digits),
-                _up(float(one.trial.overshoot[i])),
-                _seconds(float(one.trial.settled[i])),
-                _up(float(one.trial.share[i])),
-                _degrees(float(one.trial.rest[i])),
-                one.held[i],
-            )
-            for i, joint in enumerate(self.joints)
-        ]
+        rows = table(self._fields, [(one, i) for i in range(len(self.joints))])
         title = f"{one.gains.name} (m = {one.gains.m}, {one.shown})"
         lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
-        return Section(title, (Table(HEADS, tuple(rows), align="lrrrrrrl"), Bullets(lines)))
+        return Section(title, (rows, Bullets(lines)))
+
+    @cached_property
+    def _fields(self) -> tuple[Field, ...]:
+        """What is said of each joint of a set."""
+
+        def gain(value: Fraction) -> str:
+            return decimal_text(value, self.bench.digits)
+
+        return (
+            Field("joint", lambda one: self.joints, "joint", align="l", each=True),
+            Field("kp", "gains.kp", "k_p", gain, _exact, each=True),
+            Field("kv", "gains.kv", "k_v", gain, _exact, each=True),
+            Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
+            Field("settling", "trial.settled", "settles [s]", _seconds, _sixes, each=True),
+            Field("torque_share", "trial.share", "torque share", _up, _sixes, each=True),
+            Field("rest_error", "trial.rest", "friction leaves [°]", _degrees, _sixes, each=True),
+            Field(
+                "held_by", lambda one: one.held or ("",) * len(self.joints), "held by", align="l", each=True
+            ),
+        )
 
     def _behind(self, one: Candidate) -> Iterator[str]:
         """What a set misses, and what stands in the way."""
@@ -302,19 +298,7 @@ class BenchTuning(Answer):
             "met": self.met(one),
             "condition": list(one.gains.condition),
             "worst": _six(trial.worst(self.bench.wishes)),
-            "joints": [
-                {
-                    "joint": joint,
-                    "kp": decimal_text(one.gains.kp[i]),
-                    "kv": decimal_text(one.gains.kv[i]),
-                    "overshoot": _six(trial.overshoot[i]),
-                    "settling": _six(trial.settled[i]),
-                    "torque_share": _six(trial.share[i]),
-                    "rest_error": _six(trial.rest[i]),
-                    "held_by": one.held[i] if one.held else "",
-                }
-                for i, joint in enumerate(self.joints)
-            ],
+            "joints": records(self._fields, one, len(self.joints)),
         }
 
 
@@ -328,6 +312,14 @@ def _degrees_of(values: tuple[float, ...]) -> list[float | None]:
 
 def _six(value: float) -> float | None:
     return float(f"{float(value):.6g}") if math.isfinite(value) else None
+
+
+def _sixes(values: Iterable[float]) -> list[float | None]:
+    return [_six(value) for value in values]
+
+
+def _exact(values: Iterable[Fraction]) -> list[str]:
+    return [decimal_text(value) for value in values]
 
 
 def _most(values: Any, none_is_worst: bool = False) -> float:

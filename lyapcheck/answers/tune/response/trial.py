@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lyapcheck.answers.gate.bench import rest_errors
-from lyapcheck.answers.tune.response.wishes import Wishes
+from lyapcheck.answers.gate.friction import rest_errors
+from lyapcheck.errors import InputError, Problem
+from lyapcheck.output.digits import at_most
 from lyapcheck.simulate import indices
 from lyapcheck.simulate.dynamics import closed_loop
 from lyapcheck.simulate.extremes import with_extremes
@@ -25,6 +26,18 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 
+NAMES = {
+    "overshoot": "overshoot",
+    "settle": "settling time",
+    "peak_share": "peak torque",
+    "rest_error": "rest error",
+}
+"""The wishes in words."""
+BY_19, BY_PROOF = "19", "proof"
+MOST = 1e6
+"""Per cent, s and degrees; who asks for more asks for nothing."""
+WAYS = (BY_19, BY_PROOF)
+"""How stability is to be shown: by (19), or by a proof for the arm that does without."""
 TOLERANCE = 1e-7
 POINTS = 401
 LONGER, SHORTEST = 4.0, 3.0
@@ -35,6 +48,60 @@ DOUBLINGS = 6
 """Of that time, until the energy that is left keeps every joint within its band for good."""
 NEVER = 1e3
 """The ratio of what no time or gain reaches."""
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """Upper bounds that hold for every joint and every motion; ``None`` where nothing is asked.
+
+    Args:
+        overshoot: per cent of the joint's step.
+        settle: s until the joint stays within 2 % of its step.
+        peak_share: of the motor's torque limit, in (0, 1].
+        rest_error: degrees from the goal at which dry friction may hold the joint.
+    """
+
+    overshoot: float | None = None
+    settle: float | None = None
+    peak_share: float | None = None
+    rest_error: float | None = None
+
+    def __post_init__(self) -> None:
+        problems = []
+        for name, value in self.given.items():
+            top = 1.0 if name == "peak_share" else MOST
+            if not 0 < value <= top:
+                rule = f"must be above 0, up to {top:g}"
+                option = "--" + name.replace("_", "-")
+                problems.append(Problem("argument", None, option, f"{value:g}", rule, "correct the value"))
+        if problems:
+            raise InputError(problems)
+
+    @property
+    def given(self) -> dict[str, float]:
+        """What is asked, by name."""
+        result = {name: getattr(self, name) for name in NAMES}
+        return {name: value for name, value in result.items() if value is not None}
+
+    def text(self) -> str:
+        """What is asked, in one line."""
+        forms = {
+            "overshoot": "overshoot ≤ {} %",
+            "settle": "settled (2 %) within {} s",
+            "peak_share": "≤ {} of each torque limit",
+            "rest_error": "dry friction leaves ≤ {}°",
+        }
+        return "; ".join(forms[name].format(at_most(value, 6)) for name, value in self.given.items())
+
+
+@dataclass(frozen=True)
+class Trials:
+    """What gains are tried on: motions from rest to rest, and how stability is to be shown."""
+
+    wishes: Wishes
+    tasks: tuple[Task, ...]
+    ways: tuple[str, ...] = WAYS
+    digits: int = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,16 +168,12 @@ def tried(
     with np.errstate(invalid="ignore"):
         overshoot, share, late = (np.fmax.reduce([run[k] for run in runs]) for k in (0, 2, 3))
         settled = np.maximum.reduce([run[1] for run in runs])  # NaN where one of them does not settle
-    rest = np.max([_rest(gains, model) for model in models], axis=0)
+    rest = np.max([[*map(_degrees_above, rest_errors(gains, model))] for model in models], axis=0)
     return Trial(overshoot, settled, share, rest, late, T, kept)
 
 
-def _rest(gains: GainSet, model: RobotModel) -> Array:
-    """Degrees, rounded up to doubles."""
-    return np.array([_degrees_above(e) for e in rest_errors(gains, model)])
-
-
 def _degrees_above(error: Fraction | None) -> float:
+    """An error in degrees, rounded up to a double."""
     if error is None:
         return math.inf
     return math.nextafter(math.degrees(math.nextafter(float(error), math.inf)), math.inf) if error else 0.0

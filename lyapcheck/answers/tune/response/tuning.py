@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from lyapcheck._types import part, silent
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
-from lyapcheck.answers.tune.arm import arm_limits
-from lyapcheck.answers.tune.obstacles import impossible, unknown
+from lyapcheck.answers.tune.limits import arm_limits, impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
-from lyapcheck.answers.tune.response.trial import tried
-from lyapcheck.answers.tune.response.wishes import BY_19, BY_PROOF, WAYS, Trials
+from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials, tried
 from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
@@ -68,14 +67,15 @@ def tune_for(
     arms, tried_on = _arms(robot, model, varies)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
-    reasons = [*unknown(limits), *_overloaded(limits)]
+    reasons = [*unknown(limits), *(text for text in impossible(limits) if "gravity" in text)]
     for done, (m, way) in enumerate([] if reasons else jobs):
-        share = _share(on_progress, done, len(jobs), f"m = {m}, {IN_WORDS[way]}")
+        note = f"m = {m}, {IN_WORDS[way]}"
+        told = part(on_progress or silent, done / len(jobs), (done + 1) / len(jobs), note)
         search = Search(bench, arms, limits, m, way)
         if not search.possible:
             reasons.append(_none(m, way, limits))
             continue
-        result = search.run(share)
+        result = search.run(told)
         judged = accepted(result.gains, way, robot, bounds, ranges)
         gains = result.gains if judged is None else judged.gains
         sets.append(Candidate(gains, result.trial, way, tuple(_held(gains, search)), result=judged))
@@ -104,14 +104,6 @@ def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tupl
     if outside(model, ranged):
         return ends, f"{text}; the values of the file lie outside"
     return (model, *ends), f"the nominal arm and {text}"
-
-
-def _share(progress: Progress | None, done: int, jobs: int, note: str) -> Callable[[float], None]:
-    return lambda share: None if progress is None else progress((done + share) / jobs, note)
-
-
-def _overloaded(limits: Limits) -> list[str]:
-    return [text for text in impossible(limits) if "gravity" in text]
 
 
 def _none(m: int, way: str, limits: Limits) -> str:

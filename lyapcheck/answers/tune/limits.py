@@ -1,13 +1,69 @@
-"""Why an arm has no gains that meet the conditions and the targets, and what to change."""
+"""What the limits of an arm leave to gains, and why there may be none."""
 
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from lyapcheck.answers.tune.gain_range import GainRange
+from lyapcheck.answers.table import Budget, Table
+from lyapcheck.answers.tune.largest import GainRange
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.control.limits import Limits
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.constants import Constants
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.arm_limits import varied_limits
+from lyapcheck.control.gains import Bounds, GainFile, GainSet
+from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.files.decimals import decimal_text, round_down
+from lyapcheck.robots import load
+
+if TYPE_CHECKING:
+    from lyapcheck.robots.vary import Vary
+
+_GUARD_BITS = 32
+
+
+def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[Vary, ...] = ()) -> Limits:
+    """The limits that the gate would judge gains for this arm by.
+
+    Args:
+        robot: a built-in arm, or the path of an arm file.
+        n: its number of joints.
+        bounds: limits to take instead of the arm's.
+        varies: ranges that the limits are to hold for.
+    """
+    ones = (Fraction(1),) * n
+    arms = {robot: varied_limits(robot, varies)} if varies else None
+    return limits_for(
+        GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds or Bounds()), None, arms
+    )
+
+
+def torque_budget(robot: str, table: Table) -> Budget:
+    """(τmax − k_g)/(√n γ_m) of each joint and each row of a table, N·m, as tight as the table is.
+
+    A joint without a torque limit, or whose gravity torque reaches it, has ``None``.
+
+    Raises:
+        InputError: no such arm.
+
+    References: the tuning rule of Section 4, reyes2019family.
+    """
+    limits = arm_limits(robot, load(robot).n)
+    bits = 4 * table.digits + _GUARD_BITS
+    return Budget(robot, limits.joints, tuple(_row(row, limits, bits) for row in table.rows))
+
+
+def _row(row: Constants, limits: Limits, bits: int) -> tuple[Enclosure | None, ...]:
+    result: list[Enclosure | None] = []
+    with precision(bits):
+        scale = to_arb(limits.n).sqrt() * row.gamma.to_arb()
+        for torque, gravity in zip(limits.torque, limits.gravity, strict=True):
+            if torque is None or torque <= gravity:
+                result.append(None)
+            else:
+                result.append(Enclosure.from_arb(to_arb(torque - gravity) / scale))
+    return tuple(result)
 
 
 def unknown(limits: Limits) -> list[str]:

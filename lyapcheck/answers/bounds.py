@@ -1,0 +1,435 @@
+"""How far from their goal gain sets let an arm rest under dry friction: proved, beside simulated motions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lyapcheck import asked
+from lyapcheck._types import Array, Progress, part, silent
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
+from lyapcheck.check.kinds.resting import AtBounds, Resting
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.control.resting import DEGREES
+from lyapcheck.errors import argument_error
+from lyapcheck.family import named
+from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.files.names import file_stem
+from lyapcheck.output.annotations import Annotation, Level
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import shown
+from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.promise import Promise, all_say, promised
+from lyapcheck.robots.vary import corners, corners_text
+from lyapcheck.search.rest import resting
+from lyapcheck.simulate.disturbed import disturbed
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.control.judgement import JudgedStatement
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.vary import Vary
+    from lyapcheck.simulate.task import Task
+
+if TYPE_CHECKING:
+    Varied = tuple[RobotModel, Sequence[Vary]]
+    """An arm with ranges, and which."""
+
+PLACES = 6
+"""Decimals of a degree."""
+JUST_INSIDE = 0.95
+"""Where a run starts, beside the proved bound of rest: simulated friction lets a joint creep."""
+RULE = "what dry friction leaves of the errors at every state of rest is proved"
+RUNS = (
+    "simulated at rest: the larger |e_i| of this motion's end and of one let go at 95 % of the bound; "
+    "simulated on the way: the largest of this motion"
+)
+NONE = "—"
+WITHOUT = "without --vary, proved"
+LEGEND = (
+    "proved at most: accepted by the checker, for dry friction up to what is stated, at every state of rest."
+)
+SIMULATED = "simulated: {}, in floating point, with that dry friction."
+ONE_RUN = "one run at nominal numbers"
+CORNERS = "the worst of one run at {}, for {}, which proves nothing of what lies between"
+NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
+PROOF = "bounds"
+
+
+@dataclass(frozen=True)
+class BoundsComparison:
+    """Bounds at rest, proved, and what was seen in runs with dry friction, in floating point.
+
+    Args:
+        gains: the gain set.
+        robot: name of the arm.
+        joints: names of its joints, base first.
+        dry: N·m, the most that dry friction of each joint may be; none where nothing is known of it.
+        promise: of the errors at rest, as they are printed; none where there are none.
+        reason: why a joint has no bound; empty where all have one.
+        task: the motion that was simulated.
+        delta: δ, rad.
+        simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
+        simulated_largest: rad, the largest |e_i| of the run.
+        simulated_rest: rad, the largest |e_i| at the end of two runs: of the task, and of one let go just
+            inside the bound of rest.
+        assumptions: what is taken for granted about the arm.
+        varies: the ranges over which the bounds hold, as typed.
+        corners: at which of their corners runs were made; the worst of them counts.
+        unvaried: the same without these ranges, where something varies.
+    """
+
+    gains: GainSet
+    robot: str
+    joints: tuple[str, ...]
+    dry: tuple[Fraction | None, ...]
+    promise: Promise | None
+    reason: str
+    task: Task
+    delta: float
+    simulated_time: float | None
+    simulated_largest: tuple[float, ...]
+    simulated_rest: tuple[float, ...]
+    assumptions: tuple[str, ...]
+    varies: tuple[str, ...] = ()
+    corners: str = ""
+    unvaried: BoundsComparison | None = None
+
+    @property
+    def rest(self) -> tuple[Fraction | None, ...]:
+        """rad, |e_i| at every state of rest; none for a joint without a bound."""
+        return _errors(self.promise, len(self.joints))
+
+    @property
+    def rest_degrees(self) -> tuple[Fraction | None, ...]:
+        """The same in degrees."""
+        return tuple(None if error is None else error * DEGREES for error in self.rest)
+
+    @property
+    def proved(self) -> bool:
+        """Whether each joint has a bound."""
+        return None not in self.rest
+
+
+def compare(
+    gain_set: GainSet,
+    model: RobotModel,
+    task: Task,
+    delta: float,
+    dry: Sequence[Fraction] | None = None,
+    *,
+    varied: Varied | None = None,
+    on_progress: Progress | None = None,
+) -> BoundsComparison:
+    """The bounds at rest and the run.
+
+    Args:
+        gain_set: the controller, of a bounded family.
+        model: the arm.
+        task: start, goal and duration of the run.
+        delta: δ, rad.
+        dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
+        varied: the arm with ranges, and what varies; the bounds are asked over them as well.
+        on_progress: receives the share done.
+
+    Raises:
+        InputError: an unbounded h.
+    """
+    progress = on_progress or silent
+    if not named(gain_set.family, gain_set.m).bounded:
+        rule = f"{gain_set.name} has an unbounded h, of which no error at rest is judged"
+        raise argument_error("gains", gain_set.name, rule, "choose gains of a bounded family")
+    unvaried = None
+    if varied is not None:
+        unvaried = compare(gain_set, model, task, delta, dry, on_progress=part(progress, 0, 0.4))
+    whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
+    known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
+    most = tuple(known_most if dry is None else dry)
+    known = [f for f in most if f is not None]
+    shown = resting(gain_set, known) if len(known) == len(most) else None
+    promise, reason = (None, "") if shown is None else _promised(gain_set, known, shown)
+    errors = _errors(promise, model.n)
+    runs = []
+    for index, arm in enumerate(arms):
+        progress((0 if varied is None else 0.4) + 0.6 * index / len(arms), "simulation")
+        runs.append(_Runs.of(gain_set, arm, task, delta, dry, errors))
+    times = [run.time for run in runs]
+    return BoundsComparison(
+        gains=gain_set,
+        robot=model.name,
+        joints=model.joints,
+        dry=most,
+        promise=promise,
+        reason=reason or _reason(gain_set, model.joints, most, errors),
+        task=task,
+        delta=delta,
+        simulated_time=None if None in times else max(time for time in times if time is not None),
+        simulated_largest=tuple(np.max([run.largest for run in runs], axis=0).tolist()),
+        simulated_rest=tuple(np.max([run.rest for run in runs], axis=0).tolist()),
+        assumptions=model.assumptions,
+        varies=() if varied is None else tuple(one.text for one in varied[1]),
+        corners="" if varied is None else corners_text(*varied),
+        unvaried=unvaried,
+    )
+
+
+def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
+    """The promise of what is printed, in degrees and rounded up; or why there is none."""
+    assert isinstance(shown.statement, Resting)
+    unit = Fraction(1, 10**PLACES)
+    errors = [
+        None if error is None else ceil(error * DEGREES / unit) * unit / DEGREES
+        for error in shown.statement.errors
+    ]
+    return promised(asked.resting(gains, dry, errors), shown)
+
+
+def _errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
+    """rad, what is promised of each joint."""
+    if promise is None:
+        return (None,) * n
+    assert isinstance(promise.asked, Resting)
+    return promise.asked.errors
+
+
+def _reason(
+    gains: GainSet,
+    joints: tuple[str, ...],
+    dry: tuple[Fraction | None, ...],
+    errors: tuple[Fraction | None, ...],
+) -> str:
+    """Why joints have no bound, and what to do."""
+    unknown = [joint for joint, f in zip(joints, dry, strict=True) if f is None]
+    if unknown:
+        return (
+            f"nothing is known of the dry friction of {', '.join(unknown)}; give --friction, or state it as "
+            "coulomb in the arm file"
+        )
+    rows = zip(joints, gains.kp, dry, errors, strict=True)
+    weak = [
+        f"k_p = {decimal_text(k)} N·m of {joint} does not exceed its dry friction of {decimal_text(f)} N·m"
+        for joint, k, f, e in rows
+        if e is None and f is not None and f >= k
+    ]
+    if weak:
+        return f"{'; '.join(weak)}: raise k_p"
+    return "" if None not in errors else "h at the bounds does not decide it; raise k_p"
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """What runs of one arm show: see `BoundsComparison`."""
+
+    time: float | None
+    largest: tuple[float, ...]
+    rest: tuple[float, ...]
+
+    @classmethod
+    def of(
+        cls,
+        gain_set: GainSet,
+        model: RobotModel,
+        task: Task,
+        delta: float,
+        dry: Sequence[Fraction] | None,
+        errors: Sequence[Fraction | None],
+    ) -> _Runs:
+        """The task, and a motion let go just inside the bound of rest."""
+        known = [0.0 if number is None else float(number.value) for number in model.coulomb]
+        friction = known if dry is None else [float(f) for f in dry]
+        let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
+        run, other = (
+            disturbed(gain_set, model, task.q_d, q0, w0, task.T, dry=friction)
+            for q0, w0 in ((task.q0, task.w0), (let_go, None))
+        )
+        ends = np.max(np.abs([run.e[-1], other.e[-1]]), axis=0)
+        largest = np.max(np.abs(run.e), axis=0)
+        return cls(inside_from(run.t, run.e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
+
+
+def inside_from(t: Array, e: Array, delta: float) -> float | None:
+    """The first sample from which on every |e_i| ≤ δ."""
+    outside = np.flatnonzero(np.abs(e).max(axis=1) > delta)
+    if outside.size == 0:
+        return float(t[0])
+    last = int(outside[-1])
+    return float(t[last + 1]) if last + 1 < t.size else None
+
+
+@dataclass(frozen=True)
+class Comparisons(Answer):
+    """Proved bounds at rest beside simulated runs.
+
+    Args:
+        results: one a gain set.
+        file: where the gain sets stand.
+    """
+
+    schema = "lyapcheck/bounds/1"
+
+    results: tuple[BoundsComparison, ...]
+    file: GainFile | None = None
+
+    def document(self) -> Document:
+        """The errors at rest of each gain set, joint by joint, then the simulated times."""
+        behind = (Section(result.gains.name, tuple(_behind(result))) for result in self.results)
+        assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
+        varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
+        tried = ", ".join(dict.fromkeys(result.corners for result in self.results if result.corners))
+        runs = CORNERS.format(tried, varies) if varies else ONE_RUN
+        promises = [result.promise for result in self.results if result.promise is not None]
+        legend = [all_say(promises, LEGEND)] if promises else []
+        notes = (*legend, SIMULATED.format(runs), *(f"{text}." for text in assumed))
+        return Document(title(self.results), (*behind, _times(self.results)), notes)
+
+    def data(self) -> dict[str, Any]:
+        """``results: [{name, robot, disturbance, simulated, …}]``."""
+        return {"results": [comparison_data(result) for result in self.results]}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a gain set, without what the statement says."""
+        return [
+            {key: value for key, value in row.items() if key not in NOT_IN_RECORDS}
+            | {"disturbance": {k: v for k, v in row["disturbance"].items() if k != "rest_statement"}}
+            for row in self.data()["results"]
+        ]
+
+    def annotations(self) -> list[Annotation]:
+        """A case a gain set: whether each joint has a bound at rest."""
+        return [
+            Annotation(
+                group=result.gains.name,
+                level=Level.PASSED if result.proved else Level.UNDECIDED,
+                rule="resting",
+                rule_text=RULE,
+                case="errors at rest",
+                message="" if result.proved else f"none is proved of a joint: {result.reason}",
+                **({} if self.file is None else self.file.spot(result.gains)),
+            )
+            for result in self.results
+        ]
+
+
+def title(results: Sequence[BoundsComparison]) -> str:
+    """Whether all bounds are proved."""
+    robots = ", ".join(dict.fromkeys(result.robot for result in results))
+    promises = [result.promise for result in results if result.promise is not None and result.proved]
+    whole = len(promises)
+    if len(results) == 1:
+        return _one(results[0])
+    if whole == len(results) > 0:
+        return all_say(promises, f"✓ the errors at rest under all {whole} gain sets are proved on {robots}")
+    if not promises:
+        count = len(results)
+        return f"? not all errors at rest are proved under any of {count} gain sets on {robots or 'no arm'}"
+    some = f"? the errors at rest under {whole} of {len(results)} gain sets are proved on {robots}"
+    return all_say(promises, some)
+
+
+def _one(result: BoundsComparison) -> str:
+    over = f" with {', '.join(result.varies)}" if result.varies else ""
+    about = f"{result.gains.name} on {result.robot}{over}:"
+    known = [error for error in result.rest_degrees if error is not None]
+    if result.promise is not None and result.proved:
+        return result.promise.says(f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved")
+    rows = zip(result.joints, result.rest, strict=True)
+    missing = ", ".join(joint for joint, error in rows if error is None)
+    return f"? {about} no error at rest is proved for {missing}"
+
+
+def _behind(result: BoundsComparison) -> list[Table | Bullets]:
+    """The errors of a gain set, and why a joint has no bound."""
+    columns: list[tuple[str, Sequence[str]]] = [
+        ("dry friction [N·m]", [NONE if f is None else decimal_text(f) for f in result.dry]),
+        ("proved at most", list(map(angle_up, result.rest_degrees))),
+        ("simulated at rest", list(map(_angle, result.simulated_rest))),
+        ("simulated on the way", list(map(_angle, result.simulated_largest))),
+    ]
+    if result.unvaried is not None:
+        columns.insert(2, (WITHOUT, list(map(angle_up, result.unvaried.rest_degrees))))
+    promise = result.promise
+    proved = "" if promise is None else promise.says("proved: |e_i| at every state of rest; ")
+    rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
+    table = Table(("joint", *(head for head, _ in columns)), tuple(rows), f"{proved}{RUNS}:")
+    return [table, *([Bullets((f"{result.reason}.",))] if result.reason else [])]
+
+
+def _times(results: Sequence[BoundsComparison]) -> Table:
+    """When the simulated errors are small for good."""
+    angles = ", ".join(dict.fromkeys(f"{math.degrees(result.delta):g}°" for result in results))
+    rows = tuple(
+        (
+            result.gains.name,
+            f"not within {result.task.T:g} s"
+            if result.simulated_time is None
+            else f"{shown(result.simulated_time, '.3g')} s",
+        )
+        for result in results
+    )
+    return Table(("gains", "simulated time"), rows, f"Simulated: all |e_i| ≤ {angles} for good after:")
+
+
+def _angle(value: float) -> str:
+    """A simulated angle in degrees, rounded."""
+    return f"{shown(math.degrees(value), '.3g')}°"
+
+
+def angle_up(value: Fraction | None) -> str:
+    """A proved angle, degrees, in four digits and never rounded down; ``None`` is without a bound."""
+    if value is None:
+        return "∞"
+    return f"{decimal_text(significant_up(value, 4))}°" if value else "0°"
+
+
+def comparison_data(result: BoundsComparison) -> dict[str, Any]:
+    """One gain set; angles in degrees, those that are proved rounded up."""
+    task, promise = result.task, result.promise
+    return {
+        "name": result.gains.name,
+        "robot": result.robot,
+        "target": [_degrees(x) for x in task.q_d],
+        "start": [_degrees(x) for x in task.q0],
+        "settling": {"delta": _degrees(result.delta)},
+        "disturbance": {
+            "friction": [above(x) for x in result.dry],
+            "rest": [None if x is None else float(x) for x in result.rest_degrees],
+            "rest_statement": None if promise is None else promise.says(promise.shown.statement.text()),
+            "reason": result.reason,
+        },
+        "simulated": {
+            "duration": task.T,
+            "time": result.simulated_time,
+            "largest": [_degrees(x) for x in result.simulated_largest],
+            "rest": [_degrees(x) for x in result.simulated_rest],
+        },
+        "assumptions": list(result.assumptions),
+        "vary": list(result.varies),
+        "unvaried": None if result.unvaried is None else comparison_data(result.unvaried),
+    }
+
+
+def above(value: Fraction | None) -> float | None:
+    """The smallest double that is not below."""
+    return None if value is None else Enclosure(value, value).float_upper + 0.0  # −0.0 is written 0.0
+
+
+def _degrees(x: float) -> float:
+    return round(math.degrees(x), 9)
+
+
+def certificates(result: BoundsComparison) -> dict[str, Certificate]:
+    """The certificate by its file name; none where nothing was accepted."""
+    if result.promise is None:
+        return {}
+    name, gains = f"{result.gains.name}.resting", result.gains
+    says = f"how far from the goal it can rest: {gains.name} on {result.robot}"
+    about = About(name, says, gains.m, len(result.joints), PROOF)
+    made = Certificate(about, result.promise.shown.statement, "proved", "enclosure", AtBounds())
+    return {f"{file_stem(gains.name)}.resting.json": made}

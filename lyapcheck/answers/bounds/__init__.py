@@ -1,1 +1,0 @@
-"""Where dry friction lets an arm rest beside its goal: proved, beside what simulations of it show."""

@@ -1,0 +1,271 @@
+"""The largest gains of each joint: their range, exactly, the convex program that proposes, and rounding.
+
+The program is a second-order cone program in √k_p and k_v.
+
+    maximise    Σ s_i / √P_i                           s_i = √k_pi, P_i the limit of (10p)
+    subject to  s_i² + k_vi ≤ P_i                      (10p)
+                f_i ≤ k_vi ≤ V                         the targets, and (19)
+                2 ζ_i √(J_i L) s_i ≤ b_i + L k_vi      the damping ratio, where one is asked for
+
+The joints are coupled by nothing, but one program serves all. Its answer is a proposal in floating point, of
+which exact decimals are made.
+
+The damping ratio is that of one joint, with h replaced by its steepest secant. A joint that moves alone obeys
+J ë + b ė + k_v h(ė) + k_p h(e) = 0. Both h(x) are at most L x in size; with L x in their place the joint is a
+linear oscillator with
+
+    ζ = (b + L k_v) / (2 √(J L k_p)).
+
+For m = 1 it is the linearisation at the goal (L = h'(0) = 1). For m >= 2 it describes a motion as large as
+the one at which h(x)/x is largest; closer to the goal the spring goes soft.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, floor, isqrt, prod, sqrt
+
+from lyapcheck.answers.tune.targets import Targets
+from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.harmonics import by_parameters, largest
+from lyapcheck.control.limits import Limits
+from lyapcheck.control.threshold import Threshold, scaled
+from lyapcheck.convex import Ended, solved
+from lyapcheck.robots import RobotModel
+from lyapcheck.robots.trig import to_terms
+
+DIGITS = 30
+
+
+@dataclass(frozen=True)
+class Damping:
+    """What the damping ratio of a joint depends on beside its gains.
+
+    Args:
+        ratio: the ζ that is asked for.
+        friction: b, the least of the ranges, N·m·s/rad.
+        inertia: J, an upper bound of M_ii over all angles and ranges, kg·m².
+        slope: L_m from below and from above.
+    """
+
+    ratio: Fraction
+    friction: Fraction
+    inertia: Fraction
+    slope: tuple[Fraction, Fraction]
+
+    def largest_kp(self, kv: Fraction) -> Fraction:
+        """The largest k_p that keeps ζ: (b + L k_v)²/(4 ζ² J L), from below.
+
+        Soundness: L enters the square by its lower and the divisor by its upper end.
+        """
+        low, high = self.slope
+        return (self.friction + low * kv) ** 2 / (4 * self.ratio**2 * self.inertia * high)
+
+    def reached(self, kp: Fraction, kv: Fraction) -> Fraction:
+        """ζ of two gains, from below, to nine decimal places."""
+        low, high = self.slope
+        square = (self.friction + low * kv) ** 2 / (4 * self.inertia * high * kp)
+        return Fraction(isqrt(int(square * 10**18)), 10**9)
+
+
+def damping_of(
+    model: RobotModel, m: int, ratios: tuple[Fraction, ...], viscous_min: Fraction | None = None
+) -> tuple[Damping, ...]:
+    """The least damping of every joint over the ranges of an arm.
+
+    Args:
+        model: the arm with its ranges.
+        m: the member of the family.
+        ratios: one ζ a joint.
+        viscous_min: λmin(B) to judge by; it is the friction of each joint, unless it is the arm's own.
+
+    Soundness: ζ falls with the inertia and grows with the friction, so that the ends of both give the least.
+    """
+    L = hyperbolic_constants(m, DIGITS).L
+    inertias = [_largest_inertia(model, i) for i in range(model.n)]
+    frictions = [number.bounds[0] for number in model.viscous]
+    if viscous_min not in (None, min(frictions)):
+        frictions = [viscous_min or Fraction(0)] * model.n
+    return tuple(
+        Damping(ratio, friction, inertia, (L.lower, L.upper))
+        for ratio, friction, inertia in zip(ratios, frictions, inertias, strict=True)
+    )
+
+
+def _largest_inertia(model: RobotModel, i: int) -> Fraction:
+    """An upper bound of M_ii over all angles and all values of the parameters, kg·m²."""
+    sizes = [max(map(abs, number.bounds)) for number in model.parameters.values()]
+    parts = by_parameters(to_terms(model.mass[i][i]), model.n).items()
+    rows = (largest(part) * prod(map(pow, sizes, powers), start=Fraction(1)) for powers, part in parts)
+    return sum(rows, Fraction(0))
+
+
+@dataclass(frozen=True)
+class GainRange:
+    """What one joint's gains must keep to; integers count units in the last decimal place.
+
+    Args:
+        unit: the size of one unit, N·m.
+        sum_limit: (τmax − k_g)/(√n γ), which k_p + k_v stays below, N·m.
+        kv_limit: λmin(B)/(√n γ), which k_v stays below, N·m.
+        most_sum: the largest k_p + k_v that passes (10p).
+        most_kv: the largest k_v that passes (19).
+        least_kv: the smallest k_v that the targets allow.
+        damping: the damping ratio that is asked for, ``None`` where none is.
+
+    References: (10), (19) and the tuning rule of Section 4, reyes2019family.
+    """
+
+    unit: Fraction
+    sum_limit: Enclosure
+    kv_limit: Enclosure
+    most_sum: int
+    most_kv: int
+    least_kv: int
+    damping: Damping | None = None
+
+    @property
+    def kv_range(self) -> tuple[int, int]:
+        """The k_v that leave room for a k_p of one unit; empty where the first exceeds the second."""
+        return self.least_kv, min(self.most_kv, self.most_sum - 1)
+
+    def damped_kp(self, kv: int) -> int | None:
+        """The largest k_p that keeps the damping ratio; ``None`` where any does."""
+        return None if self.damping is None else floor(self.damping.largest_kp(kv * self.unit) / self.unit)
+
+    def most_kp(self, kv: int) -> int:
+        """The largest k_p beside a k_v."""
+        damped = self.damped_kp(kv)
+        return self.most_sum - kv if damped is None else min(self.most_sum - kv, damped)
+
+
+def gain_range_of(
+    joint: int, limits: Limits, gamma: Tree | None, targets: Targets, damping: Damping | None = None
+) -> GainRange:
+    """The range of a joint, counted from 0, on an arm whose torque limits and friction are known.
+
+    Soundness: every largest decimal is proved to pass (10p) or (19) as the gate's checks are.
+    """
+    torque, friction = limits.torque[joint], limits.viscous_min
+    if torque is None or friction is None or gamma is None:
+        raise ValueError("a range needs a torque limit, a friction and a bounded function")
+    torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
+    dampings = scaled(friction, limits.n, gamma)
+    kept = scaled(targets.share_of_kv(joint) * friction, limits.n, gamma).most_units(targets.digits)
+    least = ceil(targets.kv_min[joint] / targets.unit) if targets.kv_min else 0
+    return GainRange(
+        unit=targets.unit,
+        sum_limit=_enclosed(torques),
+        kv_limit=_enclosed(dampings),
+        most_sum=torques.most_units(targets.digits),
+        most_kv=dampings.most_units(targets.digits),
+        least_kv=max(kept, least, 1),
+        damping=damping,
+    )
+
+
+def _enclosed(threshold: Threshold) -> Enclosure:
+    near = threshold.near()
+    return Enclosure(near.lower, near.upper)
+
+
+@dataclass(frozen=True)
+class GainProposal:
+    """The optimum of the program for each joint, N·m; ``kv`` is empty where the solver gave none."""
+
+    status: str
+    kp: tuple[float, ...] = ()
+    kv: tuple[float, ...] = ()
+
+
+def propose(gain_ranges: Sequence[GainRange]) -> GainProposal:
+    """Clarabel's answer; only ``optimal`` is one."""
+    import cvxpy as cp
+
+    torque = [float(gain_range.sum_limit.mid) for gain_range in gain_ranges]
+    low = [float(gain_range.least_kv * gain_range.unit) for gain_range in gain_ranges]
+    high = [
+        float(min(gain_range.most_kv, gain_range.most_sum - 1) * gain_range.unit)
+        for gain_range in gain_ranges
+    ]
+    root, kv = cp.Variable(len(gain_ranges), nonneg=True), cp.Variable(len(gain_ranges), nonneg=True)
+    # each joint in units of its own limit: gains of 10⁻² and 10³ N·m stand side by side
+    constraints = [cp.square(root) + kv <= 1]
+    constraints += [kv >= _over(low, torque), kv <= _over(high, torque)]
+    for i, gain_range in enumerate(gain_ranges):
+        if gain_range.damping is not None:
+            ratio, friction, inertia = (
+                float(x)
+                for x in (gain_range.damping.ratio, gain_range.damping.friction, gain_range.damping.inertia)
+            )
+            slope = float(gain_range.damping.slope[0])
+            stiff = 2 * ratio * sqrt(inertia * slope * torque[i])
+            damped = friction + slope * torque[i] * kv[i]
+            constraints.append(root[i] <= damped / stiff)
+    solution = solved(cp.sum(root), constraints, [root, kv])
+    if solution.ended is not Ended.SOLVED:
+        return GainProposal(solution.reason)
+    pairs = [(float(s), float(v), t) for s, v, t in zip(*solution.values, torque, strict=True)]
+    return GainProposal("optimal", tuple(s * s * t for s, _, t in pairs), tuple(v * t for _, v, t in pairs))
+
+
+def _over(values: Sequence[float], scale: Sequence[float]) -> list[float]:
+    return [value / unit for value, unit in zip(values, scale, strict=True)]
+
+
+def best_units(gain_range: GainRange, proposal: float | None = None) -> tuple[int, int]:
+    """The largest k_p, and beside it the largest k_v, in units of the last digit.
+
+    As k_v grows, the k_p that the damping ratio allows does not fall, and the one that (10p) allows does: the
+    best is at the first k_v where the former is at least the latter, or just before.
+
+    Args:
+        gain_range: what the joint must keep to; its ``kv_range`` is not empty.
+        proposal: k_v of the convex program, N·m, where the search begins.
+
+    Soundness: the answer does not depend on the proposal, which only says where to look first.
+    """
+    low, high = gain_range.kv_range
+    guess = low if proposal is None else max(low, min(high, int(proposal / float(gain_range.unit))))
+    first = _first_undamped(gain_range, guess)
+    candidates = [kv for kv in (first - 1, first) if low <= kv <= high]
+    kp = max(gain_range.most_kp(kv) for kv in candidates)
+    return kp, min(gain_range.most_kv, gain_range.most_sum - kp)
+
+
+def _undamped(gain_range: GainRange, kv: int) -> bool:
+    """Whether (10p) limits k_p, and not the damping ratio."""
+    damped = gain_range.damped_kp(kv)
+    return damped is None or damped >= gain_range.most_sum - kv
+
+
+def _first_undamped(gain_range: GainRange, guess: int) -> int:
+    """The smallest k_v of the range where (10p) is the limit of k_p; one past the range where none is."""
+    low, last = gain_range.kv_range
+    high = last + 1
+    for step in (guess - 1, guess, guess + 1):
+        if low <= step < high:
+            low, high = (low, step) if _undamped(gain_range, step) else (step + 1, high)
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (low, middle) if _undamped(gain_range, middle) else (middle + 1, high)
+    return low
+
+
+def binding(gain_range: GainRange, kp: int, kv: int) -> tuple[str, str]:
+    """What forbids one unit more of k_p, and of k_v: ``10p``, ``19`` or ``damping``.
+
+    Raises:
+        ArithmeticError: nothing does, so the gains are not the largest.
+    """
+    damped = gain_range.damped_kp(kv)
+    full = kp + kv + 1 > gain_range.most_sum
+    for_kp = "10p" if full else "damping" if damped is not None and kp + 1 > damped else ""
+    for_kv = "19" if kv + 1 > gain_range.most_kv else "10p" if full else ""
+    if not (for_kp and for_kv):
+        raise ArithmeticError(f"{kp} and {kv} units are not the largest gains")
+    return for_kp, for_kv
