@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from lyapcheck.answers.gate.shown import shown_gravity
-from lyapcheck.certificate import to_json
 from lyapcheck.check.kinds.chain import ChainGravityBelow, OwnLevers
 from lyapcheck.check.kinds.gravity import GravityBelow, Levers
 from lyapcheck.check.loop.chain import RigidLink
@@ -19,7 +18,7 @@ from lyapcheck.check.verify import verify
 from lyapcheck.control.arm_limits import arm_limits
 from lyapcheck.robots.dynamics import Chain, ParameterShare
 from lyapcheck.robots.trig import to_terms
-from tests.helpers.bounds_oracle import Bound
+from tests.oracle.bounds import Bound
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 RANGE = (F(-1, 2), F(3, 2))
@@ -78,9 +77,8 @@ def test_no_state_pulls_harder_and_what_one_reaches_is_no_bound(seed):
     loaded = [(ranged, ranged.bound([RANGE])) for ranged, _ in ways]
     alone = [(OwnLevers(one.along), one.bound(())) for _, one in ways]
     for statement, proofs in ((polynomial, loaded), (exact, alone)):
-        seen = Bound(to_json(statement))
-        _, square = seen.hunt(seed)
-        reached = F(float(np.sqrt(max(square, 0.0))))
+        seen = Bound(statement)
+        reached = F(float(np.sqrt(max(seen.excess(seen.hunt(seed)), 0.0))))
         for proof, bound in proofs:
             assert proved(replace(statement, high=bound), proof)
             assert reached <= bound * (1 + NEAR) + NEAR
