@@ -22,24 +22,23 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.answers.tune.tuning import tune as tune_gains
     from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
-    from lyapcheck.check.numbers.enclosure import Enclosure
+    from lyapcheck.check.numbers.polynomials import Enclosure
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
     from lyapcheck.claims.decision import Decision
-    from lyapcheck.constants.bounds import RobotConstants, robot_constants
-    from lyapcheck.control.gains import Bounds, GainFile, GainSet, read_gain_file
+    from lyapcheck.constants.arm import RobotConstants, robot_constants
+    from lyapcheck.control.gains import Bounds, GainFile, GainSet, paper_gain_file, read_gain_file
     from lyapcheck.control.limits import Limits, limits_for
-    from lyapcheck.control.paper import paper_gain_file
     from lyapcheck.errors import InputError, Problem
+    from lyapcheck.family.asymptotes import gamma_less_than
     from lyapcheck.family.base import Family
-    from lyapcheck.family.compared import gamma_less_than
     from lyapcheck.family.registry import named as named_family
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
-    from lyapcheck.robots.model import RobotModel
-    from lyapcheck.robots.number import Number
+    from lyapcheck.robots.fields import Number
     from lyapcheck.robots.numeric import NumericModel
+    from lyapcheck.robots.plant import RobotModel
     from lyapcheck.robots.registry import load as load_robot
     from lyapcheck.robots.registry import names as robot_names
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
@@ -119,7 +118,7 @@ _HOMES = {
     "ClaimResult": "answers.check",
     "Constants": "check.numbers.constants",
     "Decision": "claims.decision",
-    "Enclosure": "check.numbers.enclosure",
+    "Enclosure": "check.numbers.polynomials",
     "EpsilonResult": "answers.epsilon",
     "Exit": "verdicts",
     "Family": "family.base",
@@ -131,14 +130,14 @@ _HOMES = {
     "Limits": "control.limits",
     "LyapunovGraph": "lyapunov.graph",
     "LyapunovNumeric": "lyapunov.numeric",
-    "Number": "robots.number",
+    "Number": "robots.fields",
     "NumericModel": "robots.numeric",
     "Plan": "answers.sweep",
     "Problem": "errors",
     "Proof": "claims.claim",
     "ProofResult": "answers.check",
-    "RobotConstants": "constants.bounds",
-    "RobotModel": "robots.model",
+    "RobotConstants": "constants.arm",
+    "RobotModel": "robots.plant",
     "Rows": "answers.sweep",
     "Run": "simulate.run",
     "Table": "answers.table",
@@ -151,19 +150,19 @@ _HOMES = {
     "derivation": "answers.derive",
     "epsilon": "answers.epsilon",
     "explain": "answers.explain",
-    "gamma_less_than": "family.compared",
+    "gamma_less_than": "family.asymptotes",
     "gate": "answers.gate",
     "hyperbolic_constants": "check.numbers.constants",
     "limits_for": "control.limits",
     "load_robot": "robots.registry:load",
     "lyapunov_graph": "lyapunov.graph",
     "named_family": "family.registry:named",
-    "paper_gain_file": "control.paper",
+    "paper_gain_file": "control.gains",
     "read_gain_file": "control.gains",
     "read_plan": "answers.sweep",
     "read_reference": "tracking.reference.file",
     "recheck": "check.recheck",
-    "robot_constants": "constants.bounds",
+    "robot_constants": "constants.arm",
     "robot_names": "robots.registry:names",
     "run_experiment": "simulate.trial:experiment",
     "run_proof": "answers.check.run",

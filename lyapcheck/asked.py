@@ -17,7 +17,7 @@ from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.robots.dynamics import TooManyTerms
 from lyapcheck.robots.trig import to_terms
-from lyapcheck.search.inertia import mass_of
+from lyapcheck.search.controlled_arm import mass_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -98,7 +98,7 @@ def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -
     if name == "lambda_max":
         return MassBelow(mass_of(arm), ranges, end)
     if name == "k_c":
-        from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+        from lyapcheck.check.kinds.coriolis import CoriolisBelow
 
         return CoriolisBelow(mass_of(arm), ranges, end)
     gravity = tuple(tuple(to_terms(arm.gravity[i])) for i in _joints(name, arm))

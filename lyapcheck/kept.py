@@ -16,7 +16,7 @@ from lyapcheck.certificate import Certificate
 from lyapcheck.check import certificate as read
 from lyapcheck.check.certificate import judge
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.check.loop.processes import shared_between
+from lyapcheck.check.loop.proof import shared_between
 from lyapcheck.check.refusal import Refused
 
 T = TypeVar("T")

@@ -21,7 +21,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.control.paper import proofs_folder
+from lyapcheck.control.gains import proofs_folder
 from lyapcheck.temporary import pending
 
 OFF = "LYAPCHECK_NO_STORE"

@@ -16,14 +16,13 @@ from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.resting import AtBounds, Resting
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.resting import DEGREES
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.control.judgement import DEGREES
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text, significant_up
-from lyapcheck.files.names import file_stem
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.files.fields import file_stem
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Bullets, Document, Section, Table
 from lyapcheck.promise import Promise, all_say, promised

@@ -15,12 +15,11 @@ from lyapcheck.answers.check.proof import one_line
 from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
-from lyapcheck.claims.registry import procedure_of
-from lyapcheck.claims.script import SHIPPED, check_ids, find_script
+from lyapcheck.claims.script import SHIPPED, ask, check_ids, find_script
+from lyapcheck.claims.search_result import procedure_of
 from lyapcheck.claims.statements import Missing
-from lyapcheck.control.paper import proofs_folder
+from lyapcheck.control.gains import proofs_folder
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
 

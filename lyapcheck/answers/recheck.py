@@ -10,16 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.granted import GENERAL
+from lyapcheck.check.judgement import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.errors import argument_error
 from lyapcheck.kernel.coq import Kernel, require_coq
 from lyapcheck.kernel.judge import graded, judged
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
-from lyapcheck.rechecking.command import Writer
-from lyapcheck.rechecking.render import as_json, text
+from lyapcheck.rechecking.command import Writer, as_json, text
 from lyapcheck.temporary import temporary_folder
 
 SIGNS = {"refused": "✗", "undecided": "?", "accepted": "✓"}

@@ -15,12 +15,11 @@ from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
-from lyapcheck.control.paper import PRINTED_GAMMA
-from lyapcheck.family.asymptotes import Asymptotes, asymptotes
-from lyapcheck.family.compared import gamma_less_than
+from lyapcheck.control.gains import PRINTED_GAMMA
+from lyapcheck.family.asymptotes import Asymptotes, asymptotes, gamma_less_than
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import correct_digits, decimals

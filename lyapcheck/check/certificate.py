@@ -18,7 +18,7 @@ from typing import Any, NoReturn
 
 from lyapcheck.check.codec import from_json, is_text, require_keys
 from lyapcheck.check.expressions.grammar import MAX_NAME
-from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING
+from lyapcheck.check.judgement import MAX_BYTES, MAX_NESTING
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import Accepted, verify

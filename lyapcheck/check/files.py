@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from lyapcheck.check.limits import MAX_BYTES
+from lyapcheck.check.judgement import MAX_BYTES
 from lyapcheck.check.refusal import plain
 
 SORTS = {

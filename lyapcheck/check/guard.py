@@ -13,15 +13,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.judgement import Judgement
-from lyapcheck.check.limits import Limits
+from lyapcheck.check.judgement import Judgement, Limits
 
 ROOT = str(Path(__file__).parents[2])
 CODE = """
 import json, sys
 path, seconds, memory = json.loads(sys.argv[1])
 sys.path[:] = path
-from lyapcheck.check.limits import Limits
+from lyapcheck.check.judgement import Limits
 from lyapcheck.check.worker import serve
 serve(Limits(seconds, memory))
 """

@@ -4,8 +4,34 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from lyapcheck.check.limits import SHOWN
 from lyapcheck.check.refusal import plain
+
+# --- What reading and judging one certificate may cost.
+
+
+MAX_BYTES = 50_000_000
+"""Of a file."""
+MAX_NESTING = 400
+"""Levels of objects and lists; an expression may have 300 of them."""
+MAX_ARM = 9
+"""Joints of an arm."""
+MOST_CORNERS = 256
+"""Of the ranges of an arm's parameters."""
+LARGEST = 10**9
+"""rad, rad/s, N·m and J: beyond all that is of use."""
+SHOWN = 300
+"""Characters of a statement, or of its author's words, unless the whole is asked for."""
+
+MOST = 1_000_000
+"""Seconds or MiB, beyond which a limit is none."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Seconds of computing time and MiB that the process may take which judges a certificate."""
+
+    seconds: int = 600
+    memory: int = 4096
 
 
 @dataclass(frozen=True)
@@ -51,3 +77,21 @@ def shortened(text: str, full: bool) -> str:
     if full or len(text) <= SHOWN:
         return plain(text)
     return f"{plain(text[: 2 * SHOWN // 3])} … (cut) … {plain(text[-SHOWN // 3 :])}"
+
+
+# --- What every verdict of the checker takes for granted; what a theorem takes for granted stands with it.
+
+
+GENERAL = (
+    "a statement means what its symbols mean for real numbers; whether a robot is so, no certificate says",
+    "Python, its integers and fractions, and SHA-256, by which certificates name each other",
+    "python-flint and FLINT: exact polynomials and matrices, and balls that contain what they enclose",
+    "doubles of IEEE 754: each corner of a box is the rational number that its double is",
+    "that the code of the checker itself is right: recheck --trusted lists it for each verdict",
+)
+
+TORQUE = (
+    "the torque is (6), τ = K_p h(e) − K_v h(w) + g(q) with e = q_d − q, w = q̇ and a constant q_d, applied "
+    "as it is, and (6) knows g(q) exactly; (11) is M(q)q̈ + C(q,q̇)q̇ + Bq̇ + g(q) = τ with it"
+)
+"""What statements about the closed loop (11) with numbers take for granted of the torque."""

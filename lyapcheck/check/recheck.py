@@ -7,8 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from lyapcheck.check.files import Document, Unreadable, content, words
 from lyapcheck.check.guard import Guard
-from lyapcheck.check.judgement import Judgement
-from lyapcheck.check.limits import Limits
+from lyapcheck.check.judgement import Judgement, Limits
 from lyapcheck.check.refusal import plain
 
 GRADES = ("enclosure", "exact")

@@ -12,10 +12,9 @@ from fractions import Fraction
 from flint import ctx
 
 from lyapcheck.check.expressions.defined import require_defined_at
-from lyapcheck.check.expressions.domain import Domain, Interval
+from lyapcheck.check.expressions.domain import Comparison, Domain, Interval, holds
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.expressions.witness import Comparison, holds
-from lyapcheck.check.numbers.enclosure import ball_of
+from lyapcheck.check.numbers.polynomials import ball_of
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import OfTerms, Point, Witness
 from lyapcheck.check.verify import Accepted, rule

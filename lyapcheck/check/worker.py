@@ -18,7 +18,7 @@ from math import ceil
 from pathlib import Path
 from typing import IO, Any
 
-from lyapcheck.check.limits import Limits
+from lyapcheck.check.judgement import Limits
 
 resource: Any = import_module("resource") if find_spec("resource") else None
 """The limits of a POSIX system; elsewhere there are none."""

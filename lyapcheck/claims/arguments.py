@@ -37,8 +37,7 @@ from lyapcheck.check.systems.forms import Form
 from lyapcheck.check.systems.obligations import obligations, rate_bound
 from lyapcheck.check.systems.system import System
 from lyapcheck.claims.bounds import ArmBounds, above
-from lyapcheck.claims.exact import exact_value
-from lyapcheck.claims.expressions import Expr, expr, sqrt, total
+from lyapcheck.claims.expressions import Expr, exact_value, expr, sqrt, total
 from lyapcheck.claims.letters import AnyVector
 from lyapcheck.robots.trig import to_terms
 

@@ -15,13 +15,12 @@ from flint import arb, ctx
 
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, MassBelow
 from lyapcheck.check.kinds.trigonometric import largest
 from lyapcheck.check.loop.inertia import Inertia
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.claims.exact import closed_value, exact_value
-from lyapcheck.claims.expressions import Expr, diff, expr, sqrt, var
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.claims.expressions import Expr, closed_value, diff, exact_value, expr, sqrt, var
 from lyapcheck.claims.statements import for_all, identity, norm_bound
 from lyapcheck.robots.trig import to_terms
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
+from lyapcheck.claims.decision import Proposal
 from lyapcheck.claims.handover import Key
-from lyapcheck.claims.proposal import Proposal
 from lyapcheck.claims.statements import Missing
-from lyapcheck.files.names import file_stem
+from lyapcheck.files.fields import file_stem
 
 
 def certificates(proposals: Mapping[Key, Proposal], proof: str) -> dict[Key, Certificate]:

@@ -2,18 +2,141 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from inspect import Parameter, signature
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.case import Case
-from lyapcheck.claims.order import needed
+from lyapcheck.errors import InputError, Problem
+
+# --- The case a claim is decided for: m, n, a robot and gains, and which of them a statement looked at.
+
+
+class Lacking(Exception):
+    """A statement needs something that this case does not have; the claim is undecided for that reason."""
+
+
+def lacking(reason: str) -> Lacking:
+    """What a statement raises when the text says nothing about a case: the claim is then undecided."""
+    return Lacking(reason)
+
+
+class Case:
+    """What a statement may depend on; there is no other way to it than one that ``read`` takes down.
+
+    Args:
+        m: the member of the family.
+        n: the number of joints.
+        robot: a model with that many joints, or none.
+        gains: the gain set for this m, or none.
+    """
+
+    def __init__(self, m: int, n: int, robot: Any = None, gains: Any = None) -> None:
+        values = {"m": m, "n": n, "robot": robot, "gains": gains}
+        self.read: set[str] = set()
+
+        def look(*names: str) -> Any:
+            self.read.update(names)
+            return values[names[0]]
+
+        self._look = look
+
+    @property
+    def m(self) -> int:
+        """The member of the family."""
+        return int(self._look("m"))
+
+    @property
+    def n(self) -> int:
+        """The number of joints."""
+        return int(self._look("n"))
+
+    @property
+    def robot(self) -> Any:
+        """The robot model; its n is the case's."""
+        model = self._look("robot", "n")
+        if model is None:
+            raise Lacking("this claim is about a robot; name one with --robot")
+        return model
+
+    @property
+    def gains(self) -> Any:
+        """The gain set for this m."""
+        gains = self._look("gains", "m", "n")
+        if gains is None:
+            raise Lacking(f"no gain set has m = {self.m}; give a file that has one with --gains")
+        return gains
+
+
+# --- Claims in an order in which each comes after all that it uses.
+
+
+class Ordered(Protocol):
+    """What has an id and uses others."""
+
+    @property
+    def id(self) -> str:
+        """The name by which others use it."""
+        ...
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The ids that it uses."""
+        ...
+
+
+S = TypeVar("S", bound=Ordered)
+
+
+def in_order(claims: Mapping[str, S], file: str) -> list[S]:
+    """The claims so that each comes after all it uses; otherwise as they are.
+
+    Raises:
+        InputError: a claim uses an id that does not exist, or itself by way of others.
+    """
+    rule, repair = "uses a claim that the script does not make", "add it or drop the use"
+    problems = [
+        Problem(file, None, claim.id, used, rule, repair)
+        for claim in claims.values()
+        for used in claim.uses
+        if used not in claims
+    ]
+    if problems:
+        raise InputError(problems)
+    done: dict[str, S] = {}
+    for claim in claims.values():
+        path = [claim.id]
+        while path:
+            waiting = next((used for used in claims[path[-1]].uses if used not in done), None)
+            if waiting is None:
+                done[path[-1]] = claims[path[-1]]
+                path.pop()
+            elif waiting in path:
+                circle = " → ".join([*path[path.index(waiting) :], waiting])
+                raise InputError(
+                    Problem(file, None, waiting, circle, "the claims use each other in a circle", "break it")
+                )
+            else:
+                path.append(waiting)
+    return list(done.values())
+
+
+def needed(claims: Mapping[str, S], ids: Iterable[str]) -> set[str]:
+    """The ids and everything they use, directly or not."""
+    result: set[str] = set()
+    waiting = list(ids)
+    while waiting:
+        claim = waiting.pop()
+        if claim not in result:
+            result.add(claim)
+            waiting.extend(claims[claim].uses)
+    return result
+
 
 StatementOf = Callable[[Case], Statement]
 ARGUMENTS = ("m", "n", "robot", "gains")

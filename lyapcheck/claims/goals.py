@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lyapcheck.check.systems.system import Entrywise, Member, State, System
-from lyapcheck.claims.exact import exact_value
-from lyapcheck.claims.expressions import Expr, diff, var
+from lyapcheck.claims.expressions import Expr, diff, exact_value, var
 from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, diagonal
 
 

@@ -16,10 +16,10 @@ from lyapcheck.check.certificate import TOO_DEEP as DOCUMENT_TOO_DEEP
 from lyapcheck.check.certificate import parse
 from lyapcheck.check.codec import from_json
 from lyapcheck.check.expressions.grammar import MAX_DEPTH
-from lyapcheck.check.limits import MAX_BYTES
+from lyapcheck.check.judgement import MAX_BYTES
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.case import Lacking
+from lyapcheck.claims.claim import Lacking
 from lyapcheck.claims.statements import Missing
 
 CaseData = tuple[int, int, Any, Any]

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 import os
+import pickle
 import re
+import signal
+import subprocess
 import sys
 import traceback
 from collections.abc import Callable, Collection, Iterable
+from contextlib import suppress
+from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from lyapcheck.claims.claim import Proof
-from lyapcheck.control.paper import proofs_folder
+from lyapcheck.check.refusal import Refused
+from lyapcheck.claims.claim import Proof, in_order
+from lyapcheck.claims.handover import Handover, ScriptRequest, read
+from lyapcheck.claims.python_process import command, environment
+from lyapcheck.control.gains import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.reader import SCRIPT, read_bytes
+from lyapcheck.temporary import temporary_folder
 
 SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py")
 """The proof scripts that come with lyapcheck."""
@@ -174,3 +183,75 @@ def _near(wanted: str, ids: Collection[str]) -> list[str]:
     """The ids that may have been meant: those that begin alike, or else those of about the same letters."""
     begun = [known for known in ids if known.casefold().startswith(wanted.casefold())] if wanted else []
     return begun[:MOST_NEAR] or get_close_matches(wanted, ids, n=3, cutoff=0.5)
+
+
+# --- Asking a proof script for its statements, without running it in this process.
+
+
+MAX_BYTES = 400_000_000
+STANDARD_ERROR = 2
+
+
+def ask(request: ScriptRequest) -> Handover:
+    """What a script hands over; it is over, with all it has started, when this returns.
+
+    Soundness: nothing comes back but claims in words and statements as data, which are read strictly.
+
+    Raises:
+        InputError: the script cannot be used, or hands over something else.
+    """
+    with temporary_folder() as folder:
+        answer = Path(folder, "answer.json")
+        code = _run_apart(replace(request, answer=str(answer)))
+        handover = _read(answer, request, code)
+    if handover.problems:
+        raise InputError([Problem(*problem) for problem in handover.problems])
+    claims = {claim.id: claim for claim in handover.claims}
+    check_ids(claims, request.only, request.shown)
+    in_order(claims, request.shown)
+    return handover
+
+
+def _run_apart(request: ScriptRequest) -> int:
+    """The exit code of the process of the script.
+
+    It has a session of its own, so that what it leaves running can be ended; and as long as its standard
+    input is open it knows that this process lives.
+    """
+    process = subprocess.Popen(
+        command("lyapcheck.claims.script_process"),
+        stdin=subprocess.PIPE,
+        stdout=STANDARD_ERROR,
+        env=environment(),
+        start_new_session=True,
+    )
+    assert process.stdin is not None
+    try:
+        with suppress(BrokenPipeError):
+            process.stdin.write(pickle.dumps(request))
+            process.stdin.flush()
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+    finally:
+        os.killpg(process.pid, signal.SIGKILL)  # its id cannot be another's before wait has returned
+        with suppress(BrokenPipeError):
+            process.stdin.close()
+        process.wait()
+    return process.returncode
+
+
+def _read(answer: Path, request: ScriptRequest, code: int) -> Handover:
+    try:
+        if code or not answer.is_file():
+            raise Refused("process", _ending(code), "must end with its claims handed over")
+        size = answer.stat().st_size
+        if size > MAX_BYTES:
+            raise Refused("answer", f"{size} bytes", f"must not exceed {MAX_BYTES}")
+        return read(answer.read_text(encoding="utf-8"), len(request.asked) + len(request.others))
+    except (Refused, ValueError, RecursionError) as error:
+        rule = f"does not hand over its claims ({error})"
+        raise InputError(Problem(request.shown, None, "script", "", rule, "correct the script")) from error
+
+
+def _ending(code: int) -> str:
+    """How a process has ended."""
+    return f"exit code {code}" if code >= 0 else f"signal {-code}"

@@ -18,8 +18,7 @@ from threading import Thread
 from typing import BinaryIO
 
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.case import Case, Lacking
-from lyapcheck.claims.claim import Claim
+from lyapcheck.claims.claim import Case, Claim, Lacking, in_order, needed
 from lyapcheck.claims.handover import (
     TOO_DEEP,
     CaseData,
@@ -30,7 +29,6 @@ from lyapcheck.claims.handover import (
     statement_json,
     write,
 )
-from lyapcheck.claims.order import in_order, needed
 from lyapcheck.claims.script import check_ids, line_of, load_proof, raised, repair_of
 from lyapcheck.errors import InputError, Problem
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any
+from functools import lru_cache
+from typing import Any, TypeVar
 
 from lyapcheck.check.kinds.all_of import EveryPart, OnePart
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.output.digits import decimals
 from lyapcheck.verdicts import Grade, Verdict
 
@@ -94,3 +95,33 @@ def conjunction(parts: Iterable[tuple[str, SearchResult]]) -> SearchResult:
     methods = "; ".join(dict.fromkeys(result.method for _, result in named))
     proofs = tuple(result.proof for _, result in named if result.proof is not None)
     return shown(EveryPart(proofs), methods, **evidence)
+
+
+# --- Which search decides which kind of statement: each says so where it is defined.
+
+
+Procedure = Callable[[Any], SearchResult]
+PROCEDURES: dict[type[Statement], Procedure] = {}
+
+Search = TypeVar("Search", bound=Procedure)
+
+
+def procedure(*kinds: type[Statement]) -> Callable[[Search], Search]:
+    """Enter a function as the search for some kinds of statement."""
+
+    def enter(search: Search) -> Search:
+        PROCEDURES.update(dict.fromkeys(kinds, search))
+        return search
+
+    return enter
+
+
+def procedure_of(kind: type[Statement]) -> Procedure:
+    """The search for a kind: its own, else that of the kind it derives from."""
+    return next(PROCEDURES[base] for base in kind.__mro__ if base in PROCEDURES)
+
+
+@lru_cache(maxsize=1024)
+def find(statement: Statement) -> SearchResult:
+    """What the search for the kind of a statement finds; not yet judged. Claims share facts: each once."""
+    return procedure_of(type(statement))(statement)

@@ -16,20 +16,18 @@ from typing import Any
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
-from lyapcheck.check.expressions.domain import Interval
-from lyapcheck.check.expressions.witness import Comparison
+from lyapcheck.check.expressions.domain import Comparison, Interval
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.norm_bound import NormBound, vector_relation
 from lyapcheck.check.kinds.norm_bound import entries as entries_of
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable
-from lyapcheck.claims.ask import ask
 from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.claims.handover import CaseData, Key, ScriptRequest
 from lyapcheck.claims.procedures.implication import bound_of
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
-from lyapcheck.claims.script import find_script
+from lyapcheck.claims.script import ask, find_script
 from lyapcheck.claims.statements import Missing
 
 ANGLES = tuple(

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from lyapcheck.check.expressions.expression import variables
-from lyapcheck.check.kinds.agrees import Agrees
 from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.constant import Agrees
+from lyapcheck.check.kinds.decreasing import DampingBelow, Decreasing
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
@@ -17,8 +18,10 @@ from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Relation, Statement, Variable
-from lyapcheck.claims.exact import exact_value
-from lyapcheck.claims.expressions import Expr, expr, var
+from lyapcheck.claims.claim import lacking
+from lyapcheck.claims.expressions import Expr, exact_value, expr, var
+from lyapcheck.claims.search_result import SearchResult
+from lyapcheck.verdicts import Verdict
 
 T = TypeVar("T")
 
@@ -196,3 +199,87 @@ def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> Trig
 def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
     """Polynomials in sines and cosines are positive for all angles."""
     return TrigonometricPositive(tuple(entry.tree for entry in entries))
+
+
+# --- Statements about every state of one arm under one controller, from a robot and a gain set.
+
+
+def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> Decreasing:
+    """dV/dt < 0 along (11) at every state but the origin, with (13) for V and this ε₀.
+
+    Args:
+        robot: the arm, at its nominal numbers.
+        gains: of a bounded family, N·m.
+        eps0: an exact positive number.
+        ranges: for all values of the arm's uncertain numbers instead.
+
+    Raises:
+        Lacking: the gains are for another number of joints, or h is unbounded.
+        ValueError: ε₀ is no exact number.
+    """
+    from lyapcheck.check.kinds.decreasing import statement_of
+    from lyapcheck.search.controlled_arm import ControlledArm
+
+    if len(gains.kp) != robot.n:
+        raise lacking(f"the gains are for {len(gains.kp)} joints, {robot.name} has {robot.n}")
+    controlled = ControlledArm(gains, robot, ranges)
+    if not controlled.family.bounded:
+        raise lacking("h is unbounded; give gains of a bounded family")
+    return statement_of(controlled.loop(exact_value(eps0)))
+
+
+def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:
+    """A bound of λmax(K_v) is necessary: wherever some ε₀ > 0 gives dV/dt < 0 with K_p and κK_v, κ > 0.
+
+    Args:
+        robot: the arm, at its nominal numbers.
+        gains: K_p, and K_v up to the factor κ; N·m.
+        bound: a number, N·m.
+
+    Raises:
+        Lacking: the gains are for another number of joints, or h is unbounded.
+    """
+    return DampingBelow.about(decreasing(robot, gains, 1).closed_loop, bound=expr(bound).tree)
+
+
+# --- Whether the hypotheses of a proved statement hold anywhere: one that holds of nothing says nothing.
+
+
+NOTHING = "its hypotheses contradict each other: it holds of nothing"
+UNMET = "no value was found that meets all hypotheses: it may hold of nothing"
+
+
+def remarks(statement: Statement, judge: Callable[[Implies], SearchResult]) -> Iterator[str]:
+    """What a reader of a proved statement must know of its hypotheses; nothing where a point meets them.
+
+    Args:
+        statement: parts of it are named.
+        judge: a search whose proofs the checker has verified: of the claim that the hypotheses give
+            1 <= 0, which a point that meets them refutes, and of claims that they contradict each other.
+    """
+    if isinstance(statement, AllOf):
+        for name, part in statement.parts:
+            yield from (f"{name}: {remark}" for remark in remarks(part, judge))
+    elif isinstance(statement, (Implies, ForSmall)) and statement.hypotheses:
+        together = _together(statement)
+        if judge(together).verdict is not Verdict.REFUTED:
+            decided = any(judge(one).verdict is Verdict.PROVED for one in _contradictions(together))
+            yield NOTHING if decided else UNMET
+
+
+def _together(statement: Implies | ForSmall) -> Implies:
+    """That the hypotheses of a statement give 1 <= 0."""
+    variables, given = statement.variables, statement.hypotheses
+    if isinstance(statement, ForSmall):
+        variables += positive(statement.small, *statement.bounded)
+        given += tuple(var(name) <= 1 for name in statement.bounded)
+    return Implies(variables, given, expr(1) <= 0)
+
+
+def _contradictions(together: Implies) -> Iterator[Implies]:
+    """Statements of which each says that no point meets all hypotheses: the others give that one fails."""
+    yield together
+    given = together.hypotheses
+    for k, one in enumerate(given):
+        fails = Relation(one.right, "<=" if one.strict else "<", one.left)
+        yield Implies(together.variables, (*given[:k], *given[k + 1 :]), fails)

@@ -101,7 +101,7 @@ class Eps0:
         if not self.certified:
             return self.number or 0.0
         from lyapcheck.answers.epsilon import epsilon
-        from lyapcheck.check.numbers.enclosure import Enclosure
+        from lyapcheck.check.numbers.polynomials import Enclosure
 
         advance(0.0, f"{gain_set.name}: what ε₀ is certified")
         result = epsilon(gain_set, model, max_boxes=MAX_BOXES, weights=False).certified

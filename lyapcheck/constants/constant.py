@@ -2,18 +2,127 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import inf, nextafter, sqrt
 
 import numpy as np
 
 from lyapcheck._types import SEED, Array, Progress
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.constants.maximise import maximise
-from lyapcheck.constants.outside import ceiling
-from lyapcheck.constants.storage.bounds import BoundWithProof
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.constants.storage import BoundWithProof
 from lyapcheck.constants.torus import PI_ABOVE, AffineForms, Torus
+from lyapcheck.robots.plant import Plant
+
+# --- The largest value of a function over a box, from both sides: best first, and stopped at any time.
+
+
+Bounds = Callable[[Array, Array], tuple[Array, Array]]
+"""Middles and half widths of boxes to what the function is at least in the middle and at most on the box."""
+Influence = Callable[[Array, Array], Array]
+"""Middles and half widths of boxes to how much each side matters."""
+
+BATCH = 128
+
+
+@dataclass(frozen=True)
+class Largest:
+    """The supremum lies in [inside, outside]; the function is at least ``inside`` at ``state``."""
+
+    inside: float
+    outside: float
+    state: tuple[float, ...]
+    boxes: int
+
+
+def maximise(
+    half: Array,
+    bounds: Bounds,
+    influence: Influence,
+    witness: tuple[Array, float],
+    max_boxes: int,
+    gap: float,
+    most: float = np.inf,
+    on_progress: Progress | None = None,
+) -> Largest:
+    """Enclose the supremum over the box [−half, half], splitting where the bound is largest.
+
+    Args:
+        half: half widths of the box, (n,); sides of width 0 stay.
+        bounds: see ``Bounds``.
+        influence: decides which side of a box is halved.
+        witness: a state to begin with, (n,), and what the function is at least there.
+        max_boxes: how many boxes may be looked at.
+        gap: relative distance of the two bounds that is good enough.
+        most: an upper bound of the supremum that is known beforehand.
+        on_progress: receives the share of the budget used.
+
+    Soundness: halves cover their box, and a box is dropped only when its bound is not above ``inside``;
+        ``bounds`` is taken at its word.
+    """
+    state, inside = witness
+    middle, width = np.zeros((1, len(half))), half[None]
+    top = np.fmin(bounds(middle, width)[1], most)
+    seen = 1
+    while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
+        chosen = np.argsort(-top, kind="stable")[: min(BATCH, (max_boxes - seen) // 2)]
+        rest = np.ones(len(top), dtype=np.bool_)
+        rest[chosen] = False
+        halves = _halves(middle[chosen], width[chosen], influence)
+        low, high = bounds(*halves)
+        # a bound that is undefined is no bound: fmin then keeps that of the whole
+        high = np.fmin(high, np.concatenate([top[chosen], top[chosen]]))
+        seen += len(high)
+        if low.max() > inside:
+            inside, state = float(low.max()), halves[0][np.argmax(low)]
+        keep = high > inside
+        kept = rest & (top > inside)
+        middle = np.concatenate([middle[kept], halves[0][keep]])
+        width = np.concatenate([width[kept], halves[1][keep]])
+        top = np.concatenate([top[kept], high[keep]])
+        if on_progress is not None:
+            on_progress(seen / max_boxes, f"{seen} boxes")
+    outside = max(inside, float(top.max())) if len(top) else inside
+    return Largest(inside, outside, tuple(float(x) for x in state), seen)
+
+
+def _halves(middle: Array, width: Array, influence: Influence) -> tuple[Array, Array]:
+    """Both halves of every box; they overlap by the rounding of their middles."""
+    rows = np.arange(len(middle))
+    side = np.argmax(influence(middle, width), axis=1)
+    half = width.copy()
+    half[rows, side] *= 0.5
+    step = np.zeros_like(middle)
+    step[rows, side] = half[rows, side]
+    wider = half.copy()
+    wider[rows, side] = np.nextafter(half[rows, side] * (1 + 1e-15), np.inf) + 1e-15
+    return np.concatenate([middle - step, middle + step]), np.concatenate([wider, wider])
+
+
+# --- What is known of the constants of an arm for all angles before any box: from its links.
+
+
+def ceiling(bound: Fraction | None, sign: int) -> float:
+    """A double that is not below sign·bound; infinite where there is no bound."""
+    return inf if bound is None else nextafter(float(sign * bound), inf)
+
+
+def from_distances(plant: Plant, name: str) -> Fraction | None:
+    """A lower bound of λmin(M), an upper one of another constant, from masses and distances where known."""
+    bounds = plant.chain_bounds
+    if bounds is None:
+        return None
+    known = {"lambda_min": bounds.lambda_min, "lambda_max": bounds.lambda_max, "k_c": bounds.k_c}
+    known |= {f"k_g{i + 1}": top for i, top in enumerate(bounds.gravity)}
+    return _length(bounds.gravity) if name == "k_g" else known[name]
+
+
+def _length(vector: Sequence[Fraction]) -> Fraction:
+    """The length of a vector, rounded up."""
+    square = sum((x * x for x in vector), Fraction(0))
+    return Fraction(sqrt(square)) * (1 + Fraction(1, 10**12))
+
 
 _SAMPLES = 1024
 _BLOCK = 64

@@ -19,11 +19,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import require
-from lyapcheck.control.gains import GainSet
+from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, JudgedStatement
-from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.control.threshold import Threshold, norms, number, scaled
 from lyapcheck.errors import argument_error
 from lyapcheck.family.registry import named

@@ -2,21 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
-from lyapcheck.control.deciding import KNOWN
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
-from lyapcheck.files.kinds import GAINS, require_kind
-from lyapcheck.files.place import KeyPath, Place
-from lyapcheck.files.toml import TomlFile, open_document
+from lyapcheck.files.places import KeyPath, Place
+from lyapcheck.files.toml import GAINS, TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
+
+# --- Which conditions decide about a gain set: those asked for, else its own, else the paper's two.
+
+
+DECIDING = ("10p", "19")
+"""The paper's tuning rules, for a gain set that names no conditions."""
+CERTIFICATES = ("scalar", "global", "lasalle")
+"""Proofs of stability for one arm and one gain set."""
+KNOWN = ("10", "10p", "10i", "19", *CERTIFICATES)
+"""Every condition that may decide."""
+
+
+class Conditioned(Protocol):
+    """A gain set that may name its conditions."""
+
+    @property
+    def condition(self) -> tuple[str, ...]:
+        """The conditions; empty where the set names none."""
+
+
+def deciding_for(gains: Conditioned, asked: Sequence[str] | None = None) -> tuple[str, ...]:
+    """Return the conditions that decide about a gain set.
+
+    Args:
+        gains: the set; ``condition`` of its file is part of it.
+        asked: conditions of the command line, which go before those of the set; ``None`` without any.
+    """
+    return tuple(dict.fromkeys(gains.condition or DECIDING if asked is None else asked))
 
 
 @dataclass(frozen=True)
@@ -246,3 +272,30 @@ def _misnamed(file: GainFile, problem: Problem) -> Problem:
     path = f"{file.robot} " if whole and file.robot != as_written else ""
     line = None if place is None else place.line
     return Problem(file.path, line, "robot", printable(str(as_written)), path + problem.rule, problem.repair)
+
+
+# --- The paper's own gain files, which travel with lyapcheck.
+
+
+PRINTED_GAMMA = {1: Fraction(1), 2: Fraction(105, 100), 3: Fraction(111, 100)}
+"""γ_1, γ_2, γ_3 as the paper prints them after (7): the last two are below the true ones."""
+
+
+def proofs_folder() -> Path:
+    """Where the proof scripts and the paper's gains are: in an installed package, or at a checkout's top."""
+    package = Path(__file__).parents[1]
+    inside = package / "proofs"
+    return inside if inside.is_dir() else package.parent / "proofs"
+
+
+def paper_gain_file(name: str = "table2") -> Path:
+    """The path of one of the paper's gain files: ``table2``, ``table2_pd`` or ``table2_shoulder_elbow``.
+
+    Raises:
+        InputError: no gain file of that name.
+    """
+    path = proofs_folder() / f"{name}.toml"
+    if not path.is_file():
+        known = ", ".join(sorted(file.stem for file in proofs_folder().glob("table*.toml")))
+        raise argument_error("gain file", name, "is not one of the paper's", f"use one of: {known}")
+    return path

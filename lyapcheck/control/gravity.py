@@ -181,7 +181,7 @@ def _by_boxes(model: RobotModel, i: int, bound: Fraction) -> bool:
 def _broken(model: RobotModel, i: int, bound: Fraction) -> tuple[JudgedStatement, Fraction] | None:
     """A posture at which the checker finds gravity above a bound, with what it exerts there at least."""
     from lyapcheck.check.kinds.inertia import PostureWitness
-    from lyapcheck.check.numbers.enclosure import Enclosure
+    from lyapcheck.check.numbers.polynomials import Enclosure
     from lyapcheck.control.judgement import judged_statement
 
     statement = _statement(model, i, bound)

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
+from lyapcheck.files.decimals import decimal_text, significant_up
+
+if TYPE_CHECKING:
+    from lyapcheck.robots import RobotModel
 
 ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
 VERDICTS = {"proved": ACCEPTED, "refuted": REJECTED}
@@ -61,3 +68,52 @@ def proves(statement: Statement, proof: Proof) -> bool:
 def refutes(statement: Statement, proof: Proof) -> bool:
     """Whether the checker accepts a refutation of a statement."""
     return judged_statement(statement, [proof]).shown == "refuted"
+
+
+# --- How far from the goal dry friction may leave a joint: k_p |h(e)| ≤ f, tight to six digits.
+#
+# References: (6), (11) of reyes2019family.
+
+
+HALVINGS = 26
+"""Of an error that is known to a factor of 2: finer than the six digits that are kept."""
+FARTHEST = 2**10
+"""rad: larger bounds are as good as none."""
+DEGREES = Fraction("57.295779513082321")
+"""A little more than 180/π."""
+
+
+def dry_friction(model: RobotModel) -> tuple[Fraction, ...]:
+    """The largest Coulomb torques in the ranges of an arm, N·m; 0 where nothing is known."""
+    return tuple(Fraction(0) if number is None else number.bounds[1] for number in model.coulomb)
+
+
+@lru_cache(maxsize=4096)
+def rest_error(family: str, m: int | None, ratio: Fraction) -> Fraction | None:
+    """The least error, rad, that |h| ≤ ratio is shown to imply, nearly; ``None`` where it bounds none.
+
+    Soundness: the checker's :func:`lyapcheck.check.kinds.resting.rests_within` accepts it.
+    """
+    from lyapcheck.check.kinds.resting import rests_within
+    from lyapcheck.check.numbers.members import member
+
+    h, low, high = member(family, m), Fraction(0), Fraction(1)
+    if rests_within(h, ratio, low):
+        return low
+    while not rests_within(h, ratio, high):
+        low, high = high, 2 * high
+        if high > FARTHEST:
+            return None
+    while not low and rests_within(h, ratio, high / 2):
+        high /= 2
+    low = high / 2
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if rests_within(h, ratio, middle) else (middle, high)
+    rounded = significant_up(high, 6)
+    return rounded if rests_within(h, ratio, rounded) else None
+
+
+def degrees_above(error: Fraction) -> str:
+    """An angle of rad in degrees, in four digits and never rounded down."""
+    return f"{decimal_text(significant_up(error * DEGREES, 4))}°" if error else "0°"

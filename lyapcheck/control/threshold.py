@@ -14,7 +14,7 @@ from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.replay import MAX_BITS
 from lyapcheck.check.statement import Relation
 from lyapcheck.control.judgement import JudgedStatement, judged_statement

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb
 
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.errors import argument_error
 from lyapcheck.family.arithmetic import Arithmetic, arrays, graphs
 

@@ -5,13 +5,22 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from hashlib import sha256
 from typing import Any, Self
+from urllib.parse import quote
 
 from lyapcheck.errors import Problem, near, nearest
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
-from lyapcheck.files.place import KeyPath
-from lyapcheck.files.rules import RETYPE, UNPRINTABLE
+from lyapcheck.files.places import KeyPath
 from lyapcheck.output.escapes import printable
+
+# --- What text in a file must be, and the repair where it is not.
+
+
+UNPRINTABLE = "must be one line of text that prints"
+"""What a name or note breaks that holds a line end, a control character, or one that turns the writing."""
+RETYPE = "type it anew, without what is shown as an escape"
+
 
 _NUMBER = re.compile(r"[+-]?[0-9._]+([eE][+-]?[0-9]+)?")
 
@@ -166,3 +175,21 @@ def _shown(value: object) -> str:
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'"{value}"'  # the quotes are what is wrong with it
     return text if len(text) <= 60 else text[:57] + "…"
+
+
+# --- Names of users as names of files.
+
+
+LONGEST = 100
+"""Characters of a file's name that a user's name may take; file systems stop at 255 for the whole."""
+
+
+def file_stem(name: str) -> str:
+    """A name as the start of a file's name, with what some file system refuses escaped as in an address.
+
+    A long name is cut, and set apart from others by the start of its SHA-256.
+    """
+    stem = quote(name, safe="")
+    if stem.startswith("."):
+        stem = f"%2E{stem[1:]}"
+    return stem if len(stem) <= LONGEST else f"{stem[:LONGEST]}-{sha256(name.encode()).hexdigest()[:12]}"

@@ -8,8 +8,20 @@ from __future__ import annotations
 
 import re
 import tomllib
+from typing import NamedTuple
 
-from lyapcheck.files.place import KeyPath
+# --- A place in a file, and the path of keys that leads to a value.
+
+
+KeyPath = tuple[str | int, ...]
+
+
+class Place(NamedTuple):
+    """Line and column, both counted from 1."""
+
+    line: int
+    column: int
+
 
 _TOKEN = re.compile(
     r"""(?:[ \t\r]+|\#[^\n]*)*

@@ -6,6 +6,7 @@ import re
 import sys
 import tomllib
 from bisect import bisect_right
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,8 +14,7 @@ from typing import Any
 
 from lyapcheck.errors import InputError, Problem, file_error
 from lyapcheck.files.decimals import written
-from lyapcheck.files.place import KeyPath, Place
-from lyapcheck.files.places import places
+from lyapcheck.files.places import KeyPath, Place, places
 from lyapcheck.files.reader import TOML, Bound, read_text, sayable
 
 
@@ -100,3 +100,26 @@ def _last_assignment(text: str) -> int | None:
         number for number, line in enumerate(text.splitlines(), 1) if re.match(r"\s*[\w\"'.-]+\s*=", line)
     ]
     return lines[-1] if lines else None
+
+
+# --- Which of the files that lyapcheck reads a document is, by keys that no other has.
+
+
+ARM, GAINS, PLAN = "an arm file", "a gain file", "the plan of a sweep"
+MARKS = {PLAN: ("questions",), ARM: ("links", "urdf", "model"), GAINS: ("gains",)}
+REPAIRS = {
+    ARM: "give the arm file; a gain file names it by robot = …",
+    GAINS: "give the gain file; lyapcheck init starts one",
+    PLAN: "give the plan; lyapcheck sweep --help says what it has",
+}
+
+
+def require_kind(file: str, data: Mapping[str, object], wanted: str) -> None:
+    """Refuse a file that is of another kind by its keys; one of several kinds is left to its reader.
+
+    Raises:
+        InputError: it has the keys of another kind, and none of its own.
+    """
+    kinds = [kind for kind, keys in MARKS.items() if any(key in data for key in keys)]
+    if kinds and wanted not in kinds:
+        raise InputError(Problem(file, None, "file", "", f"is {kinds[0]}, not {wanted}", REPAIRS[wanted]))

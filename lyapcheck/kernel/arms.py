@@ -14,8 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import (
+    CoriolisAtRest,
+    CoriolisBelow,
+    MassSymmetric,
+    RateLessTwiceCoriolis,
+    RateOfMass,
+)
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -29,13 +34,13 @@ from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import PI_ABOVE
 from lyapcheck.check.loop.proof import MORE_HALVINGS
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.check.numbers.enclosure import root_above
 from lyapcheck.check.numbers.harmonics import angles_in, largest
+from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 from lyapcheck.search.cover import cover
+from lyapcheck.search.cuts import Splitter
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.sides import Splitter
 
 FUEL = 30
 """How often a box of angles may be halved until M(q) ≻ 0 shows."""

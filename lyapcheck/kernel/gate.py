@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Ends, Proof
-from lyapcheck.kernel.suprema import between, supremum
+from lyapcheck.kernel.spare import between, supremum
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list, monomials, rational
 
 ASKED = ("10p", "10i", "19")
@@ -107,7 +107,7 @@ def gate_refutation_script(statement: GateAccepted, proof: Proof) -> str:
 
 def _below(value: arb) -> tuple[int, int]:
     """A rational below a ball."""
-    from lyapcheck.check.numbers.enclosure import Enclosure
+    from lyapcheck.check.numbers.polynomials import Enclosure
 
     return Enclosure.from_arb(value).lower.as_integer_ratio()
 

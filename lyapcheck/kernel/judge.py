@@ -13,8 +13,17 @@ from lyapcheck.check.files import content
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain, require
-from lyapcheck.kernel.coq import LIBRARY, Coq, CoqRefused, CoqUndecided, Kernel, axioms_of, golden, seconds_in
-from lyapcheck.kernel.record import GRADE
+from lyapcheck.kernel.coq import (
+    GRADE,
+    LIBRARY,
+    Coq,
+    CoqRefused,
+    CoqUndecided,
+    Kernel,
+    axioms_of,
+    golden,
+    seconds_in,
+)
 from lyapcheck.kernel.scripts import script
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted

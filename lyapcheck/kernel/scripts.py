@@ -10,22 +10,26 @@ from fractions import Fraction
 from functools import singledispatch
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.kinds.agrees import Agrees, Corners, OutsideRounding, at_printed, printed_range
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
-from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
-from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.kinds.constant import (
+    Agrees,
+    Constant,
+    Corners,
+    OutsideRounding,
+    at_printed,
+    printed_range,
+)
+from lyapcheck.check.kinds.decreasing import DampingAbove, DampingBelow, Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm
 from lyapcheck.check.kinds.gate_accepted import GateAccepted, GateParts
 from lyapcheck.check.kinds.identity import Identity
-from lyapcheck.check.kinds.implies import Implies
+from lyapcheck.check.kinds.implies import Implies, SignIdentity
 from lyapcheck.check.kinds.inertia import OfArm
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.property import Property
-from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.numbers.members import member
@@ -33,8 +37,8 @@ from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms, property_script
 from lyapcheck.kernel.gate import gate_refutation_script, gate_script
 from lyapcheck.kernel.signs import for_small, implication
+from lyapcheck.kernel.spare import facts
 from lyapcheck.kernel.statements import proposition
-from lyapcheck.kernel.suprema import facts
 from lyapcheck.kernel.systems import on_one_arm
 from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, expression, identifier, rational
 from lyapcheck.kernel.words import every_n_script

@@ -15,10 +15,9 @@ from lyapcheck.check.expressions.expression import evaluate
 from lyapcheck.check.expressions.normal_form import Ratio
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm, leading_term
 from lyapcheck.check.kinds.for_small import signs_of as small_signs
-from lyapcheck.check.kinds.implies import Implies, signs_of
-from lyapcheck.check.kinds.signs import SignIdentity, Signs
-from lyapcheck.check.kinds.signs import _below as below
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.kinds.implies import Implies, SignIdentity, Signs, signs_of
+from lyapcheck.check.kinds.implies import _below as below
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.kernel.statements import small_hypotheses
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational

@@ -10,14 +10,17 @@ from fractions import Fraction
 from functools import singledispatch
 
 from lyapcheck.check.expressions.expression import variables
-from lyapcheck.check.kinds.agrees import Agrees, printed_range
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
-from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
-from lyapcheck.check.kinds.damping import DampingBelow
-from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.kinds.constant import Agrees, Constant, printed_range
+from lyapcheck.check.kinds.coriolis import (
+    CoriolisAtRest,
+    CoriolisBelow,
+    MassSymmetric,
+    RateLessTwiceCoriolis,
+    RateOfMass,
+)
+from lyapcheck.check.kinds.decreasing import DampingBelow, Decreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
@@ -38,13 +41,13 @@ from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Relation, Statement
 from lyapcheck.kernel.gate import gate_proposition, gate_refuted
-from lyapcheck.kernel.letters import every_n
 from lyapcheck.kernel.systems import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
     NotPrinted,
     any_arm,
     arm,
     bound,
+    every_n,
     exact,
     exact_list,
     expression,

@@ -20,9 +20,8 @@ from lyapcheck.check.kinds.bound_every_n import (
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.statement import Proof
-from lyapcheck.kernel.letters import letters_of
 from lyapcheck.kernel.spare import spare
-from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
+from lyapcheck.kernel.terms import NotPrinted, expression, identifier, letters_of, rational
 
 
 class Unmerged(Words):

@@ -15,8 +15,8 @@ from typing import Any
 from lyapcheck.derive.evaluate import function, values_of
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import Forms
+from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.dynamics import ArmAtAngles
-from lyapcheck.robots.elimination import solve_definite
 from lyapcheck.robots.plant import Plant
 
 Vector = Sequence[Any]

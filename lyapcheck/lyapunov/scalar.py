@@ -28,7 +28,7 @@ from flint import arb
 
 from lyapcheck.check.loop.scalar import ScalarForm
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.enclosure import Enclosure, root_above
+from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 
 _PER_DEGREE = (Fraction(57295779513082, 10**12), Fraction(57295779513083, 10**12))
 """180/π = 57.2957795130823…, from below and from above."""

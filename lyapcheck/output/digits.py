@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from flint import arb
 
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 
 SHOWN = 4
 """Significant digits that people see, the same in every command."""

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.escapes import github_property, github_text
 
 COMMANDS: Mapping[Level, str] = {Level.FAILED: "error", Level.UNDECIDED: "warning", Level.REMARK: "notice"}

@@ -16,8 +16,8 @@ from lyapcheck.output.document import (
     Section,
     Table,
 )
-from lyapcheck.output.elements import Child, Markup, element
 from lyapcheck.output.escapes import html_text
+from lyapcheck.output.mathml import Child, Markup, element
 from lyapcheck.output.mathml import latex as formula
 
 _SIDES = {"l": "left", "r": "right"}

@@ -9,8 +9,7 @@ from importlib.metadata import version
 from typing import Any
 from urllib.parse import quote
 
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 
 LEVELS: Mapping[Level, str] = {Level.FAILED: "error", Level.UNDECIDED: "warning", Level.REMARK: "note"}
 

@@ -2,14 +2,181 @@
 
 from __future__ import annotations
 
+import json
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
 from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.guard import CannotStart
-from lyapcheck.check.limits import Limits
-from lyapcheck.check.recheck import Outcome, recheck
-from lyapcheck.rechecking.render import as_json, text
+from lyapcheck.check.judgement import GENERAL, Limits
+from lyapcheck.check.recheck import Checked, Outcome, recheck
+from lyapcheck.check.refusal import plain
+from lyapcheck.rechecking.trusted import lies_in, modules
+
+# --- The outcome of a recheck as text or JSON; its statements are rendered from data, not an author's words.
+
+
+SCHEMA = "lyapcheck/recheck/3"
+STATUSES = ("accepted", "refused", "undecided")
+VERDICTS = ("proved", "refuted")
+INDENT = " " * 11
+
+
+def text(outcome: Outcome, trusted: bool = False) -> str:
+    """Alarms first, then each certificate, then what all of them rest on and how many there are."""
+    lines = [*_alarms(outcome)]
+    for one in outcome.checked:
+        lines += _certificate(one)
+    lines.append("")
+    if trusted:
+        lines += [*_trusted(outcome), ""]
+    for name, files in outcome.theorems.items():
+        claims = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest"
+        lines.append(f"{claims} on {name} ({outcome.references[name]}): {', '.join(files)}")
+    lines += _granted(outcome)
+    lines += ["every verdict takes for granted:", *(f"  {sentence}" for sentence in GENERAL)]
+    lines += [f"the system keeps no limit on {name} here" for name in _unlimited(outcome)]
+    lines += [*_alarms(outcome), _tally(outcome)]
+    return "\n".join(lines) + "\n"
+
+
+def as_json(outcome: Outcome, trusted: bool = False) -> str:
+    """JSON of the schema ``lyapcheck/recheck/3``."""
+    counts = _counts(outcome)
+    data = {
+        "schema": SCHEMA,
+        "counts": {name: counts[name] for name in (*STATUSES, *VERDICTS)},
+        "alarms": [
+            {
+                "statement": alarm.statement,
+                "statement_digest": alarm.digest,
+                "proved": list(alarm.proved),
+                "refuted": list(alarm.refuted),
+            }
+            for alarm in outcome.alarms
+        ],
+        "granted": list(GENERAL),
+        "theorems": {name: list(files) for name, files in outcome.theorems.items()},
+        "unlimited": _unlimited(outcome),
+        "certificates": [_row(one, outcome) for one in outcome.checked],
+    }
+    if trusted:
+        data["trusted"] = {
+            verdict: {
+                "rules": {name: lies_in(places) for name, places in rules},
+                "modules": modules(rules),
+            }
+            for verdict, rules in _sums(outcome)
+        }
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def _certificate(one: Checked) -> Iterator[str]:
+    result = one.finding
+    if one.accepted:
+        yield f"accepted   {one.file}: {result.verdict} [{one.grade}]: {result.statement}"
+    else:
+        yield f"{one.status:<9}  {one.file}: {one.reason}"
+    if one.status == "undecided" and result.statement:
+        yield f"{INDENT}the statement, if the rest is shown {result.verdict}: {result.statement}"
+    if one.status != "refused" and result.statement:
+        member = f" (m = {result.m})" if result.m is not None else ""
+        words = f"{result.label}{member}: “{result.says}”"
+        yield f"{INDENT}statement {result.statement_digest[:12]}; the author's words: {words}"
+
+
+def _granted(outcome: Outcome) -> Iterator[str]:
+    """What statements take for granted, once for all the files of which that is so."""
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for one in outcome.checked:
+        if granted := outcome.granted.get(one.file):
+            groups.setdefault(granted, []).append(one.file)
+    for granted, files in groups.items():
+        yield f"{', '.join(files)}: taken for granted:"
+        yield from (f"  {sentence}" for sentence in granted)
+
+
+def _alarms(outcome: Outcome) -> Iterator[str]:
+    for alarm in outcome.alarms:
+        yield (
+            f"ALARM: one statement is both proved, in {', '.join(alarm.proved)}, and refuted, in "
+            f"{', '.join(alarm.refuted)}: the checker is wrong; trust none of these verdicts, and report this"
+        )
+        yield f"{INDENT}statement {alarm.digest[:12]}: {alarm.statement}"
+
+
+def _trusted(outcome: Outcome) -> Iterator[str]:
+    """The certificates that rest on the same rules together, then all of each verdict."""
+    groups: dict[tuple[str, tuple[tuple[str, str], ...]], list[str]] = {}
+    for one in outcome.checked:
+        if one.accepted:
+            groups.setdefault((one.finding.verdict, outcome.rules[one.file]), []).append(one.file)
+    for (verdict, rules), files in groups.items():
+        yield from _code(f"{verdict}: {', '.join(files)}", rules)
+    for verdict, rules in _sums(outcome):
+        yield from _code(f"all that is {verdict}", rules)
+
+
+def _code(title: str, rules: tuple[tuple[str, str], ...]) -> Iterator[str]:
+    """The rules, each with the modules that it lies in, and all that they rest on."""
+    result = modules(rules)
+    yield f"trusted for {title}"
+    yield from (f"  rule {name}: {', '.join(lies_in(places))}" for name, places in rules)
+    yield from (f"  {name}" for name in result)
+    yield f"  {len(result)} modules"
+
+
+def _sums(outcome: Outcome) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
+    """The rules behind all certificates of each verdict."""
+    result: dict[str, set[tuple[str, str]]] = {}
+    for one in outcome.checked:
+        if one.accepted:
+            result.setdefault(one.finding.verdict, set()).update(outcome.rules[one.file])
+    return [(verdict, tuple(sorted(rules))) for verdict, rules in sorted(result.items())]
+
+
+def _names(rules: tuple[tuple[str, str], ...]) -> list[str]:
+    return [name for name, _ in rules]
+
+
+def _unlimited(outcome: Outcome) -> list[str]:
+    return [name for name in ("seconds", "memory") if name not in outcome.limited]
+
+
+def _counts(outcome: Outcome) -> Counter[str]:
+    return Counter((*(one.status for one in outcome.checked), *(one.verdict for one in outcome.checked)))
+
+
+def _tally(outcome: Outcome) -> str:
+    n = _counts(outcome)
+    accepted = f"{n['accepted']} accepted ({n['proved']} proved, {n['refuted']} refuted)"
+    return f"{accepted}, {n['refused']} refused, {n['undecided']} undecided"
+
+
+def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
+    result, read = one.finding, bool(one.finding.verdict)
+    return {
+        "file": one.file,
+        "status": one.status,
+        "accepted": one.accepted,
+        "reason": one.reason,
+        "statement": result.statement if read else None,
+        "statement_digest": result.statement_digest if read else None,
+        "verdict": one.verdict or None,
+        "grade": one.grade if one.accepted else None,
+        "granted": list(outcome.granted.get(one.file, ())),
+        "rules": _names(outcome.rules.get(one.file, ())),
+        "id": result.label if read else None,
+        "m": result.m,
+        "n": result.n,
+        "comment": result.says if read else None,
+        "uses": [plain(claim) for claim in result.uses],
+        "given": [plain(claim) for claim in one.given],
+        "digest": result.digest or None,
+    }
+
 
 UNUSABLE = 2
 Writer = Callable[[Outcome, bool], str]

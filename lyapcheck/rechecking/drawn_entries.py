@@ -23,8 +23,7 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters.entries import BITS, Entries, exact
 from lyapcheck.check.letters.entries import compared as exactly_compared
 from lyapcheck.check.letters.grammar import letters as letters_of
-from lyapcheck.check.numbers.enclosure import ball_of
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.numbers.polynomials import ball_of, rational
 from lyapcheck.check.refusal import require
 
 Point = dict[str, Fraction]

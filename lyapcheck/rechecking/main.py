@@ -9,7 +9,7 @@ import argparse
 import io
 import sys
 
-from lyapcheck.check.limits import MOST, Limits
+from lyapcheck.check.judgement import MOST, Limits
 from lyapcheck.rechecking.command import FORMATS, HELP, run
 
 INTERRUPTED = 130

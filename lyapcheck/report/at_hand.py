@@ -19,7 +19,7 @@ from lyapcheck.claims.decision import decided
 from lyapcheck.claims.fresh_check import judge_afresh
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
-from lyapcheck.files.names import file_stem
+from lyapcheck.files.fields import file_stem
 from lyapcheck.report.claim_row import ClaimRow
 
 if TYPE_CHECKING:

@@ -10,8 +10,7 @@ from typing import Any
 
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.reader import REPORT, read_text
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
 from lyapcheck.verdicts import Exit
 

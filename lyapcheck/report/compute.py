@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -11,9 +11,10 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
-from lyapcheck.check.loop.processes import main_unnamed
+from lyapcheck.answers.derive import Derivation
+from lyapcheck.check.loop.proof import main_unnamed
 from lyapcheck.report.at_hand import as_the_gate_judges
-from lyapcheck.report.computed import Computed
+from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.drawings import (
     draw_comparisons,
     draw_damping,
@@ -24,16 +25,40 @@ from lyapcheck.report.drawings import (
 )
 from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import light, small_path
+from lyapcheck.report.gain_rows import EpsilonRow, RunRow
 from lyapcheck.report.jobs import Done, derive_job, done, gains_job, map_job, proofs_job, with_the_map
+from lyapcheck.report.model import MapCell, WitnessRow
+from lyapcheck.report.study import StudyRow
 from lyapcheck.robots import load
 from lyapcheck.temporary import pending, work_in
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.report.figures.plot import Files
+    from lyapcheck.report.figures.style import Files
     from lyapcheck.report.jobs import MapData, ProofsData
+    from lyapcheck.report.model import Subject
     from lyapcheck.report.notes import Notes
-    from lyapcheck.report.subject import Subject
+
+
+# --- What the long computations of a report hand back.
+
+
+@dataclass(frozen=True)
+class Computed:
+    """Rows, figures by file name, certificates by their paths, and the packages that were loaded for it."""
+
+    claims: tuple[ClaimRow, ...]
+    others: tuple[ClaimRow, ...]
+    small: Mapping[str, WitnessRow]
+    epsilon: tuple[EpsilonRow, ...]
+    runs: tuple[RunRow, ...]
+    sensitivity: StudyRow | None
+    derived: Derivation
+    cells: tuple[MapCell, ...]
+    figures: Mapping[str, str | bytes]
+    certificates: Mapping[str, str]
+    packages: tuple[str, ...]
+
 
 Job = Future[Done]
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
+from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.typst import markup
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
 from lyapcheck.report.model import WEIGHTS, Finding, Report
 from lyapcheck.report.plain import plain
 from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.robots import RobotModel
+from lyapcheck.temporary import temporary_folder
 
 
 class ReportAnswer(Answer):
@@ -166,3 +170,43 @@ def _claims(report: Report) -> Iterator[Section]:
             grades = ", ".join(sorted({row.grade for row in result}))
             lines.append((claim, shown, grades, result[0].comment))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))
+
+
+# --- The report on paper: typeset by Typst, which needs no browser.
+
+
+def require_typst() -> None:
+    """Refuse before any work what could not be written at its end.
+
+    Raises:
+        InputError: the typesetter is not installed.
+    """
+    try:
+        import typst  # noqa: F401
+    except ImportError as error:
+        repair = "install it with: pip install lyapcheck[pdf]"
+        raise argument_error("--format", "pdf", "needs the package typst", repair) from error
+
+
+def render(report: Report, appendix: bool = False) -> bytes:
+    """A PDF of a few pages; the same report gives the same bytes.
+
+    Args:
+        report: what it says.
+        appendix: whether claims, gate, runs and the experiment follow one by one.
+    """
+    import typst
+
+    document = ReportAnswer(report, appendix).document()
+    running = document.title if report.own else f"{document.title} · {report.notes.paper.source}"
+    with temporary_folder() as folder:
+        source = Path(folder, "report.typ")
+        source.write_text(markup(document, running), encoding="utf-8")
+        for name, drawing in report.figures.items():
+            if isinstance(drawing, str) and name.endswith(".svg"):
+                path = Path(folder, "figures", name)
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(drawing, encoding="utf-8")
+        pages = typst.compile(str(source), root=folder, ignore_system_fonts=True)
+    assert isinstance(pages, bytes)
+    return pages

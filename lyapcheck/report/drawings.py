@@ -10,7 +10,7 @@ from lyapcheck.report.gain_rows import KINDS
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
-    from lyapcheck.report.figures.plot import Files
+    from lyapcheck.report.figures.style import Files
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.jobs import GainData
     from lyapcheck.report.study import StudyRow
@@ -26,7 +26,7 @@ def draw_family(ms: Sequence[int]) -> Files:
 
 def draw_sides(small: Mapping[str, RefutedBelow]) -> Files:
     """Both sides of what fails, over the letter that is worth moving."""
-    from lyapcheck.report.figures.sides import sides_plot
+    from lyapcheck.report.figures.heat import sides_plot
     from lyapcheck.report.findings import sides_name
 
     files: Files = {}
@@ -40,9 +40,8 @@ def draw_set(data: GainData) -> Files:
     """Errors, torques, V and dV/dt of the simulated run of a gain set."""
     import numpy as np
 
-    from lyapcheck.report.figures.lyapunov import draw_lyapunov
-    from lyapcheck.report.figures.motion import draw_errors, draw_torques
-    from lyapcheck.report.figures.plot import Plot
+    from lyapcheck.report.figures.motion import draw_errors, draw_lyapunov, draw_torques
+    from lyapcheck.report.figures.style import Plot
 
     run, row = data.run, data.row
     name, joints = file_stem(row.name), row.joints
@@ -64,7 +63,7 @@ def draw_comparisons(
     epsilon: Sequence[EpsilonRow], runs: Sequence[RunRow], sensitivity: StudyRow | None
 ) -> Files:
     """Gain sets side by side; a comparison that has nothing to compare is left out."""
-    from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
+    from lyapcheck.report.figures.motion import epsilon_plot, indices_plot
 
     figures: Files = {}
     if runs:
@@ -78,7 +77,7 @@ def draw_comparisons(
 
 def draw_damping(gate: Sequence[GateResult]) -> Files:
     """Condition (19) of each gain set to which it applies; nothing where it applies to none."""
-    from lyapcheck.report.figures.bars import damping_plot
+    from lyapcheck.report.figures.motion import damping_plot
 
     rows = {}
     for result in gate:

@@ -7,15 +7,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from lyapcheck.answers.tune.answer import Effect, effect_section
-from lyapcheck.kernel.record import GRADE
+from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.gain_rows import KINDS, EpsilonRow, RunRow
-from lyapcheck.report.model import Report
-from lyapcheck.report.study import StudyRow
-from lyapcheck.report.text import bracket, fixed, joined
-from lyapcheck.report.words import (
+from lyapcheck.report.experiment import (
     answer_cell,
     at_once_words,
     figure_gains_words,
@@ -26,6 +22,10 @@ from lyapcheck.report.words import (
     together_words,
     value_words,
 )
+from lyapcheck.report.gain_rows import KINDS, EpsilonRow, RunRow
+from lyapcheck.report.model import Report
+from lyapcheck.report.study import StudyRow
+from lyapcheck.report.text import bracket, fixed, joined
 
 
 def figure(report: Report, name: str, caption: str) -> Iterator[Figure]:

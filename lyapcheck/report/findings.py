@@ -8,10 +8,16 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.words import advice
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.experiment import (
+    answer_words,
+    beside_words,
+    hangs_words,
+    quantity_words,
+    together_words,
+)
 from lyapcheck.report.model import Finding, WitnessRow, applies, behind
 from lyapcheck.report.notes import Note
 from lyapcheck.report.text import witness_words
-from lyapcheck.report.words import answer_words, beside_words, hangs_words, quantity_words, together_words
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.output.digits import at_least
-from lyapcheck.report.map_cell import MapCell
+from lyapcheck.report.model import MapCell
 from lyapcheck.report.plain import read
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
 
     So one tree of boxes is judged for many places.
     """
-    from lyapcheck.answers.epsilon.assembled import answers
+    from lyapcheck.answers.epsilon.compute import answers
     from lyapcheck.answers.epsilon.kept import kept_epsilon
     from lyapcheck.answers.epsilon.options import Options
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import InputError
-from lyapcheck.files.names import file_stem
+from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import KINDS, LINKED, EpsilonRow, RunRow

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.answer import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
+    from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
-    from lyapcheck.report.map_cell import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.report.study import StudyRow
     from lyapcheck.robots import RobotModel
@@ -185,3 +185,73 @@ def keeps_limits(result: GateResult) -> bool:
     """Whether no motor saturates at any state: (11), of which stability is proved, knows no limit."""
     bounds_hold = result.verdict_of(("gravity",)) != REJECTED
     return bounds_hold and ACCEPTED in (result.verdict_of(("10p",)), result.verdict_of(("10i",)))
+
+
+# --- What a report is about.
+
+
+@dataclass(frozen=True)
+class Subject:
+    """An arm, members of the family, and gains.
+
+    Args:
+        robot: name or file of the arm, as ``lyapcheck.robots.load`` takes it.
+        ms: the members of the family.
+        gain_files: the gains; sets of other members are left out, those without a member (PD) stay.
+        own: whether arm or gains are others than the paper's: it is then about these alone.
+        map: whether the map over m and k_v is to be computed; that of the paper's arm is at hand.
+    """
+
+    robot: str
+    ms: tuple[int, ...]
+    gain_files: tuple[GainFile, ...]
+    own: bool = False
+    map: bool = False
+
+    @property
+    def sets(self) -> list[tuple[GainFile, str]]:
+        """The gain sets that belong in the report, each with its file."""
+        return [
+            (file, item.name)
+            for file in self.gain_files
+            for item in file.gains
+            if item.m is None or item.m in self.ms
+        ]
+
+    @property
+    def of_family(self) -> dict[int, GainSet]:
+        """The first gain set of each member."""
+        result: dict[int, GainSet] = {}
+        for file in self.gain_files:
+            for item in file.gains:
+                if item.m in self.ms and item.family == "hyperbolic":
+                    result.setdefault(item.m, item)
+        return result
+
+
+# --- A place of the map over m and k_v.
+
+
+@dataclass(frozen=True)
+class MapCell:
+    """What is proved and simulated for one m and one k_v, the same in every joint.
+
+    Args:
+        kv: N·m, as written.
+        eps0: the ε₀ that is proved, 1/s; none without.
+        settling: of the slowest joint, s; none where one does not settle.
+        share: the largest share of a motor's torque; none where no motor has a limit.
+        within_19: whether (19) holds.
+    """
+
+    m: int
+    kv: str
+    eps0: str | None
+    settling: float | None
+    share: float | None
+    within_19: bool
+
+    @property
+    def path(self) -> str:
+        """Where its certificate stands in a report."""
+        return f"certificates/map/m{self.m}.kv{self.kv}.json"

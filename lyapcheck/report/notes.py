@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from lyapcheck.control.paper import proofs_folder
+from lyapcheck.control.gains import proofs_folder
 
 
 @dataclass(frozen=True)

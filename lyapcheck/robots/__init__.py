@@ -5,8 +5,8 @@ joints count from 0 in Python and from 1 in names (s1, M11), q is in rad, and an
 arm file says, from the downward vertical in the built-in arms.
 """
 
-from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.fields import Number
+from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.registry import load, names
 
 __all__ = ["Number", "RobotModel", "load", "names"]

@@ -53,7 +53,7 @@ A **printed model** gives M on and above the diagonal (kg·m²) and the potentia
     viscous = 0.175
 
 A **printed C(q, q̇) or g(q)** goes into ``[printed]`` beside ``[model]``, to be compared with what M and the
-potential give, see `lyapcheck.robots.printed_torques`.
+potential give, see `lyapcheck.robots.printed`.
 
 A **URDF file** gives the links, and this file what such files lack, see `lyapcheck.robots.urdf`::
 
@@ -72,15 +72,30 @@ from __future__ import annotations
 from fractions import Fraction
 from pathlib import Path
 
-from lyapcheck.errors import InputError
-from lyapcheck.files.kinds import ARM, require_kind
+from lyapcheck.errors import InputError, file_error
+from lyapcheck.files.reader import ARM
+from lyapcheck.files.toml import ARM as TOML_ARM
+from lyapcheck.files.toml import TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
-from lyapcheck.robots.document import open_arm
+from lyapcheck.robots.bodies import check_positive_definite
 from lyapcheck.robots.fields import ArmFields, ArmNotes
-from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.physics import check_positive_definite
 from lyapcheck.robots.plans import ModelPlan, read_plan
+from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.vary import MOTOR, PAYLOAD, Vary, require_movable, varied, varied_numbers
+
+# --- Opening an arm file, and refusing what is none.
+
+
+def open_arm(path: Path, shown: str) -> TomlFile:
+    """The TOML document of an arm file; ``shown`` is the name that messages use.
+
+    Raises:
+        InputError: not a ``.toml`` file, missing, a folder, too large, not UTF-8 or not TOML.
+    """
+    if path.suffix.lower() != ".toml" and not path.is_dir():
+        raise file_error(shown, "is no arm file", "give the path of a .toml or .urdf file")
+    return open_document(path, shown, ARM)
+
 
 EXACT = Fraction(0)
 
@@ -106,7 +121,7 @@ def read_arm(
         InputError: the file cannot be read or describes no arm; carries every problem found.
     """
     document = open_arm(path, str(path) if shown is None else shown)
-    require_kind(document.name, document.data, ARM)
+    require_kind(document.name, document.data, TOML_ARM)
     source = document.data.get("source")
     notes = ArmNotes(document.name, document.line, source if isinstance(source, str) else "")
     top = ArmFields(document.data, (), notes)

@@ -13,16 +13,17 @@ References: composite rigid bodies, ``featherstone2008rigid`` chapter 6; ``echea
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from lyapcheck.check.loop.chain import Posture, RigidLink, Rows, Wrench, own_body
-from lyapcheck.check.numbers.vectors import ZERO, Algebra, Matrix, Vector, transposed
+from lyapcheck.check.numbers.vectors import ZERO, Algebra, Matrix, transposed
+from lyapcheck.check.numbers.vectors import Vector as VectorsVector
 
 Values = list[Any]
-Twist = tuple[Vector, Vector]
+Twist = tuple[VectorsVector, VectorsVector]
 """ω, and the velocity of the origin of the frame."""
 
 
@@ -31,7 +32,7 @@ class _Moving:
     """K of a body: ∫ p ṗᵀ dm and the momentum ∫ ṗ dm."""
 
     second: Matrix
-    momentum: Vector
+    momentum: VectorsVector
 
 
 class ChainInMotion(Posture):
@@ -46,12 +47,17 @@ class ChainInMotion(Posture):
     """
 
     def __init__(
-        self, links: Sequence[RigidLink], fall: Vector, sines: Vector, cosines: Vector, of: Algebra
+        self,
+        links: Sequence[RigidLink],
+        fall: VectorsVector,
+        sines: VectorsVector,
+        cosines: VectorsVector,
+        of: Algebra,
     ) -> None:
         super().__init__(links, sines, cosines, of)
         self.fall = fall
 
-    def coriolis(self, x: Vector) -> Rows:
+    def coriolis(self, x: VectorsVector) -> Rows:
         """C(q, x) of the Christoffel symbols, (n, n), kg·m²/s, for rates x (n,), rad/s."""
         of, n = self.of, self.n
         rows: Rows = [[ZERO] * n for _ in range(n)]
@@ -90,13 +96,13 @@ class ChainInMotion(Posture):
         place = of.add(of.apply(self.turns[0], first.moment), of.scaled(first.mass, self.links[0].origin))
         return of.value(of.dot(of.scaled(Fraction(-1), self.fall), place))
 
-    def _twists(self, x: Vector) -> tuple[list[Twist], list[Twist]]:
+    def _twists(self, x: VectorsVector) -> tuple[list[Twist], list[Twist]]:
         """V_k, and Ẋ_k, of each joint in its frame."""
         of = self.of
         twists: list[Twist] = []
         slopes: list[Twist] = []
-        spin: Vector = [ZERO] * 3
-        speed: Vector = [ZERO] * 3
+        spin: VectorsVector = [ZERO] * 3
+        speed: VectorsVector = [ZERO] * 3
         for k, link in enumerate(self.links):
             back = transposed(self.turns[k])
             speed = of.apply(back, of.add(speed, of.cross(spin, link.origin)))
@@ -124,3 +130,54 @@ class ChainInMotion(Posture):
                 momentum = of.add(momentum, turned)
             result.insert(0, _Moving(second, momentum))
         return result
+
+
+# --- Linear equations with a symmetric positive definite matrix, in any arithmetic.
+
+
+Vector = Sequence[Any]
+Named = Callable[[Vector], list[Any]]
+
+
+def solve_definite(matrix: Sequence[Vector], right: Vector, names: Named = list) -> list[Any]:
+    """x with matrix · x = right, by LDLᵀ without square roots, in any arithmetic.
+
+    Args:
+        matrix: (n, n).
+        right: (n,).
+        names: of values that are used more than once.
+
+    Soundness: with M not definite the pivots vanish or change sign; property 2.1 is decided elsewhere.
+    """
+    lower, pivots = _ldl(matrix, names)
+    x = list(right)
+    n = len(x)
+    for i in range(n):
+        for k in range(i):
+            x[i] = x[i] - lower[i][k] * x[k]
+        (x[i],) = names([x[i]])
+    x = [a / d for a, d in zip(x, pivots, strict=True)]
+    for i in reversed(range(n)):
+        for k in range(i + 1, n):
+            x[i] = x[i] - lower[k][i] * x[k]
+        (x[i],) = names([x[i]])
+    return x
+
+
+def _ldl(matrix: Sequence[Vector], names: Named) -> tuple[list[list[Any]], list[Any]]:
+    """Rows of L left of its diagonal, and the pivots."""
+    lower: list[list[Any]] = []
+    pivots: list[Any] = []
+    for i, row in enumerate(matrix):
+        scaled: list[Any] = []  # L_ik d_k
+        for k in range(i):
+            rest = row[k]
+            for j in range(k):
+                rest = rest - scaled[j] * lower[k][j]
+            scaled += names([rest])
+        lower.append([names([a / d])[0] for a, d in zip(scaled, pivots, strict=False)])
+        pivot = row[i]
+        for a, b in zip(scaled, lower[i], strict=True):
+            pivot = pivot - a * b
+        pivots += names([pivot])
+    return lower, pivots

@@ -21,8 +21,7 @@ from fractions import Fraction
 
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.links import lever_bound
-from lyapcheck.check.numbers.matrices import is_positive_semidefinite
-from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.check.numbers.vectors import Algebra, is_positive_semidefinite
 from lyapcheck.robots.dynamics import Chain
 
 _DIGITS = 10**12

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import casadi as ca
 
-from lyapcheck.robots.elimination import solve_definite
+from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.plant import Plant
 
 Parameters = Mapping[str, ca.SX] | None

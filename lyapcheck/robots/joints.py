@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from lyapcheck.robots.fields import ArmFields, Sign
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.fields import ArmFields, Number, Sign
 
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
 

@@ -8,10 +8,9 @@ from typing import Any
 
 from lyapcheck.errors import InputError, nearest
 from lyapcheck.output.escapes import printable
-from lyapcheck.robots.fields import ArmFields
+from lyapcheck.robots.fields import ArmFields, Number
 from lyapcheck.robots.joints import JointEntry, read_motor
-from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf import read_urdf
 
 _PARTS = ("viscous", "coulomb", "torque_limit", "encoder", "gravity_bound")

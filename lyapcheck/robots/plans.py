@@ -12,11 +12,9 @@ from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import BodyEntry, components, read_bodies
 from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare, Polynomials
-from lyapcheck.robots.fields import ArmFields
+from lyapcheck.robots.fields import ArmFields, Number
 from lyapcheck.robots.joints import JointEntry, read_joints
-from lyapcheck.robots.number import Number
-from lyapcheck.robots.printed import PrintedTerms, is_angle, read_printed
-from lyapcheck.robots.printed_torques import PrintedTorques, read_torques
+from lyapcheck.robots.printed import PrintedTerms, PrintedTorques, is_angle, read_printed, read_torques
 
 MOST_JOINTS = 12
 MOST_PRINTED = 9

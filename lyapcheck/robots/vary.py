@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, cast
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.fields import Number
 
 if TYPE_CHECKING:
-    from lyapcheck.robots.model import RobotModel
+    from lyapcheck.robots.plant import RobotModel
 
 OPTION = "--vary"
 PAYLOAD = "payload"

@@ -22,8 +22,8 @@ from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
 from lyapcheck.intervals.arm import ArmBox, combine
 from lyapcheck.search.cover import Chooser, Prover
+from lyapcheck.search.cuts import Splitter
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.sides import Splitter
 
 SURELY = 1e-9
 """What a pivot has to exceed, beside its value in the middle: rounding is not directed."""

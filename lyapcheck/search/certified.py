@@ -13,13 +13,12 @@ from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.branch_and_bound import boxes_shared, certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.link_bounds import linked_epsilon
 from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.shared import boxes_shared
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
 """Shares of the falsified ε₀ that are tried first, in turn; where boxes are few, the last one at once."""

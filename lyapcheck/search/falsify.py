@@ -16,7 +16,7 @@ import numpy as np
 from lyapcheck._types import SEED, Array, Progress, silent
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import (

@@ -7,14 +7,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import LargerKv, PositiveAndDecreasing, statement_of
-from lyapcheck.check.loop.processes import shared_between
+from lyapcheck.check.loop.proof import shared_between
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.at_corners import MassAtCorners
     from lyapcheck.check.kinds.decreasing import BoxTree
     from lyapcheck.check.kinds.inertia import Bisection, Links
     from lyapcheck.check.kinds.link_bounds import LinkBounds
+    from lyapcheck.check.kinds.parts import MassAtCorners
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.check.statement import Proof, Statement
 

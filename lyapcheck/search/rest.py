@@ -10,8 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.resting import AtBounds, Resting
-from lyapcheck.control.judgement import JudgedStatement, judged_statement
-from lyapcheck.control.resting import rest_error
+from lyapcheck.control.judgement import JudgedStatement, judged_statement, rest_error
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet

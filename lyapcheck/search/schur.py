@@ -14,9 +14,8 @@ from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.family import Family, named
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
-from lyapcheck.intervals.arm import ArmIntervals, coriolis
-from lyapcheck.intervals.definite import positive_definite
-from lyapcheck.intervals.family import dh_range, h_range
+from lyapcheck.intervals.arm import ArmIntervals, coriolis, dh_range, h_range
+from lyapcheck.intervals.interval import positive_definite
 
 Entry = Interval | float
 Rows = list[list[Interval]]

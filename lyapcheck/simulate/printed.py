@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lyapcheck.simulate.gains import Gains, gains_for
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, Gains, gains_for
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet

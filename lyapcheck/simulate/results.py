@@ -2,16 +2,168 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.control.limits import kept_bounds
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.simulate import indices
-from lyapcheck.simulate.monitor import observe, torque_limits
-from lyapcheck.simulate.run import Indices, Run
-from lyapcheck.simulate.setup import Setup
+from lyapcheck.simulate.run import Indices, Promises, Run
+from lyapcheck.simulate.task import Gains, Setup
+
+if TYPE_CHECKING:
+    from lyapcheck.robots import RobotModel
+
+
+# --- What a run shows about the promises of theory: V falls, the torque stays inside its bounds.
+
+
+def observe(
+    t: Array, V: Array, tau: Array, gains: Gains, model: RobotModel, *, noise: float, saturated: bool = False
+) -> Promises:
+    """The promises beside the samples of a run.
+
+    Args:
+        t: (N,) s.
+        V: (N,) J.
+        tau: (N, n) N·m.
+        gains: the controller.
+        model: the arm.
+        noise: J, how far V may rise by the run's own error.
+        saturated: the torque was cut at the motors' limits, so reaching a limit is leaving it.
+
+    Soundness: samples and doubles; a rise between two samples, or one below ``noise``, is not seen.
+    """
+    rises = np.flatnonzero(np.diff(V) > noise)
+    norm = float(np.max(np.linalg.norm(tau, axis=1)))
+    bound = torque_bound(gains, model)
+    return Promises(
+        V_decreases=rises.size == 0,
+        V_rises_at=float(t[rises[0] + 1]) if rises.size else None,
+        torque_norm=norm,
+        torque_bound=bound,
+        inside_bound=None if bound is None else norm <= bound,
+        joint_bounds=joint_bounds(gains, model),
+        inside_limits=tuple(
+            None
+            if most is None
+            else bool(np.all(np.abs(tau[:, i]) < most if saturated else np.abs(tau[:, i]) <= most))
+            for i, most in enumerate(torque_limits(model))
+        ),
+    )
+
+
+def torque_limits(model: RobotModel) -> tuple[float | None, ...]:
+    """What each motor can give, N·m."""
+    return tuple(None if limit is None else float(limit.value) for limit in model.torque_limit)
+
+
+def torque_bound(gains: Gains, model: RobotModel) -> float | None:
+    """The bound √n γ (λmax(K_p) + λmax(K_v)) + k_g on ‖τ‖ in N·m; none where h is unbounded.
+
+    References: (9) of ``reyes2019family``, with the certified γ of the family.
+    """
+    gamma = gains.family.constants().gamma
+    if gamma is None:
+        return None
+    gravity = math.hypot(*map(float, kept_bounds(model)))
+    return math.sqrt(model.n) * gamma.float_upper * (max(gains.kp) + max(gains.kv)) + gravity
+
+
+def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
+    """The bound γ (k_pi + k_vi) + sup|g_i| on each |τ_i| in N·m; none where h is unbounded.
+
+    References: (6), (9) of ``reyes2019family``, joint by joint.
+    """
+    gamma = gains.family.constants().gamma
+    if gamma is None:
+        return None
+    rows = zip(gains.kp, gains.kv, kept_bounds(model), strict=True)
+    return tuple(gamma.float_upper * (p + v) + float(weight) for p, v, weight in rows)
+
+
+# --- Performance indices of a run: L2 norm, settling time, overshoot, peak torque, final error.
+
+
+SETTLING_BAND = 0.02
+"""Settled means within 2 % of the step; the paper prints settling times but not its band."""
+
+LEAST_STEP = 1e-9
+"""rad: a smaller initial error is no step, and nothing is measured by it."""
+
+
+def l2_index(t: Array, e: Array) -> float:
+    """The root-mean-square position error L2 = √((1/T) ∫₀ᵀ ‖e‖² dt) in degrees, by the trapezoidal rule.
+
+    Args:
+        t: (N,) times in s, increasing.
+        e: (N, n) position errors in rad.
+
+    References: (20) of ``reyes2019family``.
+    """
+    squares = np.sum(e * e, axis=1)
+    return math.degrees(math.sqrt(float(np.trapezoid(squares, t)) / float(t[-1] - t[0])))
+
+
+def settling_times(t: Array, e: Array, band: float | Array = SETTLING_BAND) -> Array:
+    """Per joint the time after which |e_i| stays within ``band`` times its step; NaN if that is not reached.
+
+    The step is |e_i(0)|; a joint that starts at its goal is measured by the largest step of the others. The
+    crossing between two samples is interpolated linearly.
+
+    Args:
+        t: (N,) times in s.
+        e: (…, N, n) position errors in rad.
+        band: the half-width of the band as a fraction of the step; one, or (…, 1) of them.
+
+    Returns:
+        (…, n) times in s.
+    """
+    size, width = np.abs(e), bands(e[..., 0, :], band)
+    outside = size > width[..., None, :]
+    last = t.size - 1 - np.argmax(outside[..., ::-1, :], axis=-2)
+    before = np.minimum(last, t.size - 2)
+    a, b = (np.take_along_axis(size, (before + k)[..., None, :], axis=-2)[..., 0, :] for k in (0, 1))
+    fall = np.where(a > b, a - b, 1.0)
+    crossing = t[before] + (a - width) / fall * (t[before + 1] - t[before])
+    settled = np.where(outside.any(axis=-2), np.where(last == t.size - 1, np.nan, crossing), t[0])
+    return np.asarray(np.where(np.isnan(e[..., -1, :]), np.nan, settled))
+
+
+def bands(step: Array, band: float | Array = SETTLING_BAND) -> Array:
+    """The half-width of the band of each joint, rad, from the steps (…, n) in rad; see `settling_times`."""
+    size = np.abs(step)
+    return np.asarray(band * np.where(size > LEAST_STEP, size, np.max(size, axis=-1, keepdims=True)))
+
+
+def overshoots(e: Array) -> Array:
+    """Per joint how far it runs past its goal, in per cent of its step |e_i(0)|; NaN without a step.
+
+    Args:
+        e: (N, n) position errors in rad.
+    """
+    start = e[0]
+    beyond = np.maximum(np.max(-np.sign(start) * e, axis=0), 0.0)
+    size = np.abs(start)
+    share = np.divide(beyond, size, out=np.full_like(size, np.nan), where=size > LEAST_STEP)
+    return np.asarray(100.0 * share)
+
+
+def peak_torques(tau: Array) -> Array:
+    """Per joint the largest |τ_i| of the samples in N·m; ``tau`` is (N, n)."""
+    return np.asarray(np.max(np.abs(tau), axis=0))
+
+
+def final_errors(e: Array) -> Array:
+    """Per joint the position error at the end of the run in degrees; ``e`` is (N, n) in rad.
+
+    This is what the paper calls the error in steady state; it is one only if the run has come to rest.
+    """
+    return np.asarray(np.degrees(e[-1]))
+
 
 V_NOISE = 1e-9
 """How far V may rise between samples, relative to its largest value, before it counts as a rise."""
@@ -80,8 +232,8 @@ def noise_of(V: Array) -> float:
 def _indices(motion: Motion, e: Array, L2: float) -> Indices:
     return Indices(
         L2=L2,
-        settling=indices.settling_times(motion.t, e),
-        overshoot=indices.overshoots(e),
-        peak_torque=indices.peak_torques(motion.tau),
-        final_error=indices.final_errors(e),
+        settling=settling_times(motion.t, e),
+        overshoot=overshoots(e),
+        peak_torque=peak_torques(motion.tau),
+        final_error=final_errors(e),
     )

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from lyapcheck._types import Array
 from lyapcheck.simulate.breach import Breach
-from lyapcheck.simulate.gains import Gains
-from lyapcheck.simulate.task import Task
+from lyapcheck.simulate.task import Gains, Task
 
 
 @dataclass(frozen=True)

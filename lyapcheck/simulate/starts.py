@@ -14,10 +14,8 @@ from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.breach import Breach
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.gains import Gains, gains_for
-from lyapcheck.simulate.monitor import torque_limits
-from lyapcheck.simulate.results import LEAST_ENERGY, V_NOISE
-from lyapcheck.simulate.task import Task
+from lyapcheck.simulate.results import LEAST_ENERGY, V_NOISE, torque_limits
+from lyapcheck.simulate.task import Gains, Task, gains_for
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet

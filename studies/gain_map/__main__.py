@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.output.json import laid_out
 from lyapcheck.report.experiment import arm_digest
 from lyapcheck.report.gain_map import BOXES, gain_map

@@ -6,8 +6,7 @@ import sys
 from pathlib import Path
 
 from lyapcheck._types import SEED
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.output.json import laid_out
 from lyapcheck.report.experiment import arm_digest
 from lyapcheck.robots import load

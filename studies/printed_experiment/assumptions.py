@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lyapcheck.simulate.indices import SETTLING_BAND
+from lyapcheck.simulate.results import SETTLING_BAND
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.number import Number
+    from lyapcheck.robots.fields import Number
 
 NARROWEST, WIDEST = 0.01, 0.05
 """Settling is said for bands from 1 to 5 % of the step; the paper does not say which."""

@@ -11,8 +11,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.compiled.compiler import prelude
-from lyapcheck.compiled.loop import compiled
-from lyapcheck.compiled.writer import TooLong, Writer
+from lyapcheck.compiled.loop import TooLong, Writer, compiled
 from lyapcheck.family import Family
 from lyapcheck.lyapunov.numeric import arm_digest
 from lyapcheck.robots import RobotModel

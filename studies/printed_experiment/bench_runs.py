@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.gains import Gains, gains_for
-from lyapcheck.simulate.indices import settling_times
+from lyapcheck.simulate.results import settling_times
+from lyapcheck.simulate.task import Gains, gains_for
 from studies.printed_experiment.assumptions import BAND, Assumption, numbers
 from studies.printed_experiment.bench_compiled import compiled_bench
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.gains import Gains
 from lyapcheck.simulate.printed import PrintedIndices
+from lyapcheck.simulate.task import Gains
 
 if TYPE_CHECKING:
     from studies.printed_experiment.bench_runs import Outcomes

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Progress, silent
-from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.printed import printed_entry
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, gains_for
 from studies.printed_experiment.assumptions import assumptions
 from studies.printed_experiment.bench_runs import BenchRuns
 from studies.printed_experiment.design import design, values

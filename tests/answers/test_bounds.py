@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.bounds import BoundsComparison, Comparisons, compare
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat

@@ -15,12 +15,11 @@ from lyapcheck.answers.epsilon.four import Contradiction, findings, require_cons
 from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive
-from lyapcheck.control.gains import GainSet, read_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import significant_down
-from lyapcheck.output.annotations import Level
+from lyapcheck.output.answer import Level
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.promise import Promise
 from lyapcheck.robots import load

@@ -19,7 +19,7 @@ from lyapcheck.answers.explain import explain
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.claims import cosh, dh, expr, gamma, h, log, potential, rho, secant_bound, sqrt, tanh, var
-from lyapcheck.claims.case import Lacking
+from lyapcheck.claims.claim import Lacking
 from lyapcheck.claims.script import SHIPPED, find_script, load_proof
 from lyapcheck.claims.statements import AllOf
 from lyapcheck.errors import InputError

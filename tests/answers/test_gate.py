@@ -14,8 +14,7 @@ from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.answers.gate.words import margin_text
 from lyapcheck.check.refusal import Refused
 from lyapcheck.cli import main as cli
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit
 from tests.helpers.shares import one_in

@@ -23,10 +23,8 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.cli import main as cli
 from lyapcheck.control.conditions import Check
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.control.resting import degrees_above
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
+from lyapcheck.control.judgement import JudgedStatement, degrees_above
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel

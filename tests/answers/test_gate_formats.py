@@ -18,9 +18,8 @@ from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import GateAnswer, GateResult, gate
 from lyapcheck.answers.gate.words import significant_text
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.output.annotations import Level
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
+from lyapcheck.output.answer import Level
 from lyapcheck.output.document import Bullets, Section, Table
 from lyapcheck.output.formats import JudgedFormat
 from tests.helpers.shares import one_in

@@ -13,9 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate.friction import rest_errors
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.control.resting import degrees_above
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
+from lyapcheck.control.judgement import degrees_above
 from lyapcheck.robots import load
 from tests.helpers.command import Done, invoke
 

@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from lyapcheck.answers.gate import gate
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from tests.helpers.json_schema import faults
 
 SCHEMA = json.loads(

@@ -14,9 +14,8 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.cli import main as cli
 from lyapcheck.cli.show import show
 from lyapcheck.control import limits
-from lyapcheck.control.arm_limits import arm_limits
-from lyapcheck.control.gains import GainFile, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainFile, paper_gain_file, read_gain_file
+from lyapcheck.control.limits import arm_limits
 from lyapcheck.errors import InputError
 
 RUN = "from lyapcheck.cli.main import main; main()"

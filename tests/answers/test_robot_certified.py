@@ -12,16 +12,16 @@ import pytest
 from lyapcheck.answers.robot import build
 from lyapcheck.answers.robot.certified import bound_questions, certified
 from lyapcheck.answers.robot.properties import judged
-from lyapcheck.check.kinds.compared import Compared, MovingPosture, SameHarmonics
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
+    CoriolisBelow,
     CoriolisTorque,
     MassSymmetric,
     RateLessTwiceCoriolis,
     RateOfMass,
 )
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.identity import Compared, MovingPosture, SameHarmonics
 from lyapcheck.check.kinds.inertia import Bisection, MassBelow, PostureWitness
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Monomials, Proof, Statement

@@ -18,12 +18,12 @@ from lyapcheck.answers.robot import build
 from lyapcheck.answers.robot.answer import RobotReport
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.decision import undecided
 from lyapcheck.constants import ConstantResult, arm_constants
 from lyapcheck.errors import InputError
 from lyapcheck.output import text as plain
-from lyapcheck.output.annotations import Level
+from lyapcheck.output.answer import Level
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary

@@ -20,9 +20,8 @@ from lyapcheck.answers.simulate.samples import starts_csv
 from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
 from lyapcheck.answers.simulate.starts import RandomStarts
 from lyapcheck.answers.simulate.tracking import TrackingRuns
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.output.annotations import Level
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.output.answer import Level
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.simulate.closed_loop import simulate

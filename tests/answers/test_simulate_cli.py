@@ -12,7 +12,7 @@ from typing import NamedTuple
 import pytest
 
 from lyapcheck.cli.main import main
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file
 from tests.helpers.command import invoke
 
 TABLE2 = str(paper_gain_file("table2"))

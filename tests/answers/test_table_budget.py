@@ -13,8 +13,7 @@ from flint import arb
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.table import LIMITS
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from tests.helpers.command import invoke
 

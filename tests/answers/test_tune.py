@@ -21,8 +21,7 @@ from lyapcheck.answers.tune.largest import GainRange, best_units, binding, dampi
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms, tune
 from lyapcheck.cli.commands.tune import FORMATS
-from lyapcheck.control.gains import Bounds, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import Bounds, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import load

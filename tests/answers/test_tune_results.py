@@ -16,8 +16,7 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.answers.tune.tuning import tune
 from lyapcheck.cli.commands.tune import FORMATS
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.output.digits import at_least
 from lyapcheck.robots import load
 from lyapcheck.simulate.closed_loop import simulate

@@ -21,9 +21,8 @@ from lyapcheck.answers.tune.response.search import Joint, proposal
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, tried
 from lyapcheck.answers.tune.response.tuning import accepted, tune_for
 from lyapcheck.cli import main as cli
-from lyapcheck.control.arm_limits import varied_limits
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.limits import varied_limits
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
 from lyapcheck.output.formats import Format

@@ -17,8 +17,6 @@ from typing import Any
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.kinds.agrees import Agrees, Corners
-from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.chain import (
     ChainAbove,
@@ -27,18 +25,17 @@ from lyapcheck.check.kinds.chain import (
     NoTorque,
     OwnMoments,
 )
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
-from lyapcheck.check.kinds.chain_identity import IDENTITIES, ByDefinition, ChainIdentity
-from lyapcheck.check.kinds.compared import MovingPosture
+from lyapcheck.check.kinds.chain_coriolis import IDENTITIES, ByDefinition, ChainCoriolisBelow, ChainIdentity
+from lyapcheck.check.kinds.constant import Agrees, Corners
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
+    CoriolisBelow,
     CoriolisTorque,
     MassSymmetric,
     Matrices,
     RateLessTwiceCoriolis,
     RateOfMass,
 )
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -50,6 +47,7 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.identity import MovingPosture
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     HarmonicSizes,
@@ -60,6 +58,7 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.kinds.property import PROPERTIES
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
@@ -68,7 +67,7 @@ from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.statement import Monomials, Proof, Relation, Statement, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
-from lyapcheck.constants.storage.bounds import storage_proof
+from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.search.error_boxes import ErrorBoxes
 from lyapcheck.search.link_bounds import bounds_along

@@ -18,9 +18,7 @@ from importlib.metadata import version
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.kinds.agrees import Agrees, OutsideRounding
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
-from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.chain import (
     ChainAbove,
@@ -30,20 +28,22 @@ from lyapcheck.check.kinds.chain import (
     OwnLevers,
     OwnMoments,
 )
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
-from lyapcheck.check.kinds.chain_identity import ByDefinition, ChainIdentity
-from lyapcheck.check.kinds.compared import MovingPosture, SameHarmonics
-from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
-from lyapcheck.check.kinds.coriolis import CoriolisAtRest, CoriolisTorque, MassSymmetric
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
-from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
-from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, StateWitness
+from lyapcheck.check.kinds.chain_coriolis import ByDefinition, ChainCoriolisBelow, ChainIdentity
+from lyapcheck.check.kinds.constant import Agrees, Constant, ExactNumbers, OutsideRounding, SeparateBalls
+from lyapcheck.check.kinds.coriolis import CoriolisAtRest, CoriolisBelow, CoriolisTorque, MassSymmetric
+from lyapcheck.check.kinds.decreasing import (
+    BoxTree,
+    DampingAbove,
+    DampingBelow,
+    PositiveAndDecreasing,
+    StateWitness,
+)
 from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.for_small import ForSmall, SmallWitness
 from lyapcheck.check.kinds.gate_accepted import BrokenCondition, GateAccepted, GateParts, SaturatingState
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
-from lyapcheck.check.kinds.identity import Identity
+from lyapcheck.check.kinds.identity import Identity, MovingPosture, SameHarmonics
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import (
     Bisection,
@@ -54,6 +54,7 @@ from lyapcheck.check.kinds.inertia import (
     PostureWitness,
 )
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.kinds.resting import Resting, RestWitness
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness

@@ -14,8 +14,8 @@ from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
-from lyapcheck.check.kinds.damping import DampingBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
+from lyapcheck.check.kinds.decreasing import DampingBelow
 from lyapcheck.check.kinds.every_n import EntriesWitness, EveryN, Given
 from lyapcheck.check.kinds.for_all import ForAll, Pieces, Sturm
 from lyapcheck.check.kinds.for_small import ForSmall

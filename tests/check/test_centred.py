@@ -17,8 +17,7 @@ from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.kernel.arms import _finer
 from lyapcheck.robots import load
 from lyapcheck.search.branch_and_bound import certify

@@ -14,7 +14,7 @@ from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.all_of import EveryPart
 from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
 from lyapcheck.check.kinds.identity import NormalForm
-from lyapcheck.check.kinds.signs import Multiple, SignIdentity
+from lyapcheck.check.kinds.implies import Multiple, SignIdentity
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Relation, Total
 from lyapcheck.check.verify import verify

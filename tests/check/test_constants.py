@@ -11,10 +11,9 @@ from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.critical import bracketed_root, peak_of_h
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.family.compared import gamma_less_than
+from lyapcheck.check.numbers.constants import bracketed_root, hyperbolic_constants, peak_of_h
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.family.asymptotes import gamma_less_than
 
 DIGITS = 40
 
@@ -133,7 +132,7 @@ def test_gamma_less_than_decides_however_close_the_bound_is(m, exponent, sign):
 
 def test_equality_is_recognised_by_a_common_positive_root():
     """γ_m² is irrational for the m tried, so equality is planted: R vanishes at the peak of a stand-in."""
-    from lyapcheck.family import compared
+    from lyapcheck.family import asymptotes as compared
 
     assert compared._has_positive_root(compared.fmpq_poly([-2, 0, 1]))
     assert not compared._has_positive_root(compared.fmpq_poly([1, 1]))

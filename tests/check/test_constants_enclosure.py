@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from lyapcheck.check.numbers import balls
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.output.digits import correct_digits, decimals
 
 rationals = st.fractions(max_denominator=10**12)

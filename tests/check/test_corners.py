@@ -6,8 +6,8 @@ from fractions import Fraction as F
 
 import pytest
 
-from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.inertia import Bisection, MassAbove
+from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 

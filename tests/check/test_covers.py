@@ -134,7 +134,7 @@ def test_every_kind_with_directions_has_one_for_each_field() -> None:
 
 
 def test_a_kind_without_directions_answers_itself_alone() -> None:
-    from lyapcheck.check.kinds.damping import DampingBelow
+    from lyapcheck.check.kinds.decreasing import DampingBelow
 
     one = DampingBelow(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), ("num", "1"))
     require_covered(one, one)

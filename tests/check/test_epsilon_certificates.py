@@ -17,8 +17,7 @@ from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
 

@@ -10,8 +10,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import ArmBounds, decreasing, run_proof
 from lyapcheck.claims.procedures import propose
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
 

@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.gravity import GravityBelow, Levers
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.control.arm_limits import arm_limits
+from lyapcheck.control.limits import arm_limits
 from lyapcheck.robots.dynamics import Chain, ParameterShare
 from lyapcheck.robots.trig import to_terms
 from tests.oracle.bounds import Bound

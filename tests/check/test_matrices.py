@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
-from lyapcheck.check.numbers.matrices import is_positive_semidefinite
+from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 
 Rows = list[list[Fraction]]
 numbers = st.fractions(min_value=-4, max_value=4, max_denominator=6)

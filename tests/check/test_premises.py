@@ -26,7 +26,7 @@ from lyapcheck.claims import (
     var,
 )
 from lyapcheck.claims.bounds import above
-from lyapcheck.claims.case import Case
+from lyapcheck.claims.claim import Case
 from lyapcheck.claims.procedures import propose
 from tests.helpers.shares import but
 

@@ -18,9 +18,8 @@ from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.__main__ import main
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.files import Document, Unreadable, gather
-from lyapcheck.check.granted import GENERAL
 from lyapcheck.check.guard import Guard
-from lyapcheck.check.judgement import Judgement
+from lyapcheck.check.judgement import GENERAL, Judgement
 from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.constant import Constant, SeparateBalls
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
@@ -30,7 +29,7 @@ from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import file_name
 from lyapcheck.output.formats import JudgedFormat
-from lyapcheck.rechecking.render import as_json, text
+from lyapcheck.rechecking.command import as_json, text
 from tests.helpers.command import lyapcheck as command
 from tests.helpers.json_schema import faults
 

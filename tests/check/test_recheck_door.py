@@ -18,8 +18,7 @@ from lyapcheck.check.certificate import digest_of, parse, read
 from lyapcheck.check.codec import members
 from lyapcheck.check.files import content, gather
 from lyapcheck.check.guard import CannotStart, Guard
-from lyapcheck.check.judgement import Judgement
-from lyapcheck.check.limits import MAX_BYTES, MAX_NESTING, Limits
+from lyapcheck.check.judgement import MAX_BYTES, MAX_NESTING, Judgement, Limits
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement

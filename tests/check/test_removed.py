@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from lyapcheck.check.codec import TAGS, from_json, members
+from lyapcheck.check.codec import LAST_READ_BY, TAGS, from_json, members
 from lyapcheck.check.judging import judged
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.removed import LAST_READ_BY
 from lyapcheck.check.statement import Proof, Statement
 from tests.arena.run import ARENA
 from tests.helpers.command import lyapcheck

@@ -16,18 +16,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Span
 from lyapcheck.check.loop.boxes import Box, BrokenTree, halves, leaves
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.proof import proves, proves_part
 from lyapcheck.check.loop.schur import Evaluator
-from lyapcheck.check.loop.span import Span
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.enclosure import dyadic
 from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, mirrored
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.check.numbers.polynomials import dyadic
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
@@ -316,7 +314,7 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Pa
         "from fractions import Fraction\n"
         "from lyapcheck import load_robot, paper_gain_file, read_gain_file\n"
         "from lyapcheck.check.loop import proof\n"
-        "from lyapcheck.check.loop.processes import shared_between\n"
+        "from lyapcheck.check.loop.proof import shared_between\n"
         "from lyapcheck.search.branch_and_bound import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
         "from lyapcheck.search.schur import SchurProblem\n"

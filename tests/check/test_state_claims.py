@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from lyapcheck.answers.check.run import paper_case
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About, judge, parse, read
-from lyapcheck.check.kinds.damping import DampingAbove
+from lyapcheck.check.kinds.decreasing import DampingAbove
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
-from lyapcheck.claims.case import Lacking
+from lyapcheck.claims.claim import Lacking
 from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.scalar import ScalarForm, certifies
 from lyapcheck.check.loop.states import State, rate
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 

@@ -18,8 +18,7 @@ from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel

@@ -60,7 +60,7 @@ from lyapcheck.claims import (
     var,
 )
 from lyapcheck.claims.decision import Decision, decided, undecided
-from lyapcheck.claims.exact import exact_value
+from lyapcheck.claims.expressions import exact_value
 from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.procedures.search import broken_sides

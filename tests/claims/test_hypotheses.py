@@ -8,8 +8,8 @@ import pytest
 
 from lyapcheck.check.statement import Relation
 from lyapcheck.claims import Reals, all_of, implies, nonnegative, positive, reals, run_proof, sin, var
-from lyapcheck.claims.hypotheses import NOTHING, UNMET, remarks
 from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.statements import NOTHING, UNMET, remarks
 from lyapcheck.verdicts import Verdict
 
 x, y, z = map(var, "xyz")

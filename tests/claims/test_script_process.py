@@ -17,7 +17,7 @@ from lyapcheck.answers.explain import explain
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.case import Case, Lacking
+from lyapcheck.claims.claim import Case, Lacking
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Exit, Grade, Verdict
 from tests.helpers.shares import one_in
@@ -152,7 +152,7 @@ def test_what_no_checker_reads_is_undecided(write, levels):
 
 
 def test_what_comes_back_is_limited(write, monkeypatch):
-    monkeypatch.setattr("lyapcheck.claims.ask.MAX_BYTES", 200)
+    monkeypatch.setattr("lyapcheck.claims.script.MAX_BYTES", 200)
     with pytest.raises(InputError, match="must not exceed 200"):
         run_proof(write(TRUE), ms=(1,), n=1)
 

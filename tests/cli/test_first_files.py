@@ -13,8 +13,8 @@ from lyapcheck.answers.tune.response.trial import Wishes, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.robots.export import arm_text
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.registry import arm_text
 from lyapcheck.simulate.task import task_for
 
 ROOT = Path(__file__).parents[2]

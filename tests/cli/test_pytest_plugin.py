@@ -8,7 +8,7 @@ from importlib.metadata import entry_points
 
 import pytest
 
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.pytest_plugin import assert_accepted
 

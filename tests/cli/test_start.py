@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file
 
 HEAVY = {
     *("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "numpy", "scipy", "sympy"),

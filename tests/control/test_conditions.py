@@ -16,9 +16,8 @@ from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.verify import verify
 from lyapcheck.control.conditions import Check, Conditions, check_10p, check_19, gamma_of
-from lyapcheck.control.gains import GainSet
+from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.limits import Limits
-from lyapcheck.control.paper import PRINTED_GAMMA
 from lyapcheck.control.threshold import root
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import written

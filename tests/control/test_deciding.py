@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck import gate
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.pytest_plugin import assert_accepted
 from tests.helpers.command import invoke
 

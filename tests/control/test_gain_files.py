@@ -17,9 +17,8 @@ from hypothesis import strategies as st
 
 from lyapcheck import load_robot, run_simulation
 from lyapcheck.cli import main as cli
-from lyapcheck.control.gains import GainFile, read_gain_file
+from lyapcheck.control.gains import GainFile, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import limits_for
-from lyapcheck.control.paper import paper_gain_file
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.family.registry import names as families
 from lyapcheck.files.decimals import Written, decimal_text, places_of, round_down, written

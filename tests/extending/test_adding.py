@@ -234,7 +234,7 @@ class TestFormat:
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.table import build_table
 from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file
 print(build_table([1, 2], 4).written("org"))
 print(gate(read_gain_file(paper_gain_file())).written("org"))
 """

@@ -18,7 +18,8 @@ import pytest
 def one_process() -> Iterator[pytest.MonkeyPatch]:
     """As long as it lasts; what else is to be replaced as long may be."""
     from lyapcheck.check import guard, judging
-    from lyapcheck.claims import ask, fresh_check, script_process
+    from lyapcheck.claims import fresh_check, script_process
+    from lyapcheck.claims import script as ask
     from lyapcheck.rechecking import main as checker
 
     def run_script(request: Any) -> int:
@@ -35,7 +36,7 @@ def one_process() -> Iterator[pytest.MonkeyPatch]:
         return CompletedProcess(words, code, stdout.getvalue().encode(), b"")
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(ask, "_run", run_script)
+        patch.setattr(ask, "_run_apart", run_script)
         patch.setattr(guard.Guard, "_ask", ask_worker)
         patch.setattr(fresh_check, "subprocess", SimpleNamespace(run=run_checker))
         yield patch

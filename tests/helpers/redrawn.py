@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import GainFile
 from lyapcheck.output.answer import Answer
 from lyapcheck.promise import Promise

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots.dynamics import Chain
-from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.fields import Number
+from lyapcheck.robots.plant import RobotModel
 
 BUILT_IN = robots.names()
 

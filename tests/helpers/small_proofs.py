@@ -6,7 +6,7 @@ import pytest
 
 from lyapcheck.answers.check import ProofResult
 from lyapcheck.answers.check.run import run_proof
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file
 from tests.helpers.once import once
 from tests.helpers.one_process import one_process
 

@@ -18,12 +18,12 @@ READERS = {
 OURS = {
     ("answers/explain.py", "_cited"): "the bibliography of the package",
     ("compiled/loop.py", "source"): "source of the package",
-    ("compiled/library.py", "_fetch"): "what the compiler has just written to a folder of ours",
+    ("compiled/compiler.py", "_fetch"): "what the compiler has just written to a folder of ours",
     ("kernel/coq.py", "_compile_library"): "the library of the package",
     ("kernel/coq.py", "sources"): "the library of the package",
     ("kernel/coq.py", "golden"): "the library of the package",
-    ("kernel/record.py", "_record"): "a record of the package",
-    ("kernel/record.py", "_definitions"): "the library of the package",
+    ("kernel/coq.py", "_record"): "a record of the package",
+    ("kernel/coq.py", "_definitions"): "the library of the package",
     ("rechecking/trusted.py", "_imported"): "source of the package",
     ("report/gain_map.py", "kept_map"): "a study of the package",
     ("report/experiment.py", "printed_experiment"): "a study of the package",
@@ -32,7 +32,7 @@ OURS = {
     ("report/page/shell.py", "raw"): "style and script of the package",
     ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",
     ("store.py", "source_digest"): "the source of the package",
-    ("claims/ask.py", "_read"): "an answer in a folder of ours, whose size is looked at first",
+    ("claims/script.py", "_read"): "an answer in a folder of ours, whose size is looked at first",
     ("answers/sweep/folder.py", "_tabulate"): "rows that this run has just written",
 }
 WRITTEN = {

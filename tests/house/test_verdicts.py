@@ -50,7 +50,7 @@ SAID = {
     "control.judgement": (8, "the words of the gate for what the checker says there"),
     "kernel.statements": (2, "the name of a predicate in Coq"),
     "output.text": (4, COLOURS),
-    "rechecking.render": (3, SORTING),
+    "rechecking.command": (3, SORTING),
     "report.compare": (5, SORTING),
     "report.evidence": (1, HEADING),
     "report.figures.constants": (1, HEADING),

@@ -11,9 +11,8 @@ from pathlib import Path
 from lyapcheck.check.files import content, gather
 from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome, recheck
-from lyapcheck.kernel.coq import Kernel
+from lyapcheck.kernel.coq import FILE, Kernel, written
 from lyapcheck.kernel.judge import judged
-from lyapcheck.kernel.record import FILE, written
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
 

@@ -18,9 +18,9 @@ from lyapcheck.answers.recheck import _copied
 from lyapcheck.check.certificate import Certificate
 from lyapcheck.check.files import gather
 from lyapcheck.check.judging import certificate_of
-from lyapcheck.check.kinds.agrees import Agrees
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
+from lyapcheck.check.kinds.constant import Agrees
 from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, PositiveAndDecreasing, StateWitness
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.for_small import ForSmall

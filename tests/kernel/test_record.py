@@ -13,7 +13,8 @@ from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.claims.decision import Decision
 from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.kernel import coq, record
+from lyapcheck.kernel import coq
+from lyapcheck.kernel import coq as record
 from lyapcheck.kernel.coq import Kernel
 from lyapcheck.promise import Promise
 from lyapcheck.verdicts import Grade, Verdict

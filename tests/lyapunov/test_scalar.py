@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from lyapcheck import family, robots
 from lyapcheck.check.loop.scalar import ScalarForm, certifies
-from lyapcheck.check.numbers.enclosure import root_above
+from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.numeric import NumericModel

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from lyapcheck import family, robots
+from lyapcheck.compiled import compiler as threads
 from lyapcheck.compiled import loop as loop_module
-from lyapcheck.compiled import threads, writer
+from lyapcheck.compiled import loop as writer
 from lyapcheck.compiled.compiler import OFF, VECTORS, compiler
 from lyapcheck.compiled.loop import loop
 from lyapcheck.lyapunov import numeric as numeric_module

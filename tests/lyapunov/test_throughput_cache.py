@@ -12,7 +12,7 @@ import pytest
 
 from lyapcheck import store
 from lyapcheck.compiled import compiler as compiler_module
-from lyapcheck.compiled import library as library_module
+from lyapcheck.compiled import compiler as library_module
 from lyapcheck.compiled.compiler import OFF, compile_library, compiler
 from lyapcheck.compiled.loop import compiled
 

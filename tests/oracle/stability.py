@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import fsolve
 
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from tests import oracle
 from tests.oracle import Objection

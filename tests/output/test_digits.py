@@ -11,7 +11,7 @@ from flint import arb
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.output.digits import at_least, at_most
 
 DIGITS = st.integers(1, 12)

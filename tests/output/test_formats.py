@@ -12,8 +12,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Section, Table
 from lyapcheck.output.escapes import document_text, latex_text, printable
 from lyapcheck.output.formats import Format, JudgedFormat

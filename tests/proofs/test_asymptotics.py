@@ -11,7 +11,7 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.claims import exp, for_all, log, run_proof, var
 from lyapcheck.claims.procedures import propose
-from lyapcheck.family.compared import gamma_less_than
+from lyapcheck.family.asymptotes import gamma_less_than
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.case import Case
+from lyapcheck.claims.claim import Case
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import find_script
 from tests.helpers.script_cases import rewriter

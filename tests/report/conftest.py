@@ -12,13 +12,10 @@ import pytest
 
 from lyapcheck.answers.check import ProofResult, run
 from lyapcheck.answers.check.run import run_proof
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.report import compute
-from lyapcheck.report.build import build
-from lyapcheck.report.model import Report
-from lyapcheck.report.subject import Subject
-from lyapcheck.report.write import render, write
+from lyapcheck.report.build import build, render, write
+from lyapcheck.report.model import Report, Subject
 from tests.helpers import small_proofs
 from tests.helpers.once import once
 from tests.helpers.one_process import one_process

@@ -23,7 +23,7 @@ from PIL import Image
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.resting import Resting
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.recheck import recheck
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
@@ -32,24 +32,21 @@ from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
-from lyapcheck.report.build import build
+from lyapcheck.report.build import build, render, require_folder, write
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
 from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.figures.bars import epsilon_plot, indices_plot
-from lyapcheck.report.figures.motion import draw_errors, draw_torques
-from lyapcheck.report.figures.plot import Plot
+from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_plot, indices_plot
+from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.gain_rows import EpsilonRow
 from lyapcheck.report.jobs import done, map_job
-from lyapcheck.report.model import Report, anchor, applies
+from lyapcheck.report.model import Report, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
-from lyapcheck.report.page.graph import LETTERS, graph, layout, tied
+from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
 from lyapcheck.report.plain import read
-from lyapcheck.report.subject import Subject
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
-from lyapcheck.report.write import render, require_folder, write
 from tests.helpers.command import invoke
 
 VOID = {"meta", "link", "img", "br", "input"}

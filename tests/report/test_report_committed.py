@@ -15,9 +15,8 @@ from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.answers.table import build_table
 from lyapcheck.certificate import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
-from lyapcheck.claims.ask import ask
 from lyapcheck.claims.handover import ScriptRequest
-from lyapcheck.claims.script import find_script
+from lyapcheck.claims.script import ask, find_script
 from lyapcheck.cli.commands.report import _subject
 from lyapcheck.report.build import _gate
 from lyapcheck.report.jobs import BOXES, OTHERS, PROOF

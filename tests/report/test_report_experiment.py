@@ -14,26 +14,25 @@ import pytest
 from lyapcheck.answers.derive import derivation
 from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.table import build_table
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
+from lyapcheck.report.build import render
 from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
-from lyapcheck.report.experiment import printed_experiment
+from lyapcheck.report.experiment import (
+    answer_cell,
+    answer_words,
+    leading,
+    printed_experiment,
+    span,
+    tally_words,
+    together_words,
+    value_words,
+)
 from lyapcheck.report.findings import findings
 from lyapcheck.report.gain_rows import PrintedRow, RunRow
 from lyapcheck.report.model import Report
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.plain import read
 from lyapcheck.report.study import AssumedRow, NumberRow, StudyRow
-from lyapcheck.report.words import (
-    answer_cell,
-    answer_words,
-    leading,
-    span,
-    tally_words,
-    together_words,
-    value_words,
-)
-from lyapcheck.report.write import render
 from lyapcheck.robots import load
 from studies.printed_experiment.json import study_json
 from studies.printed_experiment.study import study

@@ -11,8 +11,7 @@ import pytest
 
 from lyapcheck.check.files import gather
 from lyapcheck.check.recheck import recheck
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.report import experiment
 from lyapcheck.report.experiment import study_file
 from lyapcheck.report.gain_map import gain_map, kept_map, map_eps0

@@ -15,11 +15,9 @@ from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
 from lyapcheck.report import compute
 from lyapcheck.report.at_hand import as_the_gate_judges
-from lyapcheck.report.build import build
-from lyapcheck.report.model import Report
-from lyapcheck.report.subject import Subject
+from lyapcheck.report.build import build, render
+from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.verdict import badges, sentences
-from lyapcheck.report.write import render
 from lyapcheck.robots import load
 from tests.helpers.one_process import one_process
 from tests.report.conftest import AtOnce

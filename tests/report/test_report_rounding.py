@@ -11,10 +11,9 @@ from lyapcheck.answers.derive import derivation
 from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
 from lyapcheck.answers.table import build_table
-from lyapcheck.report.map_cell import MapCell
-from lyapcheck.report.model import Report
+from lyapcheck.report.build import render
+from lyapcheck.report.model import MapCell, Report
 from lyapcheck.report.notes import published_notes
-from lyapcheck.report.write import render
 from lyapcheck.robots import load
 
 PROVED = {"0.05": "0.10279", "0.1": "0.1025702", "0.2": "0.09999999"}

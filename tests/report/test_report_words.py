@@ -14,9 +14,9 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.promise import promises_as_seen
+from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.model import Report
-from lyapcheck.report.write import render
 from tests.helpers.redrawn import other
 from tests.helpers.words_of_proof import said, words_of_proof
 

@@ -9,8 +9,7 @@ import pytest
 
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.check.loop.proof import proves
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load, names
 from lyapcheck.search.branch_and_bound import certify

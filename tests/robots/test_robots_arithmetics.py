@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
 from lyapcheck.robots import graph
-from lyapcheck.robots.model import RobotModel
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.plant import RobotModel
 from tests.helpers.robot_cases import BUILT_IN
 from tests.robots import symbolic
 

@@ -13,7 +13,7 @@ import sympy as sp
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
-from lyapcheck.robots.physics import impossible_state
+from lyapcheck.robots.bodies import impossible_state
 from tests.helpers.robot_cases import BUILT_IN
 from tests.robots import symbolic
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
-from lyapcheck.robots.model import RobotModel
+from lyapcheck.robots.plant import RobotModel
 from tests.helpers.costly import costly
 from tests.helpers.robot_cases import BUILT_IN, angles, exact, model_of, plain_links, rates
 

@@ -14,9 +14,8 @@ from lyapcheck import robots
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.response.trial import Trials, Wishes
 from lyapcheck.answers.tune.response.tuning import tune_for
-from lyapcheck.control.arm_limits import varied_limits
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
+from lyapcheck.control.limits import varied_limits
 from lyapcheck.errors import InputError
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, corners, corners_text, outside

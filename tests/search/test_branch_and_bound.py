@@ -15,8 +15,7 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.boxes import leaves
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.verify import verify
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
@@ -25,8 +24,8 @@ from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome, cover
-from lyapcheck.search.norms import norm_epsilon
 from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.scalar_program import norm_epsilon
 from lyapcheck.search.schur import SchurProblem
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import generic

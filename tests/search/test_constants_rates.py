@@ -14,22 +14,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import Bisection, PostureWitness
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.motion import coriolis_power
-from lyapcheck.check.loop.storage import Shown, hinges
+from lyapcheck.check.loop.storage import Shown, coriolis_power, hinges
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
+from lyapcheck.claims.arms import coriolis_bounded
 from lyapcheck.claims.bounds import ArmBounds
-from lyapcheck.claims.moving_arm import coriolis_bounded
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.extreme import extreme
-from lyapcheck.constants.storage import storage_proof
-from lyapcheck.constants.storage.bounds import BoundWithProof
+from lyapcheck.constants.chain import extreme
+from lyapcheck.constants.storage import BoundWithProof, storage_proof
 from lyapcheck.robots import load
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, NoTorque, OwnMoments, StorageForms
-from lyapcheck.check.kinds.chain_identity import IDENTITIES, ByDefinition, ChainIdentity
+from lyapcheck.check.kinds.chain_coriolis import IDENTITIES, ByDefinition, ChainIdentity
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.loop.storage import hinges, invariant_form
 from lyapcheck.check.refusal import Refused
@@ -18,9 +18,8 @@ from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.extreme import extreme
-from lyapcheck.constants.storage import storage_proof
-from lyapcheck.constants.storage.problem import doubles, unit_rows
+from lyapcheck.constants.chain import extreme
+from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
 from lyapcheck.robots import RobotModel, load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict

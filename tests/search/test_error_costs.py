@@ -13,8 +13,7 @@ from lyapcheck import load_robot, read_gain_file
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.storage import Shown
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.error_boxes import ErrorBoxes
-from lyapcheck.search.error_costs import costs_at, smallest_at
+from lyapcheck.search.error_boxes import ErrorBoxes, costs_at, smallest_at
 from lyapcheck.search.link_bounds import fitted, link_bounds
 
 F = Fraction

@@ -10,12 +10,11 @@ from flint import arb
 from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.harmonics import by_parameters
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import Family, hyperbolic, named, names
 from lyapcheck.intervals import Interval
-from lyapcheck.intervals.arm import ArmIntervals, coriolis
-from lyapcheck.intervals.family import dh_range, h_range
+from lyapcheck.intervals.arm import ArmIntervals, coriolis, dh_range, h_range
 from lyapcheck.robots import load
 from lyapcheck.robots.trig import to_terms
 from tests.helpers.robot_cases import BUILT_IN

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.intervals import Interval, cosine, inverse_one_plus, norm, sine, unit_vector
-from lyapcheck.intervals.definite import positive_definite
+from lyapcheck.intervals.interval import positive_definite
 
 F = Fraction
 Array = NDArray[np.float64]

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.search import sample, worst_states
 from lyapcheck.search.controlled_arm import ControlledArm

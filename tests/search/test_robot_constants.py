@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots import load

@@ -10,7 +10,8 @@ import pytest
 
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
-from lyapcheck.search import cover, shared
+from lyapcheck.search import branch_and_bound as shared
+from lyapcheck.search import cover
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm

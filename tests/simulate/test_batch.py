@@ -10,18 +10,16 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.compiled.compiler import OFF, compiler
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.robots.elimination import solve_definite
+from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.simulate import indices
+from lyapcheck.simulate import results as indices
 from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.batch import simulate as batch_module
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.gains import gains_for
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, gains_for
 from tests.helpers.shares import but, one_in
 
 TABLE2 = (

@@ -12,16 +12,13 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import runs_csv
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.simulate.closed_loop import _imbalance, simulate
-from lyapcheck.simulate.dynamics import closed_loop
-from lyapcheck.simulate.gains import gains_for
+from lyapcheck.simulate.closed_loop import _imbalance, closed_loop, simulate
 from lyapcheck.simulate.integrate import integrate
-from lyapcheck.simulate.monitor import observe
+from lyapcheck.simulate.results import observe
 from lyapcheck.simulate.run import SimulationFailed
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, gains_for
 from tests.helpers.shares import one_in
 
 TABLE2 = (

@@ -12,17 +12,13 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import runs_csv
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import Number
-from lyapcheck.simulate.bench import Bench, enough_substeps, read_encoders
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import SimulationFailed
-from lyapcheck.simulate.setup import set_up
-from lyapcheck.simulate.stiff import stiff_periods
-from lyapcheck.simulate.task import PAPER_TASK
-from lyapcheck.simulate.trial import experiment
+from lyapcheck.simulate.task import PAPER_TASK, set_up
+from lyapcheck.simulate.trial import Bench, enough_substeps, experiment, read_encoders, stiff_periods
 from tests.helpers.shares import but, one_in
 
 TABLE2 = (

@@ -10,11 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.extremes import turns
-from lyapcheck.simulate.indices import final_errors, l2_index, overshoots, peak_torques, settling_times
+from lyapcheck.simulate.integrate import turns
+from lyapcheck.simulate.results import final_errors, l2_index, overshoots, peak_torques, settling_times
 from lyapcheck.simulate.task import PAPER_TASK
 
 T = np.linspace(0.0, 5.0, 2001)

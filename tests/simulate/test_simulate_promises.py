@@ -14,9 +14,8 @@ from lyapcheck.answers.simulate.runs import SetPointRuns
 from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.check.loop.states import State, confirms_positive
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
-from lyapcheck.output.annotations import Level
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.output.answer import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify

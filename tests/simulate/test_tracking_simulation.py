@@ -14,20 +14,17 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import tracking_csv
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
 from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.gains import gains_for
-from lyapcheck.tracking.form import TrackingForm, tracking_form
+from lyapcheck.simulate.task import gains_for
 from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
-from lyapcheck.tracking.results import bound_of, broken, energies
-from lyapcheck.tracking.run import TrackingFailed, TrackingMotion, TrackingRun
+from lyapcheck.tracking.run import TrackingFailed, TrackingMotion, TrackingRun, bound_of, broken, energies
 from lyapcheck.tracking.simulation import track
-from lyapcheck.tracking.torque import torque_bounds
+from lyapcheck.tracking.torque import TrackingForm, torque_bounds, tracking_form
 from tests.helpers.shares import one_in
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains

@@ -3,13 +3,18 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.kinds.agrees import OutsideRounding, PrintedInputs
-from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
+from lyapcheck.check.kinds.constant import (
+    Constant,
+    ExactNumbers,
+    OutsideRounding,
+    PrintedInputs,
+    SeparateBalls,
+)
 from lyapcheck.check.kinds.for_all import Boxes, Pieces, Sturm
 from lyapcheck.check.kinds.for_small import LeadingTerm
 from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.kinds.implies import SignIdentity
 from lyapcheck.check.kinds.norm_bound import Supremum
-from lyapcheck.check.kinds.signs import SignIdentity
 from lyapcheck.check.statement import Proof, Witness
 from lyapcheck.claims import (
     ForSmall,

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.claims import Constant, Relation

@@ -12,14 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import RobotModel, load
-from lyapcheck.simulate.bench import Bench
-from lyapcheck.simulate.gains import gains_for
 from lyapcheck.simulate.printed import printed_entry
-from lyapcheck.simulate.task import PAPER_TASK
-from lyapcheck.simulate.trial import experiment
+from lyapcheck.simulate.task import PAPER_TASK, gains_for
+from lyapcheck.simulate.trial import Bench, experiment
 from studies.printed_experiment.approach import approach, between
 from studies.printed_experiment.assumptions import Assumption, assumptions
 from studies.printed_experiment.bench_compiled import compiled_bench

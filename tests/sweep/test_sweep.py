@@ -23,8 +23,8 @@ from lyapcheck.answers.sweep import folder as folders
 from lyapcheck.answers.sweep import read_plan
 from lyapcheck.answers.sweep.question import COLUMNS
 from lyapcheck.answers.sweep.result import SweepAnswer, Tally
-from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import GainFile, GainSet
+from lyapcheck.control.limits import varied_limits
 from lyapcheck.robots.vary import Vary
 from tests.helpers.command import lyapcheck as command
 

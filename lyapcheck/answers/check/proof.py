@@ -12,10 +12,9 @@ from lyapcheck.certificate import to_json
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.judgement import shortened
 from lyapcheck.check.statement import Statement
-from lyapcheck.kernel.record import GRADE, accepted_before
-from lyapcheck.kernel.record import GRADE as KERNEL
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.kernel.coq import GRADE, accepted_before
+from lyapcheck.kernel.coq import GRADE as KERNEL
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.promise import all_say, told
 from lyapcheck.verdicts import Exit, Grade, Verdict, exit_code

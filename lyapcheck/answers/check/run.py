@@ -13,24 +13,19 @@ from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About, digest_of
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.ask import ask
-from lyapcheck.claims.case import Case
 from lyapcheck.claims.certificates import certificates, file_name
-from lyapcheck.claims.decision import decided, undecided
+from lyapcheck.claims.claim import Case, in_order
+from lyapcheck.claims.decision import Proposal, chained, decided, rests_on, undecided
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import CaseData, Handover, Key, ScriptRequest
-from lyapcheck.claims.hypotheses import remarks
-from lyapcheck.claims.order import in_order
 from lyapcheck.claims.procedures import propose
-from lyapcheck.claims.proposal import Proposal, chained, rests_on
-from lyapcheck.claims.script import find_script
+from lyapcheck.claims.script import ask, find_script
 from lyapcheck.claims.search_result import SearchResult
-from lyapcheck.claims.statements import Missing
-from lyapcheck.control.gains import GainFile, GainSet, gain_file_of
-from lyapcheck.control.paper import paper_gain_file
+from lyapcheck.claims.statements import Missing, remarks
+from lyapcheck.control.gains import GainFile, GainSet, gain_file_of, paper_gain_file
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.kept import KeptCertificates, remembered
-from lyapcheck.search.inertia import remember
+from lyapcheck.search.controlled_arm import remember
 from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_GAINS = "table2"

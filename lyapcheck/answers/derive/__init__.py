@@ -11,8 +11,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.derive.formulas import Formula
-    from lyapcheck.answers.derive.rows import Agreement
+    from lyapcheck.answers.derive.rows import Agreement, Formula
 
 MOST_JOINTS = 7
 """Of the entries in which SymPy decides that V and dV/dt are what is printed."""
@@ -123,7 +122,8 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None)
         >>> found.rows[2].derived
         '1 positive root, γ = 1.053569219'
     """
-    from lyapcheck.answers.derive import parts, rows
+    from lyapcheck.answers.derive import rows
+    from lyapcheck.answers.derive import rows as parts
     from lyapcheck.derive.arm import written_arm
     from lyapcheck.derive.family import member
     from lyapcheck.robots import load

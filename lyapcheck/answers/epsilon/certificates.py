@@ -9,7 +9,7 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.names import file_stem
+from lyapcheck.files.fields import file_stem
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult

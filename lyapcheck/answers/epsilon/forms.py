@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.check.numbers.enclosure import root_above
+from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.constants import robot_bounds
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form

@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
-from lyapcheck.answers.epsilon.assembled import put_together
 from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.answers.epsilon.compute import four
+from lyapcheck.answers.epsilon.compute import four, put_together
 from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.answers.epsilon.result import EpsilonResult
 from lyapcheck.check.certificate import Certificate
-from lyapcheck.check.kinds.at_corners import MassAtCorners
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -27,6 +25,7 @@ from lyapcheck.check.kinds.decreasing import (
 )
 from lyapcheck.check.kinds.inertia import Bisection, Links
 from lyapcheck.check.kinds.link_bounds import LinkBounds
+from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.loop.states import State
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.kept import KeptCertificates, remembered

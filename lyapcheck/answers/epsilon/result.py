@@ -18,8 +18,7 @@ from lyapcheck.answers.epsilon.words import (
     title,
     witness_text,
 )
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Bullets, Document, Section, Table
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
-from lyapcheck.control.arm_limits import ArmLimits
-from lyapcheck.control.deciding import DECIDING
-from lyapcheck.control.gains import GainFile, gain_file_of
+from lyapcheck.control.gains import DECIDING, GainFile, gain_file_of
+from lyapcheck.control.limits import ArmLimits
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress

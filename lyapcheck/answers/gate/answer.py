@@ -24,10 +24,9 @@ from lyapcheck.answers.gate.words import (
     value_text,
 )
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
-from lyapcheck.control.deciding import CERTIFICATES
+from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Section, Table
 from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit

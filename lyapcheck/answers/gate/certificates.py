@@ -22,7 +22,7 @@ from lyapcheck.check.verify import weakest
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.names import file_stem
+from lyapcheck.files.fields import file_stem
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

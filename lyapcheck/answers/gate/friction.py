@@ -23,8 +23,14 @@ from lyapcheck.answers.gate.otherwise import small
 from lyapcheck.asked import resting as asked_resting
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.control.conditions import gamma_of
-from lyapcheck.control.judgement import ACCEPTED, JudgedStatement, judged_statement
-from lyapcheck.control.resting import DEGREES, dry_friction, rest_error
+from lyapcheck.control.judgement import (
+    ACCEPTED,
+    DEGREES,
+    JudgedStatement,
+    dry_friction,
+    judged_statement,
+    rest_error,
+)
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text, significant_up

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
-from lyapcheck.control.arm_limits import ArmLimits
 from lyapcheck.control.conditions import (
     ACCEPTED,
     REJECTED,
@@ -18,9 +17,8 @@ from lyapcheck.control.conditions import (
     Conditions,
     gamma_of,
 )
-from lyapcheck.control.deciding import CERTIFICATES, DECIDING, KNOWN, deciding_for
-from lyapcheck.control.gains import GainFile, GainSet
-from lyapcheck.control.limits import Limits, limits_for
+from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, GainFile, GainSet, deciding_for
+from lyapcheck.control.limits import ArmLimits, Limits, limits_for
 from lyapcheck.errors import argument_error
 from lyapcheck.promise import all_say
 
@@ -164,7 +162,7 @@ def judged_sets(
 ) -> list[GateResult]:
     """The results of a file, in its order; more than whether they pass of the first so many.
 
-    ``asked`` are conditions that go before those of the sets; see ``lyapcheck.control.deciding``.
+    ``asked`` are conditions that go before those of the sets; see ``lyapcheck.control.gains``.
 
     See :func:`lyapcheck.gate` for the rest.
     """

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.otherwise import unknown_function
 from lyapcheck.answers.gate.shown import DIGITS, Numbers, numbers_of, shown_gravity
 from lyapcheck.asked import gate_accepted, gravity_kept
+from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.kinds.gate_accepted import TORQUES, GateAccepted, GateParts
-from lyapcheck.check.limits import MAX_ARM
 from lyapcheck.control.conditions import CONDITIONS, Check
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.family.registry import named

@@ -22,9 +22,9 @@ from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.norms import REFUSED, norm_epsilon
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.scalar_program import REFUSED, norm_epsilon
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""

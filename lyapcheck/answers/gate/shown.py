@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.otherwise import friction_of
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
-from lyapcheck.check.kinds.compared import SameHarmonics
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
+from lyapcheck.check.kinds.identity import SameHarmonics
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
 from lyapcheck.check.statement import Ends, Monomials, Proof
 from lyapcheck.control.gravity import levers

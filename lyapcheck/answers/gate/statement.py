@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.otherwise import unknown_function
 from lyapcheck.answers.gate.shown import DIGITS, numbers_of, shown_gravity
+from lyapcheck.check.judgement import LARGEST, MAX_ARM
 from lyapcheck.check.kinds.gate_accepted import (
     TORQUES,
     BrokenCondition,
@@ -20,7 +21,6 @@ from lyapcheck.check.kinds.gate_accepted import (
     GateParts,
     SaturatingState,
 )
-from lyapcheck.check.limits import LARGEST, MAX_ARM
 from lyapcheck.check.numbers.constants import hyperbolic_constants
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED

@@ -7,7 +7,7 @@ from functools import lru_cache
 from math import degrees
 
 from lyapcheck.answers.gate.judge import GRAVITY, GateResult
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
 from lyapcheck.files.decimals import decimal_text, scaled_text

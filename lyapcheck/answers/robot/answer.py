@@ -10,18 +10,17 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
-from lyapcheck.claims.moving_arm import ranges_of
+from lyapcheck.claims.arms import ranges_of
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import at_most, decimals
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
 from lyapcheck.output.fields import Field, data, records, table
 from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.robots.number import with_unit
-from lyapcheck.search.inertia import mass_of
+from lyapcheck.robots.fields import with_unit
+from lyapcheck.search.controlled_arm import mass_of
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
 if TYPE_CHECKING:

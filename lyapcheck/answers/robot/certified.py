@@ -18,7 +18,7 @@ from lyapcheck.answers.robot.properties import DecidedProperty, PropertyQuestion
 from lyapcheck.asked import bound_of_constant
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, OfLinks
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
@@ -29,13 +29,13 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown
 from lyapcheck.constants import ConstantResult
-from lyapcheck.constants.arm_harmonics import ArmHarmonics
-from lyapcheck.constants.storage.bounds import BoundWithProof, storage_proof
+from lyapcheck.constants.spectrum import ArmHarmonics
+from lyapcheck.constants.storage import BoundWithProof, storage_proof
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import decimals
 from lyapcheck.robots import RobotModel

@@ -16,17 +16,17 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
+from lyapcheck.claims.arms import ranges_of
 from lyapcheck.claims.decision import Decision, decided, undecided
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import Key
-from lyapcheck.claims.moving_arm import ranges_of
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.claims.statements import Missing
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots import Number, RobotModel, trig
-from lyapcheck.search.inertia import mass_of
+from lyapcheck.search.controlled_arm import mass_of
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))

@@ -10,8 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from lyapcheck.output import fields
-from lyapcheck.output.annotations import Annotation, Level
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.output.fields import Field

@@ -18,7 +18,7 @@ from lyapcheck.answers.simulate.simulation import (
     row,
     sized,
 )
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section

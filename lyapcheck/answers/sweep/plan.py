@@ -18,8 +18,7 @@ from lyapcheck.control.gains import GainSet, beside, gain_set_of
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text, exact_decimal
 from lyapcheck.files.fields import Fields, Notes
-from lyapcheck.files.kinds import PLAN, require_kind
-from lyapcheck.files.toml import open_document
+from lyapcheck.files.toml import PLAN, open_document, require_kind
 
 Gain = Fraction | tuple[Fraction, ...]
 """The same in every joint, or one a joint; N·m."""

@@ -19,8 +19,8 @@ from lyapcheck.verdicts import Exit, Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
-    from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.limits import ArmLimits
     from lyapcheck.robots import RobotModel
 
 MOST = 16

@@ -12,8 +12,8 @@ from lyapcheck.answers.sweep.question import Row
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.output.document import Block, Bullets, Document, Figure, Section, Table
-from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.html import blocks, page
+from lyapcheck.output.mathml import Markup, element
 from lyapcheck.verdicts import Exit
 
 MOST_CELLS = 3_000
@@ -246,7 +246,7 @@ def files(answer: SweepAnswer) -> dict[str, str | bytes]:
 
 
 def _page(answer: SweepAnswer, drawings: dict[str, str | bytes]) -> str:
-    from lyapcheck.report.page.drawing import drawn
+    from lyapcheck.report.page.gains import drawn
     from lyapcheck.report.page.shell import raw
 
     def shown(figure: Figure) -> Markup | None:

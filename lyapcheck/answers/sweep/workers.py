@@ -13,11 +13,11 @@ from typing import Any
 
 from lyapcheck import store
 from lyapcheck.answers.sweep.question import Answered, Question, answered, arm
-from lyapcheck.check.loop.processes import main_unnamed
+from lyapcheck.check.loop.proof import main_unnamed
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.extensions import modules
 from lyapcheck.libraries import missing
-from lyapcheck.search.shared import boxes_shared
+from lyapcheck.search.branch_and_bound import boxes_shared
 from lyapcheck.temporary import temporary_folder, work_in
 
 PACKAGE = "lyapcheck.answers.sweep.asks"

@@ -9,9 +9,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.deciding import DECIDING
-from lyapcheck.control.gains import Bounds, GainSet
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.control.gains import DECIDING, Bounds, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer

@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.tune.answer import TUNED, TunedSet
-from lyapcheck.control.deciding import DECIDING
-from lyapcheck.control.gains import Bounds
+from lyapcheck.control.gains import DECIDING, Bounds
 from lyapcheck.files.decimals import decimal_text
 
 if TYPE_CHECKING:

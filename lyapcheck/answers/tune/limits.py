@@ -10,10 +10,9 @@ from lyapcheck.answers.tune.largest import GainRange
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import Constants
-from lyapcheck.check.numbers.enclosure import Enclosure
-from lyapcheck.control.arm_limits import varied_limits
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
-from lyapcheck.control.limits import Limits, limits_for
+from lyapcheck.control.limits import Limits, limits_for, varied_limits
 from lyapcheck.files.decimals import decimal_text, round_down
 from lyapcheck.robots import load
 

@@ -19,8 +19,7 @@ from math import prod
 from flint import arb, fmpq
 
 from lyapcheck.check.expressions.expression import Unsupported, family_constant
-from lyapcheck.check.numbers.enclosure import ball_of
-from lyapcheck.check.numbers.polynomials import rational, rational_root
+from lyapcheck.check.numbers.polynomials import ball_of, rational, rational_root
 
 Key = tuple[Fraction | int, Fraction | int, int]
 """(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""

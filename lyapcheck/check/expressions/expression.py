@@ -22,8 +22,7 @@ from typing import Any
 
 from flint import arb, arb_series, ctx, fmpq
 
-from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.critical import power
+from lyapcheck.check.numbers.constants import hyperbolic_constants, power
 
 Tree = tuple[Any, ...]
 

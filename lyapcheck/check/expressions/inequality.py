@@ -18,8 +18,7 @@ from flint import arb, fmpq_poly
 from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, taylor
 from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import Ratio, normal_form
-from lyapcheck.check.numbers.enclosure import ball_of
-from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, univariate
+from lyapcheck.check.numbers.polynomials import ball_of, nonnegative_on, positive_on, univariate
 
 
 def positive_at(tree: Tree, name: str, x: Fraction) -> bool:

@@ -29,8 +29,14 @@ from lyapcheck.check.expressions.expression import (
 )
 from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import RationalAlgebra, normal_form, rational_value
-from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
-from lyapcheck.check.numbers.polynomials import nonnegative_on, positive_on, rational, univariate
+from lyapcheck.check.numbers.polynomials import (
+    Enclosure,
+    ball_of,
+    nonnegative_on,
+    positive_on,
+    rational,
+    univariate,
+)
 
 Signs = frozenset[int]
 ANY: Signs = frozenset((-1, 0, 1))

@@ -36,8 +36,8 @@ from lyapcheck.check.kinds.every_n import (
     words_of,
 )
 from lyapcheck.check.kinds.every_n import at_size as identity_at_size
+from lyapcheck.check.kinds.implies import Signs
 from lyapcheck.check.kinds.parts import require_distinct
-from lyapcheck.check.kinds.signs import Signs
 from lyapcheck.check.letters.entries import Entries, compared
 from lyapcheck.check.letters.grammar import DIMENSION, LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words

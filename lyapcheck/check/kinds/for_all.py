@@ -12,12 +12,11 @@ from itertools import pairwise
 
 from flint import ctx
 
-from lyapcheck.check.expressions.domain import Interval
+from lyapcheck.check.expressions.domain import Comparison, Interval
 from lyapcheck.check.expressions.expression import Tree, substitute
 from lyapcheck.check.expressions.inequality import positive_at, positive_on_box, sign_everywhere
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.parts import relation_text, require_relations
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import Pointwise, require_bits

@@ -21,8 +21,8 @@ from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside
+from lyapcheck.check.kinds.implies import SignIdentity, Signs, require_identity
 from lyapcheck.check.kinds.parts import domain_of, range_text, relation_text, require_relations, terms_of
-from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_inside
 from lyapcheck.check.statement import OfTerms, Point, Proof, Relation, Variable

@@ -15,9 +15,9 @@ from fractions import Fraction
 from flint import arb
 
 from lyapcheck.check.expressions.text import diagonal_text, list_text, number_text
-from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.kinds.compared import SameHarmonics
+from lyapcheck.check.judgement import LARGEST, MAX_ARM, TORQUE
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
+from lyapcheck.check.kinds.identity import SameHarmonics
 from lyapcheck.check.kinds.inertia import (
     OfArm,
     PostureWitness,
@@ -27,12 +27,11 @@ from lyapcheck.check.kinds.inertia import (
     written_out,
 )
 from lyapcheck.check.kinds.of_loop import OfLoop
-from lyapcheck.check.limits import LARGEST, MAX_ARM
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import hyperbolic_constants
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, weakest

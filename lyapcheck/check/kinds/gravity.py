@@ -12,7 +12,7 @@ from fractions import Fraction
 from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.compared import Compared, Gap, mixed
+from lyapcheck.check.kinds.identity import Compared, Gap, mixed
 from lyapcheck.check.kinds.inertia import (
     BoundedAbove,
     PostureWitness,

@@ -5,18 +5,28 @@ References: ``geddes1992algorithms``, chapter 3.
 
 from __future__ import annotations
 
+from abc import abstractmethod
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby
+from math import prod
 
-from lyapcheck.check.expressions.domain import REALS, Interval
+from flint import arb
+
+from lyapcheck.check.expressions.domain import REALS, Comparison, Interval
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
-from lyapcheck.check.expressions.witness import Comparison
+from lyapcheck.check.kinds.inertia import PostureWitness, require_posture
 from lyapcheck.check.kinds.parts import domain_of, range_text, require_distinct
+from lyapcheck.check.loop.field import value_at
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.numbers.harmonics import Uncertain, combination
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import Pointwise
-from lyapcheck.check.statement import Proof, Variable
+from lyapcheck.check.statement import Ends, Proof, Total, Variable
 from lyapcheck.check.verify import Accepted, rule
 
 
@@ -78,3 +88,85 @@ def by_normal_form(statement: Identity, proof: NormalForm) -> Accepted:
 def gap_of(statement: Identity) -> Tree:
     """The difference of both sides."""
     return ("add", statement.right, ("neg", statement.left))
+
+
+# --- Polynomials of an arm that should be the same for all angles and parameters.
+#
+# The form as a sum of harmonics is unique: two polynomials are one function exactly where it agrees.
+
+
+Rates = tuple[int, ...]
+Gap = tuple[str, Rates, Uncertain]
+"""Where, the joints whose rates it has as factors, counted from 0, and the difference of both sides there."""
+
+
+class Compared(Total):
+    """A statement that differences vanish; those of one place are added up, each times its rates."""
+
+    parameters: tuple[Ends, ...]
+
+    @property
+    @abstractmethod
+    def joints(self) -> int:
+        """How many there are."""
+
+    @abstractmethod
+    def gaps(self) -> Iterator[Gap]:
+        """The differences, those of one place one after the other."""
+
+
+@dataclass(frozen=True)
+class SameHarmonics(Proof):
+    """The harmonics of every difference vanish."""
+
+    rule = "comparison of harmonics"
+
+
+@dataclass(frozen=True)
+class MovingPosture(PostureWitness):
+    """A posture with rates x at which one difference is not 0, by balls."""
+
+    rule = "moving posture"
+
+
+@rule(Compared, SameHarmonics)
+def by_harmonics(statement: Compared, proof: SameHarmonics) -> Accepted:
+    """Soundness: the form as harmonics is unique, and so is that as a polynomial of rates."""
+    for place, _, gap in statement.gaps():
+        require(not gap, place, "", "is not the same on both sides")
+    return Accepted("proved", "exact")
+
+
+@rule(Compared, MovingPosture)
+def by_posture(statement: Compared, proof: MovingPosture) -> Accepted:
+    """Soundness: the difference at one place lies in a ball without 0."""
+    n = statement.joints
+    require_posture(proof, n, statement.parameters)
+    require(len(proof.x) == n, "x", len(proof.x), f"must have {n} entries")
+    result = any(not value.contains(0) for _, value in differences(statement, proof))
+    require(result, "posture", "", "does not show a difference")
+    return Accepted("refuted", "enclosure")
+
+
+def differences(statement: Compared, at: MovingPosture) -> Iterator[tuple[str, arb]]:
+    """The difference at each place in balls."""
+    for place, rows in groupby(statement.gaps(), key=lambda gap: gap[0]):
+        yield (
+            place,
+            sum(
+                (
+                    to_arb(prod((at.x[k] for k in rates), start=Fraction(1)))
+                    * value_at(gap, at.q, at.parameters)
+                    for _, rates, gap in rows
+                ),
+                arb(0),
+            ),
+        )
+
+
+def mixed(parts: Iterable[tuple[int | Fraction, Uncertain]]) -> Uncertain:
+    """Σ factor · polynomial."""
+    rows = [(Fraction(factor), entry) for factor, entry in parts]
+    powers = {power for _, entry in rows for power in entry}
+    sums = {power: combination((f, entry.get(power, {})) for f, entry in rows) for power in powers}
+    return {power: terms for power, terms in sums.items() if terms}

@@ -2,15 +2,172 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 
-from lyapcheck.check.expressions.domain import Interval
-from lyapcheck.check.expressions.witness import Comparison
+from flint import ctx, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+
+from lyapcheck.check.expressions.domain import Comparison, Interval
+from lyapcheck.check.expressions.expression import Unsupported, evaluate
+from lyapcheck.check.expressions.expression import variables as variables_of
+from lyapcheck.check.expressions.normal_form import RationalAlgebra, room_for
 from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations
-from lyapcheck.check.kinds.signs import SignIdentity, Signs, require_identity
+from lyapcheck.check.numbers.polynomials import Enclosure, rational
+from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import Pointwise
-from lyapcheck.check.statement import Relation, Variable
+from lyapcheck.check.statement import Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
+
+# --- The polynomials of an implication, and identities  μ·C = Σ λ_k μ_k H_k + R  between them.
+#
+# C is the gap of the conclusion, H_k are gaps of hypotheses, λ_k > 0 are rational, μ and μ_k are monomials
+# that
+# are positive (or at least not negative), and R has no negative term.
+#
+# References: ``stengle1974nullstellensatz`` (these certificates are its simplest members).
+
+
+Monomial = tuple[tuple[int, int], ...]
+"""Pairs (generator, exponent)."""
+
+
+@dataclass(frozen=True)
+class Multiple:
+    """``weight · monomial · gap of a hypothesis``."""
+
+    hypothesis: int
+    weight: Fraction
+    monomial: Monomial
+
+
+@dataclass(frozen=True)
+class SignIdentity(Proof):
+    """``lift · gap of the conclusion = Σ multiples + R``, in which no term of R is negative."""
+
+    rule = "identity of signs"
+    lift: Monomial
+    multiples: tuple[Multiple, ...]
+
+
+BITS = 64
+
+
+Exponents = tuple[int, ...]
+
+
+class Signs:
+    """The gaps of an implication as polynomials, and which generators are positive, non-negative or neither.
+
+    ``conclusion`` and ``hypotheses`` have the signs of the gaps, in generators shifted by their lower bounds.
+
+    Raises:
+        Unsupported: a gap is not a quotient of polynomials with a bottom that is plainly positive.
+    """
+
+    def __init__(
+        self, variables: Iterable[Variable], hypotheses: tuple[Relation, ...], conclusion: Relation
+    ) -> None:
+        relations = (*hypotheses, conclusion)
+        self.known = {v.name: v for v in variables}
+        names = sorted({name for r in relations for name in variables_of(r.gap)})
+        self.algebra = RationalAlgebra(names, room_for(*(r.gap for r in relations)))
+        self.ring: fmpq_mpoly_ctx = self.algebra.ring
+        with ctx.workprec(BITS):
+            self.conclusion = self._polynomial(conclusion)
+            self.hypotheses = [(self._polynomial(h), h.strict) for h in hypotheses]
+
+    def _polynomial(self, relation: Relation) -> fmpq_mpoly:
+        values = {name: self.algebra.variable(name) for name in self.algebra.names}
+        ratio = evaluate(relation.gap, values, self.algebra)
+        top, bottom = (self._shifted(self.algebra.reduced(p)) for p in (ratio.top, ratio.bottom))
+        if not self.is_positive(bottom):
+            raise Unsupported("a denominator whose sign is not plain from its terms")
+        return top
+
+    def _shifted(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
+        generators = list(self.ring.gens())
+        for i, name in enumerate(self.algebra.names):
+            low = self.known[name].low
+            if low:
+                generators[i] += self.ring.constant(rational(low))
+        for i, ball in self.algebra.constants().items():
+            generators[i] += self.ring.constant(_below(Enclosure.from_arb(ball).lower))
+        return polynomial.compose(*generators, ctx=self.ring)
+
+    @property
+    def is_polynomial(self) -> bool:
+        """Whether the conclusion is a polynomial in its variables and in numbers, without functions."""
+        plain = {*range(len(self.algebra.names)), *self.algebra.constants()}
+        used = {i for exponents in self.conclusion.monoms() for i, e in enumerate(exponents) if e}
+        return used <= plain
+
+    def kind(self, index: int) -> str:
+        """``positive``, ``nonnegative`` or ``real``, of a generator after the shift."""
+        if index < len(self.algebra.names):
+            variable = self.known[self.algebra.names[index]]
+            if variable.low is None:
+                return "real"
+            return "positive" if variable.strict else "nonnegative"
+        return "nonnegative" if index in self.algebra.constants() else "real"
+
+    def monomial_is(self, exponents: Exponents, positive: bool) -> bool:
+        """Whether a monomial is >= 0 everywhere (> 0, if ``positive``)."""
+        kinds = [(self.kind(i), int(e)) for i, e in enumerate(exponents) if e]
+        if positive:
+            return all(kind == "positive" for kind, _ in kinds)
+        return all(kind != "real" or e % 2 == 0 for kind, e in kinds)
+
+    def is_nonnegative(self, polynomial: fmpq_mpoly) -> bool:
+        """Whether every term is plainly >= 0."""
+        return all(c > 0 and self.monomial_is(e, False) for e, c in polynomial.to_dict().items())
+
+    def is_positive(self, polynomial: fmpq_mpoly) -> bool:
+        """Whether every term is plainly >= 0 and one of them > 0."""
+        terms = polynomial.to_dict()
+        return self.is_nonnegative(polynomial) and any(self.monomial_is(e, True) for e in terms)
+
+    def exponents(self, monomial: Monomial) -> Exponents:
+        """The exponents of all generators.
+
+        Raises:
+            Refused: a generator that does not exist, or an exponent that is not positive.
+        """
+        result = [0] * self.ring.nvars()
+        for index, exponent in monomial:
+            require(0 <= index < len(result), "generator", index, "does not exist")
+            require(exponent > 0, "exponent", exponent, "must be positive")
+            result[index] += exponent
+        return tuple(result)
+
+
+def require_identity(signs: Signs, goal: fmpq_mpoly, strict: bool, proof: SignIdentity) -> None:
+    """Refuse unless an identity of signs shows goal >= 0 (> 0, if ``strict``).
+
+    Raises:
+        Refused: a multiplier of the wrong sign, or a remainder with a term that may be negative.
+
+    Soundness: μ > 0, so the goal has the sign of a sum of terms none of which is negative; it is positive if
+    R is, or if a strict hypothesis enters with μ_k > 0.
+    """
+    lift = signs.exponents(proof.lift)
+    require(signs.monomial_is(lift, True), "lift", proof.lift, "is not a positive monomial")
+    remainder = goal * signs.ring.from_dict({lift: fmpq(1)})
+    for multiple in proof.multiples:
+        k, over = multiple.hypothesis, signs.exponents(multiple.monomial)
+        require(0 <= k < len(signs.hypotheses), "hypothesis", k, "does not exist")
+        require(multiple.weight > 0, "weight", multiple.weight, "must be positive")
+        require(signs.monomial_is(over, False), "monomial", multiple.monomial, "may be negative")
+        hypothesis, hypothesis_strict = signs.hypotheses[k]
+        remainder -= hypothesis * signs.ring.from_dict({over: rational(multiple.weight)})
+        strict = strict and not (hypothesis_strict and signs.monomial_is(over, True))
+    shown = signs.is_positive(remainder) if strict else signs.is_nonnegative(remainder)
+    require(shown, "remainder", "", "has a term that may be negative, or is not shown to be positive")
+
+
+def _below(value: Fraction) -> fmpq:
+    """A short rational at or below a positive number."""
+    return fmpq(int(value * 16), 16)
 
 
 @dataclass(frozen=True)

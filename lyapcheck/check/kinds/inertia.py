@@ -15,7 +15,7 @@ from math import prod
 from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.limits import MAX_ARM
+from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of

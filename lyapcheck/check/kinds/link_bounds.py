@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.boxes import Box, leaves
 from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof
-from lyapcheck.check.loop.corners import masses_at_corners
+from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, masses_at_corners
 from lyapcheck.check.loop.error_form import SCALE, BoxForm
 from lyapcheck.check.loop.links import makes
 from lyapcheck.check.loop.storage import Shown

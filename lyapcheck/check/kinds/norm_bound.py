@@ -12,11 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.expressions.domain import REALS, Domain, Interval
+from lyapcheck.check.expressions.domain import REALS, Comparison, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, substitute
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
-from lyapcheck.check.expressions.witness import Comparison
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.refusal import require

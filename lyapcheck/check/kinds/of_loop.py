@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any, Self
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
-from lyapcheck.check.granted import TORQUE
+from lyapcheck.check.judgement import TORQUE
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, mass_text, require_mass
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
-from lyapcheck.check.granted import TORQUE
-from lyapcheck.check.limits import LARGEST, MAX_ARM
+from lyapcheck.check.judgement import LARGEST, MAX_ARM, TORQUE
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.refusal import require

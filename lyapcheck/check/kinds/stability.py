@@ -15,9 +15,8 @@ from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement, Total, Witness
 from lyapcheck.check.systems.argument import Argument
-from lyapcheck.check.systems.conditions import never_met
 from lyapcheck.check.systems.forms import EPS0
-from lyapcheck.check.systems.obligations import obligations
+from lyapcheck.check.systems.obligations import never_met, obligations
 from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest

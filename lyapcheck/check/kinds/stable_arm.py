@@ -14,7 +14,7 @@ from itertools import product
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     MassAbove,

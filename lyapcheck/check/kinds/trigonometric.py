@@ -16,8 +16,8 @@ from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.expressions.text import expression_text, number_text
-from lyapcheck.check.numbers.enclosure import root_above
 from lyapcheck.check.numbers.harmonics import harmonics
+from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_failure
 from lyapcheck.check.statement import OfTerms, Point, Proof, Relation

@@ -17,8 +17,7 @@ from lyapcheck.check.expressions.expression import (
     evaluate,
     variables,
 )
-from lyapcheck.check.numbers.enclosure import ball_of
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.numbers.polynomials import ball_of, rational
 
 ZERO: Tree = ("num", "0")
 BITS = 256

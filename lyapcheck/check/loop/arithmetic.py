@@ -8,7 +8,68 @@ from typing import Any
 
 from flint import arb
 
-from lyapcheck.check.loop.span import Span
+# --- Intervals with two ends, for boxes so wide that balls are too coarse.
+#
+# A product of balls a ± r and b ± s has the radius |a|s + |b|r + rs, the exact range one of |a|s + |b|r:
+# for
+# wide balls that is much. Spans give the exact range of every operation, at several times the cost.
+
+
+class Span:
+    """All reals between two points.
+
+    Soundness: for x in the first and y in the second span, x ∘ y lies in the result, for every ∘ here; ends
+    are rounded outward by taking the outer end of each ball.
+    """
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, low: arb, high: arb) -> None:
+        self.low = low
+        self.high = high
+
+    @classmethod
+    def of(cls, value: arb) -> Span:
+        """The span of a ball."""
+        return cls(value.lower(), value.upper())
+
+    def __add__(self, other: Span) -> Span:
+        return Span((self.low + other.low).lower(), (self.high + other.high).upper())
+
+    def __sub__(self, other: Span) -> Span:
+        return Span((self.low - other.high).lower(), (self.high - other.low).upper())
+
+    def __mul__(self, other: Span) -> Span:
+        a, b = self.low * other.low, self.low * other.high
+        c, d = self.high * other.low, self.high * other.high
+        return Span(
+            a.lower().min(b.lower()).min(c.lower().min(d.lower())),
+            a.upper().max(b.upper()).max(c.upper().max(d.upper())),
+        )
+
+    def __truediv__(self, other: Span) -> Span:
+        """The quotient by a positive span; everything where the divisor may be 0."""
+        if not other.low > 0:
+            return Span(arb("-inf"), arb("inf"))
+        return self * Span((1 / other.high).lower(), (1 / other.low).upper())
+
+    def square(self) -> Span:
+        """x², which is never negative."""
+        a, b = self.low * self.low, self.high * self.high
+        large = a.upper().max(b.upper())
+        if self.low <= 0 <= self.high:
+            return Span(arb(0), large)
+        return Span(a.lower().min(b.lower()), large)
+
+    def meet(self, other: Span) -> Span:
+        """The values in both, for two enclosures of the same quantity."""
+        return Span(self.low.max(other.low), self.high.min(other.high))
+
+    @property
+    def positive(self) -> bool:
+        """Whether all of it is proved to be above 0; an end that is not a number proves nothing."""
+        return bool(self.low > 0)
+
 
 Value = Any
 

@@ -15,8 +15,15 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from lyapcheck.check.numbers.matrices import is_positive_semidefinite
-from lyapcheck.check.numbers.vectors import ZERO, Algebra, Entry, Matrix, Vector, transposed
+from lyapcheck.check.numbers.vectors import (
+    ZERO,
+    Algebra,
+    Entry,
+    Matrix,
+    Vector,
+    is_positive_semidefinite,
+    transposed,
+)
 
 Values = list[Any]
 Rows = list[list[Any]]

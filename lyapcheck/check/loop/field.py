@@ -13,8 +13,8 @@ from flint import arb
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Ring
 from lyapcheck.check.loop.boxes import Box, Side, halves
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, angles_in, derivative, largest
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Ends
 
 PI_ABOVE = 3.1415926535897936

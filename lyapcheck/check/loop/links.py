@@ -10,8 +10,7 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.loop.chain import Posture, RigidLink
-from lyapcheck.check.numbers.enclosure import root_above
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.numbers.polynomials import rational, root_above
 from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.check.statement import Monomials
 

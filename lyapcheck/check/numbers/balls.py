@@ -15,9 +15,16 @@ from functools import lru_cache
 
 from flint import arb, ctx
 
-from lyapcheck.check.numbers.constants import dh_value, gamma_value, position
-from lyapcheck.check.numbers.critical import peak_of_h, peaks_of_d2h, peaks_of_dh, power
-from lyapcheck.check.numbers.enclosure import ball_of
+from lyapcheck.check.numbers.constants import (
+    dh_value,
+    gamma_value,
+    peak_of_h,
+    peaks_of_d2h,
+    peaks_of_dh,
+    position,
+    power,
+)
+from lyapcheck.check.numbers.polynomials import ball_of
 
 Extremes = tuple[tuple[arb, arb], ...]
 """Pairs (where, value) of the extremes of a function over x > 0."""

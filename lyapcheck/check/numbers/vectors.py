@@ -10,6 +10,10 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpq_mat
+
+from lyapcheck.check.numbers.polynomials import rational
+
 Entry = Any
 Vector = Sequence[Entry]
 Matrix = Sequence[Vector]
@@ -117,3 +121,20 @@ class Algebra:
 def transposed(a: Matrix) -> list[list[Entry]]:
     """Aᵀ."""
     return [list(column) for column in zip(*a, strict=True)]
+
+
+# --- Definiteness of symmetric rational matrices, decided by their characteristic polynomials.
+
+
+Rows = Sequence[Sequence[Fraction | int]]
+
+
+def is_positive_semidefinite(rows: Rows) -> bool:
+    """Whether xᵀAx ≥ 0 for all x, for a symmetric A.
+
+    Its eigenvalues are real, and the coefficients of det(λI + A) are the sums of their products. Where none
+    of these is negative the polynomial has no positive root, and so A no negative eigenvalue.
+    """
+    n = len(rows)
+    opposite = fmpq_mat(n, n, [rational(-Fraction(x)) for row in rows for x in row])
+    return all(c >= 0 for c in opposite.charpoly().coeffs())

@@ -4,16 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.letters.words import Words
-from lyapcheck.check.statement import Statement
+from lyapcheck.check.statement import Relation, Statement
 from lyapcheck.check.systems.argument import Argument, Cascade
-from lyapcheck.check.systems.facts import P, at_most, product, size, written_out
+from lyapcheck.check.systems.facts import (
+    P,
+    at_most,
+    constant,
+    constants_of,
+    facts,
+    product,
+    size,
+    written_out,
+)
 from lyapcheck.check.systems.forms import ZERO, Form, is_positive
-from lyapcheck.check.systems.members import facts
-from lyapcheck.check.systems.system import DG, DISTURBANCE, NOTHING, E, M, W, minus, replaced
+from lyapcheck.check.systems.system import DG, DISTURBANCE, NOTHING, E, M, System, W, minus, replaced
 
 Named = Iterator[tuple[str, Statement]]
 TEST: Tree = ("vec", "x")
@@ -139,3 +148,43 @@ def _follows(argument: Argument, cascade: Cascade) -> Named:
     k = cascade.contraction.sizes.index("norm_e")
     corner = cascade.contraction.rows[k][k]
     yield "cascade, contraction ‖e‖²", is_positive(system, corner, argument.where, argument.small)
+
+
+# --- That the conditions of a theorem can be met: one that holds where nothing is says nothing.
+#
+# They are met where the claim that the last one fails wherever the others hold is false: a point refutes
+# it.
+
+
+def never_met(argument: Argument) -> Implies | None:
+    """That no constants that an arm and its gains can have meet the conditions; none where none is made."""
+    if not argument.where:
+        return None
+    *others, last = argument.where
+    used = set().union(*(variables(one.gap) for one in argument.where))
+    orders = [one for one in _orders(argument.system) if variables(one.gap) <= used]
+    known = constants_of(argument.system)
+    fails = Relation(last.right, "<" if last.operator == "<=" else "<=", last.left)
+    return Implies(tuple(known[name] for name in sorted(used)), (*others, *orders), fails)
+
+
+def _orders(system: System) -> Iterator[Relation]:
+    """How bounds of one thing lie to each other."""
+    yield Relation(constant("mu"), "<=", constant("beta"))
+    for name in system.diagonal:
+        least, greatest, norm = (constant(f"{name}_{end}") for end in ("min", "max", "norm"))
+        yield Relation(least, "<=", greatest)
+        yield Relation(least, "<=", norm)
+        yield Relation(greatest, "<=", norm)
+    for f in system.functions:
+        secant, sector = constant(f"{f.name}_secant"), constant(f"{f.name}_sector")
+        yield Relation(product(secant, sector), "<=", ("num", "1"))
+        if f.member is not None:
+            slope, reach, share = (constant(f"{f.name}_{end}") for end in ("slope", "reach", "share"))
+            lowest = f.member.low / (1 + abs(f.member.start))  # of f(x)/(1 + x)
+            yield Relation(("num", str(lowest)), "<=", share)
+            yield Relation(("num", str(f.member.secant)), "<=", secant)
+            yield Relation(("num", str(f.member.rho)), "<=", slope)
+            yield Relation(product(("num", str(f.member.secant)), sector), "<=", ("num", "1"))
+            if f.member.gamma is not None:
+                yield Relation(("num", str(f.member.gamma)), "<=", reach)

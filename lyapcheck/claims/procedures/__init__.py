@@ -14,8 +14,7 @@ from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.registry import find
-from lyapcheck.claims.search_result import SearchResult, still_open
+from lyapcheck.claims.search_result import SearchResult, find, still_open
 from lyapcheck.claims.statements import Missing
 from lyapcheck.extensions import folders
 from lyapcheck.verdicts import Grade

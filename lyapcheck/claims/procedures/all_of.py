@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.claims.registry import find, procedure
-from lyapcheck.claims.search_result import SearchResult, conjunction
+from lyapcheck.claims.search_result import SearchResult, conjunction, find, procedure
 
 
 @procedure(AllOf)

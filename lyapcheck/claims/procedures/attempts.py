@@ -5,8 +5,7 @@ from __future__ import annotations
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 
 @procedure(Statement)

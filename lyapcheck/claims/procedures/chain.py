@@ -7,12 +7,19 @@ from fractions import Fraction
 from lyapcheck.check.kinds.chain import ChainBelow, ChainGravityBelow
 from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
 from lyapcheck.check.kinds.inertia import PostureWitness
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown, still_open
-from lyapcheck.constants.extreme import extreme
+from lyapcheck.claims.search_result import (
+    SearchResult,
+    broken,
+    entries,
+    failing,
+    procedure,
+    shown,
+    still_open,
+)
+from lyapcheck.constants.chain import extreme
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots.dynamics import Chain
-from lyapcheck.robots.number import Number
+from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import Plant
 
 METHOD = "links"

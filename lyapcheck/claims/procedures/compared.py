@@ -6,12 +6,19 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from lyapcheck.check.kinds.compared import Compared, Gap, MovingPosture, SameHarmonics, differences
+from lyapcheck.check.kinds.identity import Compared, Gap, MovingPosture, SameHarmonics, differences
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.procedures.search import BITS
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown, still_open
+from lyapcheck.claims.search_result import (
+    SearchResult,
+    broken,
+    entries,
+    failing,
+    procedure,
+    shown,
+    still_open,
+)
 
 METHOD = "comparison of polynomials in normal form"
 TRIES = 40

@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from flint import ctx
 
+from lyapcheck.check.expressions.domain import holds
 from lyapcheck.check.expressions.expression import ball
-from lyapcheck.check.expressions.witness import holds
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls, exact_truth
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.procedures.search import Sides, witness_data
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "relation between numbers"
 PRECISIONS = (128, 512, 2048)

@@ -23,8 +23,7 @@ from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.letters.entries import exact
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.procedures.search import Point, point_of
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, procedure, shown, still_open
 from lyapcheck.rechecking.drawn_entries import doubt_identity, drawn, solved_at
 
 METHOD = "identity for every n"

@@ -9,8 +9,16 @@ import numpy as np
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitness
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, between, broken, entries, failing, shown, still_open
+from lyapcheck.claims.search_result import (
+    SearchResult,
+    between,
+    broken,
+    entries,
+    failing,
+    procedure,
+    shown,
+    still_open,
+)
 from lyapcheck.control.judgement import proves, refutes
 
 METHOD = "gravity"

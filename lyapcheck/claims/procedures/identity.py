@@ -13,8 +13,7 @@ from lyapcheck.check.expressions.expression import Unsupported
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.kinds.identity import Identity, NormalForm, gap_of
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "identity"
 TRIES, FIRST = 12, 2

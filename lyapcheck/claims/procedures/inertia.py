@@ -13,7 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     HarmonicSizes,
@@ -24,10 +24,18 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.statement import Proof
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, between, broken, entries, failing, shown, still_open
+from lyapcheck.claims.search_result import (
+    SearchResult,
+    between,
+    broken,
+    entries,
+    failing,
+    procedure,
+    shown,
+    still_open,
+)
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.search.inertia import mass_proof
+from lyapcheck.search.controlled_arm import mass_proof
 
 METHOD = "inertia"
 SAMPLES = 400

@@ -26,12 +26,11 @@ from lyapcheck.check.kinds.bound_every_n import (
 )
 from lyapcheck.check.kinds.every_n import EntriesWitness
 from lyapcheck.check.letters.words import Words
-from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
+from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures.search import BITS, point_of
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, procedure, shown, still_open
 from lyapcheck.rechecking.drawn_entries import doubt_bound, drawn_entries
 
 METHOD = "norms for every n"

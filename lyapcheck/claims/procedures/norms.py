@@ -21,8 +21,7 @@ from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.procedures.constants import find_relation
 from lyapcheck.claims.procedures.one_variable import find_for_all, sample
 from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "norm inequality"
 
@@ -54,7 +53,7 @@ def _peaks(statement: NormBound) -> list[Fraction]:
     """Where |f(t)| (or |f(t)/t|) is largest on a fine grid of floating point, as exact rationals."""
     import numpy as np
 
-    from lyapcheck.claims.procedures.sampling import values_of
+    from lyapcheck.claims.procedures.search import values_of
 
     x = np.linspace(1e-3, 12.0, 24_000)
     with np.errstate(all="ignore"):

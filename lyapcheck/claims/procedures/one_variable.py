@@ -26,8 +26,7 @@ from lyapcheck.check.kinds.for_all import (
 )
 from lyapcheck.check.statement import Piece
 from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "one-variable inequality"
 BITS = 160
@@ -74,7 +73,7 @@ def sample(statement: ForAll) -> list[Fraction]:
 
 def valleys(statement: ForAll) -> list[Fraction]:
     """Points of the domain near which the gap is smallest in floating point."""
-    from lyapcheck.claims.procedures.sampling import lowest_points
+    from lyapcheck.claims.procedures.search import lowest_points
 
     low = (
         statement.low

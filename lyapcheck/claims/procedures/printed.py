@@ -14,7 +14,7 @@ from itertools import product
 from flint import ctx
 
 from lyapcheck.check.expressions.expression import ball, variables
-from lyapcheck.check.kinds.agrees import (
+from lyapcheck.check.kinds.constant import (
     Agrees,
     Corners,
     OutsideRounding,
@@ -24,9 +24,16 @@ from lyapcheck.check.kinds.agrees import (
     over_all,
     printed_range,
 )
-from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, between, broken, failing, shown, still_open
+from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
+from lyapcheck.claims.search_result import (
+    SearchResult,
+    between,
+    broken,
+    failing,
+    procedure,
+    shown,
+    still_open,
+)
 
 METHOD = "arithmetic on printed numbers"
 BITS = 128

@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, procedure, shown, still_open
 from lyapcheck.control.judgement import proves, refutes
 
 METHOD = "states of rest"

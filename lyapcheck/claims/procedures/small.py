@@ -20,14 +20,12 @@ from lyapcheck.check.kinds.for_small import (
     sign_for_small,
     signs_of,
 )
-from lyapcheck.check.numbers.enclosure import Enclosure, ball_of
+from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation, Variable
-from lyapcheck.claims.procedures.cancellation import Cancellation
-from lyapcheck.claims.procedures.implication import EFFORT
+from lyapcheck.claims.procedures.implication import EFFORT, Cancellation
 from lyapcheck.claims.procedures.search import BITS, Point, point_of, round_points
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, failing, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, procedure, shown, still_open
 from lyapcheck.control.judgement import refutes
 
 METHOD = "small parameter"

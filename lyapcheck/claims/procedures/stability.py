@@ -5,11 +5,10 @@ from __future__ import annotations
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
-from lyapcheck.check.systems.conditions import never_met
+from lyapcheck.check.systems.obligations import never_met
 from lyapcheck.claims.procedures.implication import counterexample
 from lyapcheck.claims.procedures.search import witness_of
-from lyapcheck.claims.registry import find, procedure
-from lyapcheck.claims.search_result import SearchResult, proposed_word, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, find, procedure, proposed_word, shown, still_open
 
 METHOD = "obligations of a theorem"
 SHORT = 60

@@ -13,24 +13,32 @@ from typing import TYPE_CHECKING, Any
 from flint import ctx
 
 from lyapcheck.check.expressions.expression import ball
-from lyapcheck.check.kinds.damping import DampingAbove, DampingBelow
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
+    DampingAbove,
+    DampingBelow,
     Decreasing,
     PositiveAndDecreasing,
     StateWitness,
 )
 from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown, still_open
+from lyapcheck.claims.search_result import (
+    SearchResult,
+    broken,
+    entries,
+    failing,
+    procedure,
+    shown,
+    still_open,
+)
 from lyapcheck.robots import Number, trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
 from lyapcheck.robots.plant import Plant
-from lyapcheck.search.inertia import mass_proof
+from lyapcheck.search.controlled_arm import mass_proof
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:

@@ -26,8 +26,7 @@ from lyapcheck.check.kinds.trigonometric import (
 from lyapcheck.check.statement import Relation
 from lyapcheck.claims.procedures.implication import counterexample, sampled
 from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
-from lyapcheck.claims.registry import procedure
-from lyapcheck.claims.search_result import SearchResult, broken, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 from lyapcheck.claims.statements import reals
 
 METHOD = "mean and amplitudes of the Fourier sum"

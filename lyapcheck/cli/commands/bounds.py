@@ -7,10 +7,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import part
-from lyapcheck.cli.options import add_certificates, add_format, add_robot, add_vary, varies
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder, show, write_certificates
-from lyapcheck.cli.values import Complaints, gains_on_arm, require_joints
+from lyapcheck.cli.values import (
+    Complaints,
+    add_certificates,
+    add_format,
+    add_robot,
+    add_vary,
+    gains_on_arm,
+    require_joints,
+    varies,
+)
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 

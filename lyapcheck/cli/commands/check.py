@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format, add_members, add_no_store
+from lyapcheck.cli.values import add_certificates, add_format, add_members, add_no_store
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_format, add_members
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import parse_m
+from lyapcheck.cli.values import add_format, add_members, parse_m
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 

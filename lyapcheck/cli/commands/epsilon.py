@@ -8,18 +8,19 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress, part
-from lyapcheck.cli.options import (
+from lyapcheck.cli.progress import progress
+from lyapcheck.cli.show import open_folder, show, write_certificates
+from lyapcheck.cli.values import (
     add_certificates,
     add_format,
     add_gain_file,
     add_no_store,
     add_robot,
     add_vary,
+    gains_on_arm,
+    require_joints,
     varies,
 )
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder, show, write_certificates
-from lyapcheck.cli.values import gains_on_arm, require_joints
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 

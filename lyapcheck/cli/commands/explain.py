@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_format, add_no_store
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
+from lyapcheck.cli.values import add_format, add_no_store
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 

@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format, add_vary, varies
 from lyapcheck.cli.show import show
+from lyapcheck.cli.values import add_certificates, add_format, add_vary, varies
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
@@ -67,8 +67,8 @@ def run(
     from lyapcheck._types import part
     from lyapcheck.answers.gate import GateAnswer, gate
     from lyapcheck.cli.progress import patient
-    from lyapcheck.control.arm_limits import ArmLimits, varied_limits
     from lyapcheck.control.gains import arm_named_in, read_gain_file
+    from lyapcheck.control.limits import ArmLimits, varied_limits
     from lyapcheck.errors import InputError, Problem
 
     folder = None

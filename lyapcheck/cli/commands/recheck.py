@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.limits import MOST, Limits
+from lyapcheck.check.judgement import MOST, Limits
 from lyapcheck.check.recheck import Outcome
-from lyapcheck.cli.options import add_format
+from lyapcheck.cli.values import add_format
 from lyapcheck.libraries import installed, lacking
 from lyapcheck.rechecking import command
 from lyapcheck.rechecking.command import FORMATS, HELP

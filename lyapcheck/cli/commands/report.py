@@ -8,9 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_no_store
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.values import require_joints, robot_name
+from lyapcheck.cli.values import add_no_store, require_joints, robot_name
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
@@ -18,8 +17,7 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.report.model import Report
-    from lyapcheck.report.subject import Subject
+    from lyapcheck.report.model import Report, Subject
 
 COMPARED = {"html": "html", "md": "markdown", "json": "json"}
 """The files of a comparison by the formats they are in."""
@@ -71,11 +69,10 @@ def run(
       lyapcheck report --format html,pdf --compare reports/before
       lyapcheck report --m 1 2 --robot arm.urdf --gains gains.toml --out reports/arm
     """
+    from lyapcheck.report.build import render, require_folder, write
     from lyapcheck.report.compare import compare as compared
     from lyapcheck.report.compare import read_report
-    from lyapcheck.report.document import ReportAnswer
-    from lyapcheck.report.pdf import require_typst
-    from lyapcheck.report.write import render, require_folder, write
+    from lyapcheck.report.document import ReportAnswer, require_typst
 
     formats = _formats(format)
     if "pdf" in formats:
@@ -100,7 +97,7 @@ def run(
 
 
 def _formats(text: str) -> tuple[str, ...]:
-    from lyapcheck.report.write import FORMATS
+    from lyapcheck.report.build import FORMATS
 
     wanted = tuple(dict.fromkeys(part.strip() for part in text.split(",")))
     unknown = [part for part in wanted if part not in FORMATS]
@@ -113,9 +110,8 @@ def _formats(text: str) -> tuple[str, ...]:
 def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     """What the arguments ask for, or every problem with it."""
     from lyapcheck.cli.values import parse_m
-    from lyapcheck.control.gains import arm_named_in, read_gain_file
-    from lyapcheck.control.paper import paper_gain_file
-    from lyapcheck.report.subject import Subject
+    from lyapcheck.control.gains import arm_named_in, paper_gain_file, read_gain_file
+    from lyapcheck.report.model import Subject
     from lyapcheck.robots import load
 
     chosen = [gains] if gains else [paper_gain_file("table2"), paper_gain_file("table2_pd")]

@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format, add_no_store
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
+from lyapcheck.cli.values import add_certificates, add_format, add_no_store
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
@@ -59,7 +59,7 @@ def run(
 
     if export is not None:
         from lyapcheck.cli.show import require_writable
-        from lyapcheck.robots.export import arm_text
+        from lyapcheck.robots.registry import arm_text
 
         if str(export) == "-":
             sys.stdout.write(arm_text(robot, Path(), tip))

@@ -11,11 +11,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress
-from lyapcheck.cli.options import add_certificates, add_format, add_gain_file, add_robot, add_vary, varies
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
 from lyapcheck.cli.task import Eps0, check_options, check_places, eps0_of, request_of, starts_of, task_of
-from lyapcheck.cli.values import Complaints, gains_on_arm
+from lyapcheck.cli.values import (
+    Complaints,
+    add_certificates,
+    add_format,
+    add_gain_file,
+    add_robot,
+    add_vary,
+    gains_on_arm,
+    varies,
+)
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
@@ -37,7 +45,7 @@ def plot_run(run: Run, number: int, place: Path) -> None:
     """Errors, torques and V of one run, as in Figs. 3 to 10 of the paper; ``number`` counts from 1."""
     from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.report.figures import motion
-    from lyapcheck.report.figures.lyapunov import draw_lyapunov
+    from lyapcheck.report.figures.motion import draw_lyapunov
 
     stem = file_stem(run.name, number)
     write_whole(place / f"{stem}.csv", runs_csv([run]))
@@ -56,7 +64,7 @@ def plot_tracking(run: TrackingRun, number: int, place: Path) -> None:
     """Angles beside the reference, errors, torques and V of one tracking run."""
     from lyapcheck.answers.simulate.samples import tracking_csv
     from lyapcheck.report.figures import motion
-    from lyapcheck.report.figures.lyapunov import draw_lyapunov
+    from lyapcheck.report.figures.motion import draw_lyapunov
 
     stem = file_stem(run.name, number)
     write_whole(place / f"{stem}.csv", tracking_csv([run]))
@@ -164,7 +172,7 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
     """The set-point task, by the equations or on the bench."""
     from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
     from lyapcheck.answers.simulate.samples import runs_csv
-    from lyapcheck.files.names import file_stem
+    from lyapcheck.files.fields import file_stem
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
     from lyapcheck.simulate.trial import experiment

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
-from lyapcheck.cli.options import add_format
 from lyapcheck.cli.show import show
+from lyapcheck.cli.values import add_format
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Paragraph, Table
 from lyapcheck.output.formats import Format

@@ -8,9 +8,9 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress
-from lyapcheck.cli.options import add_format, add_no_store
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
+from lyapcheck.cli.values import add_format, add_no_store
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 
@@ -69,7 +69,7 @@ def run(
     from lyapcheck.answers.sweep import asked, read_plan
     from lyapcheck.answers.sweep.folder import Folder
     from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
-    from lyapcheck.compiled.threads import processors
+    from lyapcheck.compiled.compiler import processors
 
     if resume and out is None:
         raise argument_error("--resume", "", "has a meaning with --out only", "add --out DIR")

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_certificates, add_format, add_members
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
-from lyapcheck.cli.values import parse_m
+from lyapcheck.cli.values import add_certificates, add_format, add_members, parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit

@@ -8,9 +8,18 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.options import add_format, add_members, add_vary, varies
 from lyapcheck.cli.show import require_writable, show, write_whole
-from lyapcheck.cli.values import Complaints, parse_decimal, parse_decimals, parse_m, require_joints
+from lyapcheck.cli.values import (
+    Complaints,
+    add_format,
+    add_members,
+    add_vary,
+    parse_decimal,
+    parse_decimals,
+    parse_m,
+    require_joints,
+    varies,
+)
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.output.formats import Format
@@ -50,7 +59,7 @@ def trials_of(
         InputError: a target or an angle that cannot be used.
     """
     from lyapcheck.answers.tune.response.trial import Trials, Wishes
-    from lyapcheck.simulate.indices import LEAST_STEP
+    from lyapcheck.simulate.results import LEAST_STEP
 
     tasks = tasks_of(robot, *motion)
     for task, goal in zip(tasks, motion[1] or [""], strict=True):
@@ -154,8 +163,7 @@ def _written(values: tuple[Fraction, ...]) -> str:
 
 def gains_beside(robot: str, compare: Path | None) -> GainFile | None:
     """The gains to compare with."""
-    from lyapcheck.control.gains import read_gain_file
-    from lyapcheck.control.paper import paper_gain_file
+    from lyapcheck.control.gains import paper_gain_file, read_gain_file
 
     if compare is not None:
         return read_gain_file(compare)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lyapcheck.answers.table import Table
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family.asymptotes import asymptotes, limits
 from lyapcheck.report.figures.style import COLOURS, panels, png, styled, svg
 

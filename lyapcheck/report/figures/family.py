@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lyapcheck.family import Family
-from lyapcheck.report.figures.plot import Plot
-from lyapcheck.report.figures.style import COLOURS, DASHES, panels, styled
+from lyapcheck.report.figures.style import COLOURS, DASHES, Plot, panels, styled
 
 
 def family_plot(families: Sequence[tuple[str, Family]]) -> Plot:

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from lyapcheck.output.escapes import plot_text
-from lyapcheck.report.figures.bars import TICK
-from lyapcheck.report.figures.plot import Plot
-from lyapcheck.report.figures.style import COLOURS, panels, styled
+from lyapcheck.report.figures.motion import TICK
+from lyapcheck.report.figures.style import COLOURS, Plot, panels, styled
 from lyapcheck.report.study import NumberRow, SetRow
 
 TITLES = {"L2": "L2 index [°]", "settling": "settling time [s]", "final_error": "error after 5 s [°]"}

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from importlib import resources
 
-from lyapcheck.output.elements import Markup, element
 from lyapcheck.output.html import page
+from lyapcheck.output.mathml import Markup, element
 from lyapcheck.report.model import Report
-from lyapcheck.report.page.cards import findings_section
 from lyapcheck.report.page.claims import claims_section
-from lyapcheck.report.page.evidence import derive_section, evidence_section
-from lyapcheck.report.page.front import verdict_section
-from lyapcheck.report.page.gains import gains_section
+from lyapcheck.report.page.front import findings_section, verdict_section
+from lyapcheck.report.page.gains import derive_section, evidence_section, gains_section
 
 SECTIONS = {
     "verdict": "Verdict",

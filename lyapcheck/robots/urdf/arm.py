@@ -9,17 +9,23 @@ from pathlib import Path
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.errors import InputError
 from lyapcheck.output.escapes import printable
+from lyapcheck.robots.bodies import impossible_state
 from lyapcheck.robots.dynamics import Chain
-from lyapcheck.robots.model import RobotModel
-from lyapcheck.robots.number import Number
-from lyapcheck.robots.physics import impossible_state
-from lyapcheck.robots.urdf.assemble import moved_bodies
-from lyapcheck.robots.urdf.bodies import check_bodies, impossible, moved_links
-from lyapcheck.robots.urdf.fields import Triple, UrdfNotes
+from lyapcheck.robots.fields import Number
+from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of
-from lyapcheck.robots.urdf.parts import UrdfJoint, read_parts
+from lyapcheck.robots.urdf.parts import Triple, UrdfJoint, UrdfNotes, read_parts
 from lyapcheck.robots.urdf.rotations import Roundings
-from lyapcheck.robots.urdf.tree import Tree, build_tree, choose_chain, held
+from lyapcheck.robots.urdf.tree import (
+    Tree,
+    build_tree,
+    check_bodies,
+    choose_chain,
+    held,
+    impossible,
+    moved_bodies,
+    moved_links,
+)
 from lyapcheck.robots.urdf.xml import Element, read_xml
 
 EARTH: Triple = (Fraction(0), Fraction(0), Fraction("-9.81"))

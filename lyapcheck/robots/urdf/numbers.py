@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.robots.number import Number
-from lyapcheck.robots.urdf.fields import Triple
-from lyapcheck.robots.urdf.parts import INERTIA, UrdfJoint
+from lyapcheck.robots.fields import Number
+from lyapcheck.robots.urdf.parts import INERTIA, Triple, UrdfJoint
 from lyapcheck.robots.urdf.tree import Tree
 from lyapcheck.robots.urdf.xml import Element
 

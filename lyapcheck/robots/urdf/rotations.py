@@ -20,7 +20,7 @@ from flint import arb, ctx, fmpq, fmpz_mat
 
 from lyapcheck.check.loop.chain import UNIT
 from lyapcheck.check.numbers.vectors import ZERO, Algebra
-from lyapcheck.robots.urdf.fields import Triple
+from lyapcheck.robots.urdf.parts import Triple
 
 SNAP = Fraction(1, 10**9)
 """Radians."""

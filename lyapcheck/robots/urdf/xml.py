@@ -12,8 +12,8 @@ from pathlib import Path
 from xml.parsers import expat
 
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.files.fields import RETYPE, UNPRINTABLE
 from lyapcheck.files.reader import URDF, not_utf8, read_bytes
-from lyapcheck.files.rules import RETYPE, UNPRINTABLE
 from lyapcheck.output.escapes import printable
 
 _MOST_ELEMENTS = 100_000

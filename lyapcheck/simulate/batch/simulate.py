@@ -12,10 +12,9 @@ from lyapcheck._types import Array, Progress, silent
 from lyapcheck.family import Family
 from lyapcheck.simulate.batch.integrator import InitialValueProblems, integrated
 from lyapcheck.simulate.batch.right_side import RightSide
-from lyapcheck.simulate.batch.runs import IntegratedRuns, Runs, runs_of
-from lyapcheck.simulate.batch.task import BatchTask, batch_task, grouped
-from lyapcheck.simulate.indices import bands
+from lyapcheck.simulate.batch.task import BatchTask, IntegratedRuns, Runs, batch_task, grouped, runs_of
 from lyapcheck.simulate.integrate import MAX_STEPS
+from lyapcheck.simulate.results import bands
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet

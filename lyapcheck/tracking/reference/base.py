@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import arb
+import numpy as np
+from flint import acb, arb
 
 from lyapcheck._types import Array
-from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.enclosure import Enclosure
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.polynomials import Enclosure
 
 SECONDS = 5.0
 """Duration of a run of which nothing else is said."""
@@ -77,3 +79,131 @@ def above(ball: arb) -> Fraction:
 def angles(values: Sequence[Fraction]) -> str:
     """Angles as they were written, in degrees."""
     return f"({', '.join(f'{float(x):g}' for x in values)})°"
+
+
+# --- A sine in every joint.
+
+
+Row = tuple[Fraction, ...]
+
+
+class Sine(Reference):
+    """q_di = o_i + A_i sin(2π f_i t + φ_i).
+
+    Args:
+        amplitude: A, degrees, one a joint.
+        frequency: f, Hz.
+        phase: φ, degrees.
+        offset: o, degrees.
+    """
+
+    kind = "sine"
+
+    def __init__(self, amplitude: Row, frequency: Row, phase: Row, offset: Row) -> None:
+        self.n = len(amplitude)
+        self.amplitude, self.frequency, self.phase, self.offset = amplitude, frequency, phase, offset
+        self._size, self._shift, self._middle = (
+            np.radians([float(x) for x in row]) for row in (amplitude, phase, offset)
+        )
+        self._pace = 2.0 * math.pi * np.array([float(x) for x in frequency])
+
+    def at(self, t: Array) -> Array:
+        """See `Reference.at`."""
+        turn = np.multiply.outer(t, self._pace) + self._shift
+        sine, cosine = np.sin(turn), np.cos(turn)
+        rows = (self._middle + self._size * sine, self._size * self._pace * cosine)
+        return np.stack((*rows, -self._size * self._pace**2 * sine), axis=-2)
+
+    def suprema(self) -> Suprema:
+        """See `Reference.suprema`; v_d is exact where all frequencies agree."""
+        with precision(BITS):
+            rates = [self._peak(i, 1) for i in range(self.n)]
+            pushes = [self._peak(i, 2) for i in range(self.n)]
+            return Suprema(
+                tuple(map(above, rates)),
+                tuple(map(above, pushes)),
+                above(self._norm(1)),
+                above(self._norm(2)),
+            )
+
+    @property
+    def sentence(self) -> str:
+        """See `Reference.sentence`."""
+        pace = ", ".join(f"{float(f):g}" for f in self.frequency)
+        return f"sine of {angles(self.amplitude)} at ({pace}) Hz about {angles(self.offset)}"
+
+    def _peak(self, i: int, order: int) -> arb:
+        """A_i ω_i^order in rad/s^order."""
+        pace = 2 * arb.pi() * to_arb(self.frequency[i])
+        return abs(to_arb(self.amplitude[i])) * arb.pi() / 180 * pace**order
+
+    def _norm(self, order: int) -> arb:
+        """A bound of the norm of the derivative of an order.
+
+        In joints of one frequency Σ a_i² cos²(ωt + φ_i) = ½ Σ a_i² + ½ Re e^(2iωt) Σ a_i² e^(2iφ_i), which is
+        largest where the last product is real; joints of different frequencies are added.
+        """
+        total = arb(0)
+        for pace in sorted(set(self.frequency)):
+            joints = [i for i in range(self.n) if self.frequency[i] == pace]
+            squares = [self._peak(i, order) ** 2 for i in joints]
+            turned = acb(0)
+            for i, square in zip(joints, squares, strict=True):
+                turned += square * acb(0, to_arb(self.phase[i]) * arb.pi() / 90).exp()
+            total += (sum(squares, arb(0)) + abs(turned)) / 2
+        return total.sqrt()
+
+
+# --- The motion of least jerk from one posture to another.
+
+
+class MinimumJerk(Reference):
+    """q_d = a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵) with s = t/T from 0 to 1, and at rest from then on.
+
+    Rate and acceleration are 0 at both ends, so that q_d has two continuous derivatives. With Δ = b − a,
+    ‖q̇_d‖ is largest at s = ½, (15/8) ‖Δ‖/T, and ‖q̈_d‖ at s = ½ ± √3/6, (10/√3) ‖Δ‖/T².
+
+    Args:
+        start: a, degrees, one a joint.
+        end: b, degrees.
+        seconds: T.
+
+    References: ``flash1985coordination``.
+    """
+
+    kind = "minimum-jerk"
+
+    def __init__(self, start: Row, end: Row, seconds: Fraction) -> None:
+        self.n = len(start)
+        self.start, self.end, self.seconds = start, end, seconds
+        self.duration = max(SECONDS, float(seconds))
+        self._from = np.radians([float(x) for x in start])
+        self._step = np.radians([float(b - a) for a, b in zip(start, end, strict=True)])
+
+    def at(self, t: Array) -> Array:
+        """See `Reference.at`."""
+        T = float(self.seconds)
+        s = np.clip(t / T, 0.0, 1.0)
+        share = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+        rate = 30.0 * (s * (1.0 - s)) ** 2 / T
+        acceleration_norm = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / T**2
+        moved = np.multiply.outer(np.stack((share, rate, acceleration_norm), axis=-1), self._step)
+        moved[..., 0, :] += self._from
+        return np.asarray(moved)
+
+    def suprema(self) -> Suprema:
+        """See `Reference.suprema`; both norms are exact, as all joints move alike."""
+        with precision(BITS):
+            T = to_arb(self.seconds)
+            fast, acceleration_norm = arb(15) / 8 / T, 10 / arb(3).sqrt() / T**2
+            steps = [abs(to_arb(b - a)) * arb.pi() / 180 for a, b in zip(self.start, self.end, strict=True)]
+            size = sum((step * step for step in steps), arb(0)).sqrt()
+            rates, pushes = (
+                tuple(above(most * step) for step in steps) for most in (fast, acceleration_norm)
+            )
+            return Suprema(rates, pushes, above(fast * size), above(acceleration_norm * size))
+
+    @property
+    def sentence(self) -> str:
+        """See `Reference.sentence`."""
+        return f"minimum jerk from {angles(self.start)} to {angles(self.end)} in {float(self.seconds):g} s"

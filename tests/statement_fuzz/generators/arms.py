@@ -6,12 +6,12 @@ from functools import partial
 
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
+    CoriolisBelow,
     CoriolisTorque,
     MassSymmetric,
     RateLessTwiceCoriolis,
     RateOfMass,
 )
-from lyapcheck.check.kinds.coriolis_below import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from tests.oracle.arm import derivative

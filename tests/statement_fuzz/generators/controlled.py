@@ -4,8 +4,7 @@ from fractions import Fraction
 
 from mpmath import mp
 
-from lyapcheck.check.kinds.damping import DampingBelow
-from lyapcheck.check.kinds.decreasing import Decreasing
+from lyapcheck.check.kinds.decreasing import DampingBelow, Decreasing
 from lyapcheck.check.kinds.resting import Resting
 from tests.oracle.arm import many
 from tests.oracle.loop import many_digits

@@ -9,7 +9,7 @@ from pathlib import Path
 from lyapcheck.check.kinds.property import Property
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.claims import Relation
-from lyapcheck.claims.case import Case
+from lyapcheck.claims.claim import Case
 from tests.statement_fuzz.generators import Made, generates
 from tests.statement_fuzz.generators.expressions import (
     ONE,

@@ -10,9 +10,9 @@ from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.certificates import whole
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.answers.sweep.question import Answered, Question, UncertainArm, answered
-from lyapcheck.control.arm_limits import arm_limits, varied_limits
 from lyapcheck.control.conditions import UNDECIDED
 from lyapcheck.control.gains import GainFile
+from lyapcheck.control.limits import arm_limits, varied_limits
 from lyapcheck.output.digits import at_least
 
 OPTIONS: dict[str, Any] = {"condition": (), "gamma": "true"}

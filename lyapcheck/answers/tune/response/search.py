@@ -28,15 +28,15 @@ import numpy as np
 
 from lyapcheck._types import Progress, silent
 from lyapcheck.answers.tune.response.trial import BY_19, Trial, Trials, Wishes, tried
-from lyapcheck.control.arm_limits import gravity_bounds
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.resting import dry_friction
+from lyapcheck.control.judgement import dry_friction
+from lyapcheck.control.limits import gravity_bounds
 from lyapcheck.control.threshold import scaled
 from lyapcheck.family import Family, named
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.simulate.indices import SETTLING_BAND
+from lyapcheck.simulate.results import SETTLING_BAND
 
 if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits

@@ -13,12 +13,11 @@ import numpy as np
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.digits import at_most
-from lyapcheck.simulate import indices
-from lyapcheck.simulate.dynamics import closed_loop
-from lyapcheck.simulate.extremes import with_extremes
-from lyapcheck.simulate.gains import gains_for
-from lyapcheck.simulate.integrate import Trajectory, integrate
-from lyapcheck.simulate.monitor import torque_limits
+from lyapcheck.simulate import results as indices
+from lyapcheck.simulate.closed_loop import closed_loop
+from lyapcheck.simulate.integrate import Trajectory, integrate, with_extremes
+from lyapcheck.simulate.results import torque_limits
+from lyapcheck.simulate.task import gains_for
 
 if TYPE_CHECKING:
     from lyapcheck._types import Array

@@ -13,18 +13,17 @@ from lyapcheck.answers.tune.limits import arm_limits, impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials, tried
-from lyapcheck.control.arm_limits import varied_limits
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
+from lyapcheck.control.limits import varied_limits
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import corners, corners_text, outside
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
     from lyapcheck.answers.gate import GateResult
-    from lyapcheck.control.arm_limits import ArmLimits
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.control.limits import Limits
+    from lyapcheck.control.limits import ArmLimits, Limits
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
 

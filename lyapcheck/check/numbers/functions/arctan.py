@@ -7,8 +7,8 @@ from fractions import Fraction
 from flint import arb
 
 from lyapcheck.check.numbers import balls
-from lyapcheck.check.numbers.enclosure import Enclosure
 from lyapcheck.check.numbers.members import Member, require_single
+from lyapcheck.check.numbers.polynomials import Enclosure
 
 
 def create(m: int | None) -> Member:
