@@ -116,8 +116,7 @@ def _processor() -> str:
 # --- From C source to functions that can be called: from the cache, freshly compiled, or not at all.
 #
 # A damaged library would crash the loader of the system, so that only whole ones are handed out; what is
-# loaded
-# is a private copy of the bytes that were checked.
+# loaded is a private copy of the bytes that were checked.
 
 
 ROOM = "kernels"

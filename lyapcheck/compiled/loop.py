@@ -116,10 +116,8 @@ def source(sizes: Sequence[int], outputs: int, formula: Formula) -> str | None:
 
 # --- Formulas written down as C: run a formula on SymPy symbols, and out come its statements in their order.
 #
-# A formula that is written once for any arithmetic thus serves arrays and compiled loops alike. What is
-# used
-# more than once gets a name (``Arithmetic.names``), functions always do; equal expressions are written
-# once.
+# A formula that is written once for any arithmetic thus serves arrays and compiled loops alike. What is used
+# more than once gets a name (``Arithmetic.names``), functions always do; equal expressions are written once.
 
 
 MOST_STATEMENTS = 6000

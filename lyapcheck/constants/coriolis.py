@@ -32,9 +32,8 @@ from lyapcheck.constants.torus import AffineForms
 #
 #     Σ_i (xᵀS_i x)² = Xᵀ (WᵀW + N) X ≤ λmax(WᵀW + N) ‖x‖⁴,     W = (s_1, …, s_n)ᵀ,
 #
-# for every N in the span of the relations x_a x_b · x_c x_d = x_a x_c · x_b x_d. Up to three joints the
-# best N
-# leaves no gap, because nonnegative quartic forms in three variables are sums of squares.
+# for every N in the span of the relations x_a x_b · x_c x_d = x_a x_c · x_b x_d. Up to three joints the best
+# N leaves no gap, because nonnegative quartic forms in three variables are sums of squares.
 #
 # References: hilbert1888darstellung, for three variables.
 

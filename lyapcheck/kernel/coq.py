@@ -180,10 +180,8 @@ def _first_error(text: str) -> str:
 # --- What Coq's kernel has accepted before, so that ``check`` and reports can say so without Coq.
 #
 # The record has digests: of the page of definitions, and of each printed proposition. Whatever changes a
-# claim,
-# the way in which it is printed or what its words mean changes a digest, and the claim has no kernel
-# verdict
-# until Coq has accepted it anew. ``recheck --kernel`` never looks here.
+# claim, the way in which it is printed or what its words mean changes a digest, and the claim has no kernel
+# verdict until Coq has accepted it anew. ``recheck --kernel`` never looks here.
 
 
 GRADE = "kernel"

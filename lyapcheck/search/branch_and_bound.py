@@ -36,10 +36,8 @@ from lyapcheck.search.schur import SchurProblem
 # --- Boxes of one branch and bound shared between processes, of this machine or of a cluster.
 #
 # The first level with boxes enough is dealt out, and what lies below each hand is one task: whole subtrees,
-# put
-# together again in their places. What is found of a box depends on nothing but the box, so that trees, and
-# the
-# certificates made of them, are the same bytes as on one core.
+# put together again in their places. What is found of a box depends on nothing but the box, so that trees,
+# and the certificates made of them, are the same bytes as on one core.
 
 
 WORTH = 8_192

@@ -10,8 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.inertia import Bisection, Links, Mass
-from lyapcheck.check.kinds.parts import MassAtCorners
+from lyapcheck.check.kinds.inertia import Bisection, Links, Mass, MassAtCorners
 from lyapcheck.check.loop.closed_loop import ClosedLoop, corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions

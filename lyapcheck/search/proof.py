@@ -12,9 +12,8 @@ from lyapcheck.control.judgement import JudgedStatement, judged_statement
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.decreasing import BoxTree
-    from lyapcheck.check.kinds.inertia import Bisection, Links
+    from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
     from lyapcheck.check.kinds.link_bounds import LinkBounds
-    from lyapcheck.check.kinds.parts import MassAtCorners
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.check.statement import Proof, Statement
 

@@ -13,8 +13,7 @@ from lyapcheck.check.loop.scalar import ScalarForm, certifies
 from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.inertia import Bisection, Links
-    from lyapcheck.check.kinds.parts import MassAtCorners
+    from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.check.statement import Ends
     from lyapcheck.search.controlled_arm import ControlledArm

@@ -106,8 +106,7 @@ def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
 #
 #     θ'11 = ε (k − ε k_c v_d),   θ'12 = −½ ε (d + k_c v_d + ε c),   θ'22 = β − ε c,   ε = ε₀/(1 + ‖e‖)
 #
-# with k, β, c, d of ``lyapcheck.lyapunov.scalar``; at v_d = 0 it is that form. The inequality holds for
-# every
+# with k, β, c, d of ``lyapcheck.lyapunov.scalar``; at v_d = 0 it is that form. The inequality holds for every
 # ε₀ > 0 and is proved in ``proofs/tracking.py``; where Θ' is positive definite as well, V falls.
 
 

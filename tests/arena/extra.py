@@ -53,12 +53,12 @@ from lyapcheck.check.kinds.inertia import (
     HarmonicSizes,
     Links,
     MassAbove,
+    MassAtCorners,
     MassBelow,
     PostureWitness,
 )
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.kinds.property import PROPERTIES
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive

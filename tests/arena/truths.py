@@ -50,11 +50,11 @@ from lyapcheck.check.kinds.inertia import (
     HarmonicSizes,
     Links,
     MassAbove,
+    MassAtCorners,
     MassBelow,
     PostureWitness,
 )
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.kinds.resting import Resting, RestWitness
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness

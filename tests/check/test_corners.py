@@ -6,8 +6,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from lyapcheck.check.kinds.inertia import Bisection, MassAbove
-from lyapcheck.check.kinds.parts import MassAtCorners
+from lyapcheck.check.kinds.inertia import Bisection, MassAbove, MassAtCorners
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 

@@ -14,9 +14,8 @@ import pytest
 from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.forms import proof_of as scalar_proof_of
 from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
-from lyapcheck.check.kinds.inertia import Links
+from lyapcheck.check.kinds.inertia import Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.loop.boxes import BrokenTree
 from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.refusal import Refused

@@ -23,9 +23,8 @@ from lyapcheck.check.kinds.decreasing import (
     StateWitness,
     statement_of,
 )
-from lyapcheck.check.kinds.inertia import Bisection, Links
+from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.kinds.parts import MassAtCorners
 from lyapcheck.check.loop.states import State
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.kept import KeptCertificates, remembered

@@ -174,8 +174,8 @@ def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[E
         require(low <= value <= high, subject, value, f"must be between {low} and {high}")
 
 
-# --- Whether a bound on K_v is needed for dV/dt < 0: against it, gains that break the bound and have dV/dt
-# < 0.
+# --- Whether a bound on K_v is needed for dV/dt < 0: against it, gains that break the bound and have dV/dt <
+# 0.
 #
 # References: ``reyes2019family`` (19).
 

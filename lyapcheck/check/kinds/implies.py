@@ -22,8 +22,7 @@ from lyapcheck.check.verify import Accepted, rule
 # --- The polynomials of an implication, and identities  μ·C = Σ λ_k μ_k H_k + R  between them.
 #
 # C is the gap of the conclusion, H_k are gaps of hypotheses, λ_k > 0 are rational, μ and μ_k are monomials
-# that
-# are positive (or at least not negative), and R has no negative term.
+# that are positive (or at least not negative), and R has no negative term.
 #
 # References: ``stengle1974nullstellensatz`` (these certificates are its simplest members).
 

@@ -10,8 +10,7 @@ from flint import arb
 
 # --- Intervals with two ends, for boxes so wide that balls are too coarse.
 #
-# A product of balls a ± r and b ± s has the radius |a|s + |b|r + rs, the exact range one of |a|s + |b|r:
-# for
+# A product of balls a ± r and b ± s has the radius |a|s + |b|r + rs, the exact range one of |a|s + |b|r: for
 # wide balls that is much. Spans give the exact range of every operation, at several times the cost.
 
 

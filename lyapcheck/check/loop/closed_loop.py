@@ -203,11 +203,9 @@ class RateProof(Proof, ABC):
 
 # --- An arm at the corners of the ranges of M's parameters, which speak for all that lies between.
 #
-# At one state −dV/dt = ε hᵀK_p h + yᵀ(B + K_v D + ε S)w, and S is linear in M(q) and its rates. So where M
-# is
+# At one state −dV/dt = ε hᵀK_p h + yᵀ(B + K_v D + ε S)w, and S is linear in M(q) and its rates. So where M is
 # affine in each parameter, dV/dt is so too, and nowhere above the largest of its values at the corners of
-# their
-# ranges; likewise λmax of M and of what is linear in it.
+# their ranges; likewise λmax of M and of what is linear in it.
 #
 # References: ``reyes2019family`` (11), (15).
 

@@ -152,8 +152,7 @@ def _follows(argument: Argument, cascade: Cascade) -> Named:
 
 # --- That the conditions of a theorem can be met: one that holds where nothing is says nothing.
 #
-# They are met where the claim that the last one fails wherever the others hold is false: a point refutes
-# it.
+# They are met where the claim that the last one fails wherever the others hold is false: a point refutes it.
 
 
 def never_met(argument: Argument) -> Implies | None:

@@ -209,8 +209,7 @@ def tensor(link: UrdfLink) -> list[list[Fraction]]:
 # --- From URDF links and joints to the bodies that the joints of one chain move.
 #
 # The links between two joints of the chain are rigid with each other; each is placed in the frame of the
-# joint
-# before it and brings its mass m, first moment m c and inertia, and their sums are exact.
+# joint before it and brings its mass m, first moment m c and inertia, and their sums are exact.
 
 
 OF = Algebra(Fraction)
