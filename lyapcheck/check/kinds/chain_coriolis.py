@@ -1,4 +1,4 @@
-"""What holds of M(q) and C(q, w) of every chain of links, because of what they are; how large C is at most."""
+"""What holds of M(q) and C(q, w) of every chain of links as such; how large C is at most."""
 
 from __future__ import annotations
 
