@@ -79,7 +79,9 @@ def test_every_eps0_is_of_the_arm_and_gains_of_today() -> None:
         assert row["boxes"] == BOXES, REPAIR
         for path in row["certificates"].values():
             stated = _certificate(path)["statement"]
-            loop = ControlledArm(sets[row["name"]], arm).loop(Fraction(stated["eps0"]))
+            coupling = tuple(map(Fraction, stated["coupling"]))
+            assert bool(coupling) == path.endswith(".weighted.json"), path
+            loop = ControlledArm(sets[row["name"]], arm).loop(Fraction(stated["eps0"]), coupling)
             assert to_json(statement_of(loop)) == stated, (path, REPAIR)
 
 
