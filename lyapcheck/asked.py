@@ -17,7 +17,7 @@ from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.robots.dynamics import TooManyTerms
 from lyapcheck.robots.trig import to_terms
-from lyapcheck.search.controlled_arm import mass_of
+from lyapcheck.search.closed_loop import mass_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence

@@ -18,7 +18,7 @@ from lyapcheck.claims.statements import bounded
 from lyapcheck.control import limits as arm_limits
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
-from lyapcheck.search.controlled_arm import mass_of
+from lyapcheck.search.closed_loop import mass_of
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel

@@ -13,7 +13,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.robots import RobotModel, load
-from lyapcheck.search.controlled_arm import mass_of, mass_proof, remember
+from lyapcheck.search.closed_loop import mass_of, mass_proof, remember
 from lyapcheck.verdicts import Verdict
 
 pytestmark = pytest.mark.usefixtures("in_this_process")

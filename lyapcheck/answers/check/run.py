@@ -25,7 +25,7 @@ from lyapcheck.claims.statements import Missing, remarks
 from lyapcheck.control.gains import GainFile, GainSet, gain_file_of, paper_gain_file
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.kept import KeptCertificates, remembered
-from lyapcheck.search.controlled_arm import remember
+from lyapcheck.search.closed_loop import remember
 from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_GAINS = "table2"

@@ -88,7 +88,7 @@ def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -
 
 def _scalar(gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, ranges: bool) -> Check | None:
     from lyapcheck.family.registry import named
-    from lyapcheck.search.controlled_arm import closed_loop_of, mass_of, mass_proof, remember
+    from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
     from lyapcheck.search.scalar_program import norm_proof
 
     if not named(gains.family, gains.m).bounded:
@@ -139,7 +139,7 @@ def lasalle(model: RobotModel, ranges: bool) -> Check:
 def positive(arm: RobotModel) -> JudgedStatement:
     """What the checker says of M(q) ≻ 0."""
     from lyapcheck.check.kinds.inertia import MassAbove
-    from lyapcheck.search.controlled_arm import mass_of, mass_proof, remember
+    from lyapcheck.search.closed_loop import mass_of, mass_proof, remember
 
     remember(arm)
     mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())

@@ -20,7 +20,7 @@ from lyapcheck.output.fields import Field, data, records, table
 from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.fields import with_unit
-from lyapcheck.search.controlled_arm import mass_of
+from lyapcheck.search.closed_loop import mass_of
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
 if TYPE_CHECKING:

@@ -26,7 +26,7 @@ from lyapcheck.claims.statements import Missing
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots import Number, RobotModel, trig
-from lyapcheck.search.controlled_arm import mass_of
+from lyapcheck.search.closed_loop import mass_of
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))

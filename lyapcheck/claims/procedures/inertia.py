@@ -35,7 +35,7 @@ from lyapcheck.claims.search_result import (
     still_open,
 )
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.search.controlled_arm import mass_proof
+from lyapcheck.search.closed_loop import mass_proof
 
 METHOD = "inertia"
 SAMPLES = 400

@@ -38,7 +38,7 @@ from lyapcheck.claims.search_result import (
 from lyapcheck.robots import Number, trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
 from lyapcheck.robots.plant import Plant
-from lyapcheck.search.controlled_arm import mass_proof
+from lyapcheck.search.closed_loop import mass_proof
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
