@@ -106,11 +106,7 @@ def _require_shallow(value: Any) -> None:
 
 
 def sealed(data: Any) -> dict[str, Any]:
-    """What a document says beside its digest.
-
-    Raises:
-        Refused: it is none of this schema, or its digest is another one.
-    """
+    """What a document of this schema says beside its digest; refused if that is another one."""
     require(isinstance(data, dict), "document", data, "must be an object")
     require(data.get("schema") == SCHEMA, "schema", data.get("schema"), f"must be {SCHEMA}")
     content = {key: value for key, value in data.items() if key != "digest"}
@@ -120,11 +116,7 @@ def sealed(data: Any) -> dict[str, Any]:
 
 
 def read(data: Any) -> Certificate:
-    """A certificate from its JSON value; the proof in it is not judged.
-
-    Raises:
-        Refused: the value is not a certificate of this schema, or its digest is another one.
-    """
+    """A certificate from its JSON value; refused if it is none. The proof in it is not judged."""
     content = sealed(data)
     require_keys(
         content,
@@ -150,11 +142,7 @@ def read(data: Any) -> Certificate:
 
 
 def judge(certificate: Certificate) -> Accepted:
-    """What a certificate shows, given what it uses.
-
-    Raises:
-        Refused: its proof shows nothing, or something else than it says.
-    """
+    """What a certificate shows, given what it uses; refused if that is nothing, or not what it says."""
     accepted = verify(certificate.statement, certificate.proof)
     for name in ("verdict", "grade"):
         said, result = getattr(certificate, name), getattr(accepted, name)

@@ -23,7 +23,6 @@ from lyapcheck.check.statement import Piece, Proof, Statement
 
 # --- Kinds of statement and rules that were removed, each with the last version that reads them.
 
-
 LAST_READ_BY = {
     "ComesToRest": "0.1.0",
     "DecreasingNearby": "0.1.0",
@@ -56,11 +55,7 @@ def name_of(cls: type) -> str:
 
 
 def from_json(cls: type[T], data: Any, where: str) -> T:
-    """Data of a declared type from JSON values.
-
-    Raises:
-        Refused: the values do not have exactly the form of that type.
-    """
+    """Data of a declared type from JSON values; refused unless they have exactly the form of that type."""
     result: T = _read(cls, data, where)
     return result
 
@@ -188,10 +183,6 @@ def _hints(cls: Any) -> dict[str, Any]:
 
 
 def require_keys(data: dict[str, Any], wanted: set[str], where: str) -> None:
-    """Refuse an object that does not have exactly the wanted keys.
-
-    Raises:
-        Refused: naming the keys that are missing or unknown.
-    """
+    """Refuse an object that does not have exactly the wanted keys."""
     for label, names in (("lacks", wanted - set(data)), ("does not know", set(data) - wanted)):
         require(not names, where, ", ".join(sorted(names)), f"the checker {label} these keys")

@@ -104,9 +104,6 @@ def require_covered(shown: Statement, asked: Statement) -> None:
         shown: the statement that a proof shows.
         asked: the question as a statement of the same kind, with the numbers that are printed.
 
-    Raises:
-        Refused: at the first field that differs in the wrong direction, or that has no row.
-
     Soundness: each row of ``ROWS`` is a direction in which statements of that kind are monotone. A kind or a
         field without a row is refused, unless both statements are equal.
     """

@@ -8,7 +8,6 @@ from lyapcheck.check.refusal import plain
 
 # --- What reading and judging one certificate may cost.
 
-
 MAX_BYTES = 50_000_000
 """Of a file."""
 MAX_NESTING = 400
@@ -21,7 +20,6 @@ LARGEST = 10**9
 """rad, rad/s, N·m and J: beyond all that is of use."""
 SHOWN = 300
 """Characters of a statement, or of its author's words, unless the whole is asked for."""
-
 MOST = 1_000_000
 """Seconds or MiB, beyond which a limit is none."""
 
@@ -81,7 +79,6 @@ def shortened(text: str, full: bool) -> str:
 
 # --- What every verdict of the checker takes for granted; what a theorem takes for granted stands with it.
 
-
 GENERAL = (
     "a statement means what its symbols mean for real numbers; whether a robot is so, no certificate says",
     "Python, its integers and fractions, and SHA-256, by which certificates name each other",
@@ -89,7 +86,6 @@ GENERAL = (
     "doubles of IEEE 754: each corner of a box is the rational number that its double is",
     "that the code of the checker itself is right: recheck --trusted lists it for each verdict",
 )
-
 TORQUE = (
     "the torque is (6), τ = K_p h(e) − K_v h(w) + g(q) with e = q_d − q, w = q̇ and a constant q_d, applied "
     "as it is, and (6) knows g(q) exactly; (11) is M(q)q̈ + C(q,q̇)q̇ + Bq̇ + g(q) = τ with it"

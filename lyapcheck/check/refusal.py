@@ -21,10 +21,6 @@ class Refused(Exception):
 
 
 def require(holds: object, subject: str, value: object, rule: str) -> None:
-    """Refuse unless something is true.
-
-    Raises:
-        Refused: it is not.
-    """
+    """Refuse unless something is true."""
     if holds is not True:
         raise Refused(subject, value, rule)

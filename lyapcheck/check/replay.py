@@ -23,21 +23,13 @@ MAX_BITS = 16_384
 
 
 def require_bits(bits: int) -> int:
-    """A precision that is meaningful and within reach.
-
-    Raises:
-        Refused: it is neither.
-    """
+    """A precision that is meaningful and within reach."""
     require(32 <= bits <= MAX_BITS, "bits", bits, f"must be from 32 to {MAX_BITS}")
     return bits
 
 
 def coordinates(point: Point, names: Iterable[str]) -> dict[str, Fraction]:
-    """The coordinates of a point by name.
-
-    Raises:
-        Refused: a name of the statement is missing, a coordinate is given twice or is of no variable.
-    """
+    """The coordinates of a point by name; refused unless it gives those of the statement, each once."""
     result = dict(point)
     wanted = set(names)
     shown = ", ".join(name for name, _ in point)
@@ -76,11 +68,7 @@ def by_witness(statement: Pointwise, proof: Witness) -> Accepted:
 
 
 def require_inside(ranges: Mapping[str, Interval], point: dict[str, Fraction]) -> None:
-    """Refuse a point that lies outside the ranges of the variables.
-
-    Raises:
-        Refused: a coordinate is beyond what bounds it.
-    """
+    """Refuse a point that lies outside the ranges of the variables."""
     for name, interval in ranges.items():
         require(point[name] in interval, name, point[name], f"must be {interval}")
 
@@ -88,12 +76,7 @@ def require_inside(ranges: Mapping[str, Interval], point: dict[str, Fraction]) -
 def require_failure(
     conclusion: Comparison, point: dict[str, Fraction], bits: int, hypotheses: tuple[Comparison, ...] = ()
 ) -> None:
-    """Refuse a point at which it is not shown that the hypotheses hold and the conclusion fails.
-
-    Raises:
-        Undefined: a term has no value there.
-        Refused: the balls do not tell, or tell the contrary.
-    """
+    """Refuse a point at which it is not shown that the hypotheses hold and the conclusion fails."""
     for left, _, right in (conclusion, *hypotheses):
         require_defined_at(left, point)
         require_defined_at(right, point)

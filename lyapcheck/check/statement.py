@@ -52,19 +52,11 @@ class Statement(ABC):
 
     @abstractmethod
     def require_well_formed(self) -> None:
-        """Refuse data that say nothing: unknown operations, undeclared variables, sizes out of reach.
-
-        Raises:
-            Refused: at the first fault.
-        """
+        """Refuse data that say nothing: unknown operations, undeclared variables, sizes out of reach."""
 
     @abstractmethod
     def require_defined(self) -> None:
-        """Refuse terms that may be without a value somewhere on their domain; see ``Total``, ``OfTerms``.
-
-        Raises:
-            Undefined: naming the first.
-        """
+        """Refuse terms that may be without a value somewhere on their domain; see ``Total``, ``OfTerms``."""
 
     @abstractmethod
     def text(self) -> str:
@@ -155,7 +147,5 @@ class Piece:
 
 
 Ends = tuple[Fraction, Fraction]
-
-
 Monomials = tuple[tuple[tuple[int, ...], Fraction], ...]
 """Exponents of s1 … sn, c1 … cn and the parameters, with the coefficient."""

@@ -31,7 +31,6 @@ RULES: dict[tuple[type[Statement], type[Proof]], Rule] = {}
 DOUBTS: dict[type[Statement], Callable[[Any], None]] = {}
 """What looks for faults of the checker in what it is about to prove: it can refuse, and accept nothing."""
 _SHOWN: ContextVar[dict[tuple[Statement, Proof], Accepted] | None] = ContextVar("shown", default=None)
-
 S = TypeVar("S", bound=Statement)
 P = TypeVar("P", bound=Proof)
 
@@ -114,11 +113,7 @@ def _verified(statement: Statement, proof: Proof) -> Accepted:
 
 
 def require_proved(statement: Statement, proof: Proof, subject: str) -> str:
-    """The grade of the proof of a statement that another one needs.
-
-    Raises:
-        Refused: it is not proved.
-    """
+    """The grade of the proof of a statement that another one needs."""
     result = verify(statement, proof)
     if result.verdict != "proved":
         raise Refused(subject, result.verdict, "must be proved")

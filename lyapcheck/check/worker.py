@@ -22,7 +22,6 @@ from lyapcheck.check.judgement import Limits
 
 resource: Any = import_module("resource") if find_spec("resource") else None
 """The limits of a POSIX system; elsewhere there are none."""
-
 DOUBTS = "lyapcheck.rechecking.drawn_entries"
 """What doubts the checker, beside it: see ``verify.DOUBTS``."""
 RECURSION = 6_000

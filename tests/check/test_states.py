@@ -40,13 +40,13 @@ states = st.builds(State, pairs, pairs, pairs)
 
 
 def controller(m: int) -> Controller:
-    return Controller(member("hyperbolic", m).functions, *GAINS)
+    return Controller(member("hyperbolic", m), *GAINS)
 
 
 def printed_acceleration(m: int, state: State) -> list[arb]:
     """ẇ of (11) with C as the source prints it, and M inverted by hand."""
     q2, (e, w) = to_arb(state.q[1]), ([to_arb(x) for x in part] for part in (state.e, state.w))
-    f, (kp, kv) = member("hyperbolic", m).functions, ([to_arb(k) for k in gains] for gains in GAINS)
+    f, (kp, kv) = member("hyperbolic", m), ([to_arb(k) for k in gains] for gains in GAINS)
     s = to_arb(F("0.084")) * q2.sin()
     coriolis = [-2 * s * w[1] * w[0] - s * w[1] * w[1], s * w[0] * w[0]]
     force = [

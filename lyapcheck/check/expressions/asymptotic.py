@@ -23,7 +23,6 @@ from lyapcheck.check.numbers.polynomials import ball_of, rational, rational_root
 
 Key = tuple[Fraction | int, Fraction | int, int]
 """(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""
-
 ONE: Key = (0, 0, 0)
 X: Key = (0, 1, 0)
 LOG_X: Key = (0, 0, 1)
@@ -195,11 +194,7 @@ class Asymptotic:
         return large, limit, Asymptotic(small, self.start)
 
     def sign(self) -> int:
-        """The sign that the function keeps on [start, ∞).
-
-        Raises:
-            Open: where that is not shown.
-        """
+        """The sign that the function keeps on [start, ∞); ``Open`` where that is not shown."""
         _, c, _ = self.leading()
         return 1 if c.ball > 0 else -1
 
@@ -209,11 +204,7 @@ def _times(a: Key, b: Key) -> Key:
 
 
 def power_of(key: Key, exponent: Fraction) -> Key:
-    """The scale function to a power.
-
-    Raises:
-        Unsupported: ln x would get an exponent that is not an integer.
-    """
+    """The scale function to a power; ``Unsupported`` where ln x would get a fractional exponent."""
     a, b, logs = (x.numerator if x.denominator == 1 else x for x in (part * exponent for part in key))
     if not isinstance(logs, int):
         raise Unsupported("a fractional power of a logarithm")

@@ -64,11 +64,7 @@ def undefined_term(tree: Tree, domain: Domain) -> Tree | None:
 
 
 def require_defined(tree: Tree, domain: Domain) -> None:
-    """Refuse an expression with a part that may be without a value.
-
-    Raises:
-        Undefined: naming that part, and what to do.
-    """
+    """Refuse an expression with a part that may be without a value."""
     if tree[0] in LEAVES or (not domain and tree in _DEFINED):
         return
     term = undefined_term(tree, domain)
@@ -83,10 +79,6 @@ def require_defined(tree: Tree, domain: Domain) -> None:
 
 
 def require_defined_at(tree: Tree, point: Mapping[str, Fraction]) -> None:
-    """Refuse a point at which a part of an expression is not shown to have a value.
-
-    Raises:
-        Undefined: naming that part.
-    """
+    """Refuse a point at which a part of an expression is not shown to have a value."""
     numbers = {name: ("num", str(value)) for name, value in point.items()}
     require_defined(substitute(tree, numbers), {})

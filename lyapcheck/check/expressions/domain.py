@@ -38,7 +38,6 @@ class Interval:
 
 Domain = Mapping[str, Interval]
 """The interval of each variable; one that is not named ranges over all reals."""
-
 REALS = Interval()
 POSITIVE = Interval(low=Fraction(0), open_low=True)
 NONNEGATIVE = Interval(low=Fraction(0))
@@ -47,7 +46,6 @@ NONNEGATIVE = Interval(low=Fraction(0))
 # --- Whether a comparison holds at a point, or fails there, in balls.
 #
 # References: ``johansson2017arb``.
-
 
 Comparison = tuple[Tree, str, Tree]
 """``left operator right`` with the operator ``<=``, ``<`` or ``=``."""

@@ -25,7 +25,6 @@ from flint import arb, arb_series, ctx, fmpq
 from lyapcheck.check.numbers.constants import hyperbolic_constants, power
 
 Tree = tuple[Any, ...]
-
 FUNCTIONS = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
 FAMILY = ("h", "dh", "potential")
 CONSTANTS = ("gamma", "rho", "L")
@@ -72,29 +71,17 @@ class ExactAlgebra(Algebra):
         return fmpq(value.numerator, value.denominator)
 
     def constant(self, name: str, m: int) -> Any:
-        """γ_1 = ρ_1 = L_1 = 1.
-
-        Raises:
-            Unsupported: for m > 1.
-        """
+        """γ_1 = ρ_1 = L_1 = 1; ``Unsupported`` for m > 1."""
         if m > 1:
             raise Unsupported(f"{name}_{m} is not rational")
         return self.number(Fraction(1))
 
     def pi(self) -> Any:
-        """π has no place.
-
-        Raises:
-            Unsupported: always.
-        """
+        """``Unsupported``."""
         raise Unsupported("π is not rational")
 
     def function(self, name: str, value: Any) -> Any:
-        """Functions have no place.
-
-        Raises:
-            Unsupported: always.
-        """
+        """``Unsupported``."""
         raise Unsupported(f"{name} leaves the rational numbers")
 
 

@@ -20,10 +20,8 @@ RATIONAL = re.compile(r"0|-?[1-9][0-9]*(/[1-9][0-9]*)?")
 NAME = re.compile(r"[A-Za-zα-θκ-μξπ-τφ-ωΓΔΘΛΞΠΣΦΨΩ_][A-Za-zα-θκ-μξπ-τφ-ωΓΔΘΛΞΠΣΦΨΩ0-9₀-₉_]*′*")
 """Latin and Greek letters, without those that look like Latin ones (ι, ν, ο, υ and most capitals): no name
 can pass for another, or for part of a statement."""
-
 CONSTANT_NAME = re.compile(r"π.*|[γρ]_?[0-9₀-₉].*|[LhU](_[0-9₀-₉]|[₀-₉]).*")
 """What the text of an expression writes for constants and functions of the family, or looks like it."""
-
 Parts = list[Any]
 
 
@@ -52,11 +50,7 @@ _WELL_FORMED = Remembered()
 
 
 def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None) -> None:
-    """Refuse expressions that are malformed or have variables beyond ``names`` (``None``: any are allowed).
-
-    Raises:
-        Refused: at the first node or variable that is wrong.
-    """
+    """Refuse expressions that are malformed or have variables beyond ``names`` (``None``: any are)."""
     names = None if names is None else set(names)
     for name in names or ():
         require_name(name)
@@ -88,9 +82,6 @@ def require_tree(tree: Any, depth: int, seen: dict[int, int] | None = None) -> N
         tree: the expression.
         depth: how many levels it may have.
         seen: nodes that were looked at, by id, with the levels that were left to them.
-
-    Raises:
-        Refused: at the first node that is wrong.
     """
     if not isinstance(tree, tuple) or not tree:
         raise Refused("expression", tree, "is not an operation with its parts")
@@ -127,11 +118,7 @@ def written_out(tree: Any, known: dict[int, int]) -> int:
 
 
 def require_name(name: str) -> None:
-    """Refuse what is not the name of a variable.
-
-    Raises:
-        Refused: it is too long, or has other signs than letters, digits and underscores.
-    """
+    """Refuse what is not the name of a variable."""
     require(
         is_name(name), "variable", name, "is not a name of Latin or Greek letters, digits and underscores"
     )

@@ -215,11 +215,7 @@ def _constant(polynomial: fmpq_mpoly) -> Fraction:
 
 
 def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
-    """The quotient of polynomials that an expression is, reduced, and the algebra that knows its generators.
-
-    Raises:
-        Unsupported: where the expression has no such form.
-    """
+    """The reduced quotient of polynomials that an expression is, where it is one (``Unsupported``)."""
     if written_out(tree, {}) > MAX_SIZE:
         raise Unsupported(f"more than {MAX_SIZE} parts with all powers written out")
     names = sorted(variables(tree))

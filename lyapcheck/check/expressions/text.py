@@ -11,7 +11,6 @@ from lyapcheck.check.expressions.expression import CONSTANTS, FAMILY, LEAVES, Tr
 
 SUM, PRODUCT, POWER, ATOM = range(4)
 """How tightly the outermost operation of a text binds."""
-
 NAMES = {
     "pi": "π",
     "gamma": "γ_{}",
@@ -24,7 +23,6 @@ NAMES = {
 }
 DECIMALS = 6
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-
 Text = tuple[str, int]
 
 

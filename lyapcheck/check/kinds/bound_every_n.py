@@ -240,11 +240,7 @@ def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:
 
 
 def terms_of(tree: Tree) -> list[Term]:
-    """The terms of a polynomial in the order of their exponents.
-
-    Raises:
-        Refused: it is no polynomial.
-    """
+    """The terms of a polynomial in the order of their exponents; refused if it is none."""
     ratio, algebra = normal_form(tree)
     plain = not algebra.uses and ratio.bottom.is_constant()
     require(plain, "expression", "", "is not a polynomial in its variables and words")
@@ -257,11 +253,7 @@ def terms_of(tree: Tree) -> list[Term]:
 
 
 def bound_of(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:
-    """What a term is at most, by a cover.
-
-    Raises:
-        Refused: the cover does not fit the term.
-    """
+    """What a term is at most, by a cover; refused if that does not fit."""
     c, powers = term
     if cover.least is not None:
         return _by_least(statement, words, term, cover)

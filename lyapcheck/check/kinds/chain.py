@@ -56,11 +56,7 @@ class OfChain(OfLinks, Bound):
     """A bound of M(q) or g(q) of some links."""
 
     def at(self, witness: PostureWitness) -> Posture:
-        """The chain at the posture of a witness, in balls.
-
-        Raises:
-            Refused: the posture is of another number of joints, or has parameters.
-        """
+        """The chain at the posture of a witness, in balls; refused if that does not fit."""
         require_posture(witness, len(self.links), ())
         q = [to_arb(angle) for angle in witness.q]
         return Posture(self.links, [x.sin() for x in q], [x.cos() for x in q], Algebra(to_arb))

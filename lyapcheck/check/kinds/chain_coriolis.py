@@ -114,7 +114,6 @@ def by_rates(statement: ChainCoriolisBelow, proof: RateBounds) -> Accepted:
 #
 # References: ``reyes2019family``, Properties 2.1 and 2.3 to 2.5.
 
-
 IDENTITIES = {
     "symmetric": "M(q) = M(q)ᵀ",
     "at rest": "C(q, 0) = 0",

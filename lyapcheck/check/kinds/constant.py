@@ -176,11 +176,7 @@ class OutsideRounding(Proof):
 
 
 MAX_INPUTS = 16
-
-
 MAX_LENGTH = 400
-
-
 DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
 
 
@@ -232,11 +228,7 @@ def over_all(statement: Agrees, bits: int) -> Enclosure:
 
 
 def at_corner(statement: Agrees, ends: tuple[int, ...], bits: int) -> Enclosure:
-    """The formula at one corner of the roundings: 0 for the lower end of an input, 1 for the upper one.
-
-    Raises:
-        Refused: the corner does not say which end of each input.
-    """
+    """The formula at one corner of the roundings: 0 for the lower end of an input, 1 for the upper one."""
     named = len(ends) == len(statement.inputs) and set(ends) <= {0, 1}
     require(named, "corner", ends, "must say 0 or 1 for each input")
     pairs = zip(_ranges(statement), ends, strict=True)

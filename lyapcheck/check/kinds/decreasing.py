@@ -144,11 +144,7 @@ def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
 
 
 def require_rising(statement: Decreasing, proof: StateWitness) -> None:
-    """dV/dt > 0 is shown at a state of an arm within the ranges.
-
-    Raises:
-        Refused: it is not.
-    """
+    """dV/dt > 0 is shown at a state of an arm within the ranges."""
     require(not statement.coupling, "coupling", statement.coupling, "must be empty: the state is of (13)")
     _require_within("viscous", proof.viscous, statement.viscous)
     _require_within("parameters", proof.parameters, statement.parameters)
@@ -157,7 +153,7 @@ def require_rising(statement: Decreasing, proof: StateWitness) -> None:
         for row in statement.mass
     )
     known = member(statement.family, statement.m)
-    controller = Controller(known.functions, statement.kp, statement.kv)
+    controller = Controller(known, statement.kp, statement.kv)
     state = State(proof.q, proof.e, proof.w)
     if not confirms_positive(Arm(mass, proof.viscous), controller, statement.eps0, state):
         raise Refused("state", "", "does not show dV/dt > 0")

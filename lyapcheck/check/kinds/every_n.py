@@ -108,8 +108,6 @@ class EntriesWitness(Proof):
 
 
 MAX_SIZE = 6
-
-
 Equation = tuple[Tree, Tree]
 
 

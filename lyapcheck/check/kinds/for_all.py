@@ -100,8 +100,6 @@ class Pieces(Proof):
 
 
 MAX_CUTS = 20_000
-
-
 Stretch = tuple[Tree, Fraction, Fraction | None]
 """The gap on [low, high] with 0 <= low; ``None`` is infinity."""
 

@@ -124,11 +124,7 @@ def at(point: dict[str, Fraction], tree: Tree) -> Tree:
 
 
 def sign_for_small(tree: Tree) -> int:
-    """The sign that an expression in one variable has for all small enough positive values of it.
-
-    Raises:
-        Refused: it has other variables, or its dominant term next to 0 does not tell.
-    """
+    """The sign of an expression for all small enough positive values of its one variable; refused if open."""
     if is_zero(tree):
         return 0
     names = variables(tree)

@@ -26,7 +26,6 @@ from lyapcheck.check.verify import Accepted, rule
 #
 # References: ``stengle1974nullstellensatz`` (these certificates are its simplest members).
 
-
 Monomial = tuple[tuple[int, int], ...]
 """Pairs (generator, exponent)."""
 
@@ -50,8 +49,6 @@ class SignIdentity(Proof):
 
 
 BITS = 64
-
-
 Exponents = tuple[int, ...]
 
 
@@ -127,11 +124,7 @@ class Signs:
         return self.is_nonnegative(polynomial) and any(self.monomial_is(e, True) for e in terms)
 
     def exponents(self, monomial: Monomial) -> Exponents:
-        """The exponents of all generators.
-
-        Raises:
-            Refused: a generator that does not exist, or an exponent that is not positive.
-        """
+        """The exponents of all generators; refused where one does not exist or is not positive."""
         result = [0] * self.ring.nvars()
         for index, exponent in monomial:
             require(0 <= index < len(result), "generator", index, "does not exist")
@@ -142,9 +135,6 @@ class Signs:
 
 def require_identity(signs: Signs, goal: fmpq_mpoly, strict: bool, proof: SignIdentity) -> None:
     """Refuse unless an identity of signs shows goal >= 0 (> 0, if ``strict``).
-
-    Raises:
-        Refused: a multiplier of the wrong sign, or a remainder with a term that may be negative.
 
     Soundness: μ > 0, so the goal has the sign of a sum of terms none of which is negative; it is positive if
     R is, or if a strict hypothesis enters with μ_k > 0.

@@ -36,22 +36,14 @@ Mass = tuple[tuple[Monomials, ...], ...]
 
 
 def require_mass(mass: Mass, parameters: tuple[Ends, ...]) -> None:
-    """Refuse what is not a square matrix of polynomials in sines, cosines and parameters.
-
-    Raises:
-        Refused: at the first fault.
-    """
+    """Refuse what is not a square matrix of polynomials in sines, cosines and parameters."""
     n = len(mass)
     require(all(len(row) == n for row in mass), "mass", "a row", f"must have {n} entries")
     require_polynomials(chain.from_iterable(mass), n, parameters)
 
 
 def require_polynomials(entries: Iterable[Monomials], n: int, parameters: tuple[Ends, ...]) -> None:
-    """Refuse what are not polynomials in the sines and cosines of n angles and in parameters with ranges.
-
-    Raises:
-        Refused: at the first fault.
-    """
+    """Refuse what are not polynomials in the sines and cosines of n angles and in parameters with ranges."""
     length = 2 * n + len(parameters)
     require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
     harmonics = 0
@@ -142,11 +134,7 @@ class Bound(Total):
 
     @abstractmethod
     def excess(self, at: PostureWitness) -> arb:
-        """What is positive only where the bound fails, at one posture.
-
-        Raises:
-            Refused: the posture does not fit.
-        """
+        """What is positive only where the bound fails, at one posture; refused if that does not fit."""
 
 
 class Bounded(Bound):
@@ -191,11 +179,7 @@ def by_posture(statement: Bound, proof: PostureWitness) -> Accepted:
 
 
 def require_posture(proof: PostureWitness, n: int, parameters: tuple[Ends, ...]) -> None:
-    """Refuse angles of another number of joints, and parameters out of their ranges.
-
-    Raises:
-        Refused: at the first fault.
-    """
+    """Refuse angles of another number of joints, and parameters out of their ranges."""
     require(len(proof.q) == n, "posture", len(proof.q), f"must have {n} joints")
     known = len(proof.parameters) == len(parameters)
     require(known, "parameters", len(proof.parameters), f"must be {len(parameters)}")

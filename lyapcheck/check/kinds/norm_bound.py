@@ -87,11 +87,7 @@ class OneEntry(Proof):
 
 
 MAX_JOINTS = 100
-
-
 SUPREMUM_OF = {"h": "gamma", "dh": "rho"}
-
-
 X: Tree = ("var", "x")
 
 

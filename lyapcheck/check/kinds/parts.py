@@ -13,22 +13,14 @@ from lyapcheck.check.statement import Relation, Variable
 
 
 def require_relations(relations: Iterable[Relation], names: list[str]) -> None:
-    """Refuse relations with variables beyond ``names``, or a name given twice.
-
-    Raises:
-        Refused: at the first fault.
-    """
+    """Refuse relations with variables beyond ``names``, or a name given twice."""
     require_distinct("variables", names)
     for relation in relations:
         require_expressions((relation.left, relation.right), names)
 
 
 def require_distinct(subject: str, names: list[str]) -> None:
-    """Refuse names of which one is given twice.
-
-    Raises:
-        Refused: there is one.
-    """
+    """Refuse names of which one is given twice."""
     require(len(set(names)) == len(names), subject, ", ".join(names), "one is given twice")
 
 

@@ -242,11 +242,7 @@ def by_argument(
 
 
 def all_proved(obligations: Iterable[tuple[str, Statement]], proof: ByObligations) -> Accepted:
-    """Each obligation by its own proof.
-
-    Raises:
-        Refused: one is not proved, or has no proof.
-    """
+    """Each obligation by its own proof; refused if one is not proved."""
     wanted = list(obligations)
     require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
     pairs = zip(wanted, proof.proofs, strict=True)

@@ -132,11 +132,7 @@ def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:
 
 
 def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | None:
-    """The sign of right − left at a point: exactly in ℚ, else by balls; ``None`` where these do not tell.
-
-    Raises:
-        ZeroDivisionError: there is no value.
-    """
+    """The sign of right − left at a point: exactly in ℚ, else by balls; ``None`` where these do not tell."""
     gap: Tree = ("add", right, ("neg", left))
     try:
         value = exact(gap, point)

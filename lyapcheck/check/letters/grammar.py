@@ -19,7 +19,6 @@ DIMENSION = "n"
 """What the text of a statement for every n calls the dimension: no letter has that name."""
 LETTERS = {"number": "var", "vector": "vec", "matrix": "mat"}
 """The operation that makes a letter of each sort."""
-
 PARTS: dict[tuple[str, str], tuple[str, ...]] = {
     ("number", "dot"): ("vector", "vector"),
     ("number", "rate"): ("number",),
@@ -39,9 +38,6 @@ def require_sort(tree: Any, sort: str, rate: bool = False, depth: int = MAX_DEPT
         sort: ``number``, ``vector`` or ``matrix``.
         rate: whether derivatives may occur; never one inside another.
         depth: how many levels are allowed.
-
-    Raises:
-        Refused: at the first node that is wrong.
     """
     plain = isinstance(tree, tuple) and len(tree) > 0 and isinstance(tree[0], str)
     require(plain, "expression", tree, "is not an operation with its parts")
@@ -60,11 +56,7 @@ def require_sort(tree: Any, sort: str, rate: bool = False, depth: int = MAX_DEPT
 
 
 def _sorts(operation: str, parts: list[Any], sort: str) -> tuple[str, ...]:
-    """The sorts that the parts of an operation must have.
-
-    Raises:
-        Refused: the operation does not make something of this sort, or not from so many parts.
-    """
+    """The sorts of the parts of an operation; refused if it makes nothing of this sort from so many."""
     result = PARTS.get((sort, operation))
     if operation == "sum" and sort != "number":
         result = (sort,) * len(parts)
@@ -87,7 +79,6 @@ def letters(tree: Tree) -> set[Tree]:
 
 
 # --- The derivative by time of an expression in numbers, vectors and matrices, from those of its letters.
-
 
 ZERO: Tree = ("num", "0")
 NOTHING: Tree = ("sum",)

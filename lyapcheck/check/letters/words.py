@@ -22,7 +22,6 @@ Letter = tuple[str, str]
 Word = tuple[Letter, ...]
 Sum = dict[Word, Tree]
 """A vector or matrix as Σ coefficient · word; a word of a vector ends in its ``vec``."""
-
 MAX_WORDS, MAX_PAIRS = 20_000, 200_000
 ONE: Tree = ("num", "1")
 TURNED = {"mat": "transposed", "transposed": "mat"}
@@ -69,11 +68,7 @@ class Words:
         return tuple(self.number(part) if isinstance(part, tuple) else part for part in tree)
 
     def expand(self, tree: Tree) -> Sum:
-        """A vector or a matrix as a sum of words.
-
-        Raises:
-            Unsupported: there are too many.
-        """
+        """A vector or a matrix as a sum of words, unless there are too many (``Unsupported``)."""
         kind, *rest = tree
         if kind in ("vec", "diag", "mat"):
             return {((kind, rest[0]),): ONE}

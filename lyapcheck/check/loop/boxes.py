@@ -17,20 +17,12 @@ class BrokenTree(ValueError):
 
 
 def leaves(start: Box, tree: str) -> Iterator[Box]:
-    """The boxes at the dots of a tree.
-
-    Raises:
-        BrokenTree: a character is neither a dot nor a side of the box, or there are too few or too many.
-    """
+    """The boxes at the dots of a tree; raises ``BrokenTree`` as `nodes` does."""
     return (box for box, side in nodes(start, tree) if side is None)
 
 
 def nodes(start: Box, tree: str) -> Iterator[tuple[Box, int | None]]:
-    """Every box of a tree with the side that is cut, ``None`` at a dot.
-
-    Raises:
-        BrokenTree: as `leaves`.
-    """
+    """Every box of a tree with the side that is cut, ``None`` at a dot; ``BrokenTree`` if it is none."""
     stack = [start]
     for mark in tree:
         if not stack:

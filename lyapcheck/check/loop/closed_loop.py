@@ -25,7 +25,6 @@ from lyapcheck.check.statement import Ends, Monomials, Proof
 
 LARGEST_RADIUS = 1 << 64
 """Radians; what takes more is no statement about an arm."""
-
 Range = tuple[Fraction, Fraction]
 
 
@@ -141,11 +140,7 @@ class ClosedLoop:
 
     @cached_property
     def radius(self) -> float:
-        """A double R ≥ 0 beyond which the scalar form is enough.
-
-        Raises:
-            ValueError: the closure is not admissible, or the radius is beyond all angles.
-        """
+        """A double R ≥ 0 beyond which the scalar form is enough; ``ValueError`` where there is none."""
         if not self.admissible:
             raise ValueError("a closure that is not admissible has no radius")
         radius = Fraction(1, 64)
@@ -194,11 +189,7 @@ class RateProof(Proof, ABC):
 
     @abstractmethod
     def require_shown(self, loop: ClosedLoop) -> None:
-        """Judge it.
-
-        Raises:
-            Refused: it does not show that.
-        """
+        """Judge it."""
 
 
 # --- An arm at the corners of the ranges of M's parameters, which speak for all that lies between.
@@ -208,7 +199,6 @@ class RateProof(Proof, ABC):
 # their ranges; likewise λmax of M and of what is linear in it.
 #
 # References: ``reyes2019family`` (11), (15).
-
 
 Mass = tuple[tuple[Monomials, ...], ...]
 
@@ -232,11 +222,7 @@ def at_parameters(entry: Monomials, angles: int, parameters: Sequence[Fraction])
 
 
 def masses_at_corners(mass: Mass, parameters: Sequence[Ends]) -> tuple[Mass, ...]:
-    """M(q) with numbers for its parameters, one for each corner, in the order of ``corners_of``.
-
-    Raises:
-        Refused: M is not affine in each of them, or they have too many corners.
-    """
+    """M(q), affine in each parameter, at each corner of their ranges, in the order of ``corners_of``."""
     require(is_affine(mass), "M(q)", "", "must be affine in each of its parameters")
     ranging = sum(low < high for low, high in parameters)
     require(2**ranging <= MOST_CORNERS, "corners", 2**ranging, f"must not exceed {MOST_CORNERS}")

@@ -50,7 +50,6 @@ FIRST, SCALES = ord("0"), 64
 """The signs for scales: from "0" on, each √2 times the one before, 1 in the middle."""
 SCALE = {chr(FIRST + k): sqrt(2.0) ** (k - SCALES // 2) for k in range(SCALES)}
 _KEPT = 1 << 16
-
 Row = tuple[Fraction, ...]
 
 

@@ -18,7 +18,6 @@ from lyapcheck.check.numbers.balls import precision
 
 # --- A judgement in parts, each by a process of its own: verdicts come sooner and are the same.
 
-
 _JOBS = ContextVar("jobs", default=1)
 
 

@@ -24,7 +24,6 @@ from lyapcheck.check.numbers.members import Functions
 Vector = tuple[Fraction, ...]
 Term = tuple[tuple[int, ...], Fraction]
 """Exponents of (s1 … sn, c1 … cn) and the coefficient of one monomial."""
-
 _BITS = (128, 256, 512, 1024)
 """Precisions that are tried one after the other."""
 

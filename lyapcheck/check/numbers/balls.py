@@ -8,10 +8,9 @@ References: ``reyes2019family`` (6), (8), (12).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from fractions import Fraction
+from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 from flint import arb, ctx
 
@@ -28,22 +27,10 @@ from lyapcheck.check.numbers.polynomials import ball_of
 
 Extremes = tuple[tuple[arb, arb], ...]
 """Pairs (where, value) of the extremes of a function over x > 0."""
-
-
-@contextmanager
-def precision(bits: int) -> Iterator[None]:
-    """Work with ``bits`` of precision inside; flint's setting is global, so it is put back after."""
-    before = ctx.prec
-    ctx.prec = bits
-    try:
-        yield
-    finally:
-        ctx.prec = before
-
-
-def to_arb(value: Fraction | int) -> arb:
-    """A ball of the current precision that contains a rational number."""
-    return ball_of(value)
+precision: Any = ctx.workprec
+"""Work with so many bits of precision inside; flint's setting is global, so it is put back after."""
+to_arb = ball_of
+"""A ball of the current precision that contains a rational number."""
 
 
 def h(m: int, x: arb) -> arb:

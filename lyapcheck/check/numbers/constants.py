@@ -23,7 +23,6 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 #
 # References: ``reyes2019family`` (6), (7), (8).
 
-
 NEAR = arb(2) ** -40
 """Where a root is known to this share, secants close in on it."""
 

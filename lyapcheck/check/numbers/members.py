@@ -18,7 +18,7 @@ from flint import arb
 
 @dataclass(frozen=True)
 class Functions:
-    """h, h' and U of one variable, each a map of balls that contains."""
+    """h, h' and U with U' = h, U(0) = 0, each a map of balls that contains."""
 
     h: Callable[[arb], arb]
     dh: Callable[[arb], arb]
@@ -26,13 +26,10 @@ class Functions:
 
 
 @dataclass(frozen=True)
-class Member:
+class Member(Functions):
     """An odd, bounded h, positive for x > 0 and once continuously differentiable, with its bounds from above.
 
     Args:
-        h: contains h over a ball, dimensionless.
-        dh: contains h' over a ball.
-        potential: contains U over a ball, U' = h, U(0) = 0.
         gamma: at least sup h.
         rho: at least sup |h'|.
         L: at least sup h(x)/x.
@@ -40,28 +37,16 @@ class Member:
         bends: the x > 0 at which h'' may stop being monotone; from −x to x it does not for the first one.
     """
 
-    h: Callable[[arb], arb]
-    dh: Callable[[arb], arb]
-    potential: Callable[[arb], arb]
     gamma: Fraction
     rho: Fraction
     L: Fraction
     d2h: Callable[[arb], arb] | None = None
     bends: Callable[[], tuple[arb, ...]] = tuple
 
-    @property
-    def functions(self) -> Functions:
-        """h, h' and U, for the derivative of V at one state."""
-        return Functions(self.h, self.dh, self.potential)
-
 
 @lru_cache(maxsize=256)
 def member(name: str, m: int | None = None) -> Member:
-    """A function by name: that of a file in ``functions``, such as ``hyperbolic`` with its m, or ``arctan``.
-
-    Raises:
-        ValueError: no such function, or an m where there is none to choose, or none where there is.
-    """
+    """A function by the name of a file in ``functions``, with its m if it has one; else ``ValueError``."""
     create = _creators().get(name)
     if create is None:
         raise unknown(name, m)

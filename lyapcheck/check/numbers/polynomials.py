@@ -46,11 +46,7 @@ def sign_at(poly: fmpq_poly, point: Fraction) -> int:
 
 
 def count_roots(poly: fmpq_poly, low: End, high: End) -> int:
-    """The number of distinct real roots in (low, high]; all roots above ``low`` for high = None.
-
-    Raises:
-        ValueError: for the zero polynomial.
-    """
+    """The number of distinct roots in (low, high] of a polynomial other than 0, by Sturm's theorem."""
     if not poly:
         raise ValueError("the zero polynomial vanishes everywhere")
     chain = sturm_chain(poly)
@@ -165,7 +161,6 @@ def _sign(value: fmpq) -> int:
 
 # --- A real number known to lie between two exact rationals.
 
-
 MOST_BITS = 1 << 18
 """Balls reach e^(e^x); exact rationals of that size would fill the memory."""
 
@@ -226,11 +221,7 @@ class Enclosure:
 
 
 def dyadic(point: arb) -> Fraction:
-    """The exact rational value of a ball of radius zero.
-
-    Raises:
-        ValueError: it would take more than ``MOST_BITS`` binary places to write it down.
-    """
+    """The exact value of a ball of radius zero; ``ValueError`` if it has above ``MOST_BITS`` places."""
     mantissa, exponent = (int(part) for part in point.man_exp())
     if abs(exponent) > MOST_BITS:
         raise ValueError(f"a number of about 2^{exponent} is too large or too small to write down")

@@ -125,7 +125,6 @@ def transposed(a: Matrix) -> list[list[Entry]]:
 
 # --- Definiteness of symmetric rational matrices, decided by their characteristic polynomials.
 
-
 Rows = Sequence[Sequence[Fraction | int]]
 
 

@@ -216,7 +216,6 @@ def constants_of(system: System) -> dict[str, Variable]:
 
 # --- What makes a function a member of the class of :class:`Entrywise`: facts in one variable.
 
-
 X: Tree = ("var", "x")
 ZERO: Tree = ("num", "0")
 

@@ -117,11 +117,7 @@ class System:
             self.require_letters(tree, self.known, "the torque and the states")
 
     def require_letters(self, tree: Tree, known: Collection[Tree], where: str) -> None:
-        """Refuse a letter that is not known.
-
-        Raises:
-            Refused: it is there.
-        """
+        """Refuse a letter that is not known."""
         for letter in sorted(letters(tree)):
             require(letter in known, "letter", letter[1], f"has no meaning in {where} of this system")
 
@@ -212,11 +208,7 @@ def minus(x: Tree) -> Tree:
 
 
 def replaced(tree: Tree, by: dict[Tree, Tree]) -> Tree:
-    """An expression with others for some letters; the diagonal matrix of one that is 0 is 0.
-
-    Raises:
-        Refused: the diagonal matrix of one that becomes something else.
-    """
+    """An expression with others for some letters; where a vector becomes 0, its diagonal matrix does too."""
     if tree[0] == "diag":
         new = by.get(("vec", tree[1]))
         require(new in (None, NOTHING), "diag", tree[1], "stands for another vector here")

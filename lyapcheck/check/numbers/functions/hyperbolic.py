@@ -16,11 +16,7 @@ MOST = 60
 
 
 def create(m: int | None) -> Member:
-    """h_m = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x).
-
-    Raises:
-        ValueError: there is no such member.
-    """
+    """h_m = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x), for m >= 1."""
     if not isinstance(m, int) or m < 1:
         raise unknown("hyperbolic", m)
     result = hyperbolic_constants(m)
