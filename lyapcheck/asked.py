@@ -106,8 +106,7 @@ def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -
 
 
 def _of_links(name: str, arm: Plant, end: Fraction) -> Statement:
-    from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow
-    from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+    from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 
     chain = arm.chain
     assert chain is not None

@@ -14,8 +14,7 @@ from typing import Any, TypeVar
 from lyapcheck import store
 from lyapcheck.certificate import Certificate
 from lyapcheck.check import certificate as read
-from lyapcheck.check.certificate import judge
-from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.certificate import certificate_of, judge
 from lyapcheck.check.loop.proof import shared_between
 from lyapcheck.check.refusal import Refused
 

@@ -37,15 +37,16 @@ def serve(limits: Limits) -> None:
     os.dup2(2, 1)  # nothing that a library prints is an answer
     sys.setrecursionlimit(RECURSION)
     limited = _limit(limits)
-    judging = import_module("lyapcheck.check.judging")  # now: it must find room within the limits
+    # now: they must find room within the limits
+    certificate, verify = (import_module(f"lyapcheck.check.{name}") for name in ("certificate", "verify"))
     if find_spec(DOUBTS):
         import_module(DOUBTS).install()
     _send(answers, {"limited": limited})
-    with judging.each_once():
+    with verify.each_once():
         while line := requests.readline():
             request = json.loads(line)
             _limit_seconds(limits)
-            finding = asdict(judging.judged(requests.read(request["size"]), request["full"]))
+            finding = asdict(certificate.judged(requests.read(request["size"]), request["full"]))
             last = _is_spent(limits)
             _send(answers, {"finding": finding, "last": last})
             if last:

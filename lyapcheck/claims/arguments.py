@@ -24,8 +24,7 @@ from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.bound_every_n import Term, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
-from lyapcheck.check.kinds.property import Property
-from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stability import Property, Stable
 from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian, slopes_of_mass, slopes_of_symbols
 from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
@@ -168,7 +167,7 @@ def property_of(name: str, stable: Stable) -> Property:
     """A property of the system of a theorem, or of its V, as a claim of its own.
 
     Args:
-        name: one of those of ``check.kinds.property``, such as ``V is positive definite``.
+        name: one of those of ``check.kinds.stability``, such as ``V is positive definite``.
         stable: the theorem; of its forms only those that the property needs are asked for.
     """
     return Property(name, stable.argument)

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.check.kinds.chain import ChainAbove
-from lyapcheck.check.kinds.chain_coriolis import ChainIdentity
+from lyapcheck.check.kinds.chain import ChainAbove, ChainIdentity
 from lyapcheck.check.kinds.coriolis import CoriolisAtRest, MassSymmetric, RateLessTwiceCoriolis, RateOfMass
 from lyapcheck.check.statement import Ends, Statement
 from lyapcheck.claims.bounds import ArmBounds

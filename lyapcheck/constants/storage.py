@@ -24,8 +24,15 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, StorageForms
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
+from lyapcheck.check.kinds.chain import (
+    ChainAbove,
+    ChainBelow,
+    ChainCoriolisBelow,
+    ChainGravityBelow,
+    NoTorque,
+    RateBounds,
+    StorageForms,
+)
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.storage import (
     FALL,
@@ -210,7 +217,7 @@ def solve(blocks: Blocks, unknowns: int, first: int) -> Array | None:
 # Each Q_j is a small semidefinite program with the least Σ_i Q_ji. The shares are the least of a geometric
 # program, which is convex in their logarithms.
 #
-# References: `lyapcheck.check.kinds.chain_coriolis`; geometric programs, ``boyd2004convex`` section 4.5.
+# References: `lyapcheck.check.kinds.chain`; geometric programs, ``boyd2004convex`` section 4.5.
 
 
 _RATES_MARGINS = (1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3)

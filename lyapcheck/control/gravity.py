@@ -10,9 +10,8 @@ from functools import lru_cache
 from itertools import combinations, product
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.chain import RigidLink, lever_bound
 from lyapcheck.check.loop.field import size_of
-from lyapcheck.check.loop.links import lever_bound
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms

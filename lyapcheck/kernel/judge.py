@@ -8,9 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.check.certificate import Certificate, certificate_of
 from lyapcheck.check.files import content
-from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.check.refusal import plain, require
 from lyapcheck.kernel.coq import (

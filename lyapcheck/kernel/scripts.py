@@ -29,8 +29,7 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies, SignIdentity
 from lyapcheck.check.kinds.inertia import OfArm
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.property import Property
-from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stability import Property, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness

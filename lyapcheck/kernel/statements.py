@@ -29,15 +29,15 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.property import (
+from lyapcheck.check.kinds.stability import (
     AN_EQUILIBRIUM,
     DECRESCENT,
     EQUILIBRIUM,
     POSITIVE,
     UNBOUNDED,
     Property,
+    Stable,
 )
-from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Relation, Statement
 from lyapcheck.kernel.gate import gate_proposition, gate_refuted

@@ -120,7 +120,7 @@ def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[JudgedCell]
         model: the arm.
         sets: a gain set for each m, as for ``gain_map``.
     """
-    from lyapcheck.check.judging import judged
+    from lyapcheck.check.certificate import judged
     from lyapcheck.report.experiment import arm_digest, study_file
 
     path = study_file("gain_map")
@@ -145,8 +145,7 @@ def for_the_sets(cells: Sequence[JudgedCell], sets: Mapping[int, GainSet]) -> di
         sets: the gain set of each m, of the K_p of the map.
     """
     from lyapcheck.certificate import Certificate
-    from lyapcheck.check.certificate import judge
-    from lyapcheck.check.judging import certificate_of
+    from lyapcheck.check.certificate import certificate_of, judge
     from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
     from lyapcheck.check.refusal import Refused
 

@@ -19,8 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.loop.links import lever_bound
+from lyapcheck.check.loop.chain import RigidLink, lever_bound
 from lyapcheck.check.numbers.vectors import Algebra, is_positive_semidefinite
 from lyapcheck.robots.dynamics import Chain
 

@@ -1,4 +1,4 @@
-"""P by its middle and its slopes, as ``lyapcheck.check.loop.centred`` has it, over many boxes at once.
+"""P by its middle and its slopes, as ``lyapcheck.check.loop.schur`` has it, over many boxes at once.
 
 In doubles without directed rounding: the checker looks at all of it again, in balls, which discs imitate.
 """
@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.arithmetic import Ring
-from lyapcheck.check.loop.centred import Centred, of_error, transformed, triangle
 from lyapcheck.check.loop.proof import MOST_CENTRED
-from lyapcheck.check.loop.schur import Errors, form
+from lyapcheck.check.loop.schur import Centred, Errors, form, of_error, transformed, triangle
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
@@ -122,7 +121,7 @@ class CentredProblem:
         return _At(self, boxes).moved()
 
     def of_error(self, x: Interval) -> Array:
-        """Middles and radii of what `lyapcheck.check.loop.centred.of_error` has, (2, 3, 2, boxes)."""
+        """Middles and radii of what `lyapcheck.check.loop.schur.of_error` has, (2, 3, 2, boxes)."""
         sides, index = np.unique(np.stack([x.lo, x.hi], axis=1), axis=0, return_inverse=True)
         known = np.empty((2, 3, 2, len(sides)))
         for k, side in enumerate(map(tuple, sides.tolist())):

@@ -1,4 +1,4 @@
-"""Boxes of |e| on which the form of `lyapcheck.check.loop.error_form` is positive definite, by NumPy.
+"""Boxes of |e| on which the form of `lyapcheck.check.kinds.link_bounds` is positive definite, by NumPy.
 
 Each box is judged at several multipliers l. The sizes of w and p that weigh what is uncertain about N are
 those of the eigenvector of the smallest eigenvalue, again and again: there they cost least.
@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.kinds.link_bounds import BITS, LinkBounds
+from lyapcheck.check.kinds.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
 from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.error_form import FIRST, SCALES, BoxForm
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.family import named
 from lyapcheck.intervals import Interval
@@ -222,7 +221,7 @@ def _units(low: Array, high: Array) -> tuple[Array, Array]:
 # --- What the entries of U and Q_j cost at the errors at which the form in (w, p) is smallest.
 #
 # At such an e let (w, p) be the eigenvector of the smallest eigenvalue. There the form of
-# `lyapcheck.check.loop.error_form` falls with U_i by ε l p_i²/U_i², and with Q_ji by
+# `lyapcheck.check.kinds.link_bounds` falls with U_i by ε l p_i²/U_i², and with Q_ji by
 #
 #     ε |h_j| w_i² + ½ ε² |h_i| w_j²/t_ij + ⅛ ε² |h_i| t_ij (b_i w_i − ε p_i)²/κ_i².
 

@@ -19,13 +19,16 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.chain import (
+    IDENTITIES,
+    ByDefinition,
     ChainAbove,
     ChainBelow,
+    ChainCoriolisBelow,
     ChainGravityBelow,
+    ChainIdentity,
     NoTorque,
     OwnMoments,
 )
-from lyapcheck.check.kinds.chain_coriolis import IDENTITIES, ByDefinition, ChainCoriolisBelow, ChainIdentity
 from lyapcheck.check.kinds.constant import Agrees, Corners
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
@@ -59,8 +62,8 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.property import PROPERTIES
 from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.stability import PROPERTIES
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.closed_loop import ClosedLoop

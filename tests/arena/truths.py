@@ -21,14 +21,16 @@ from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.chain import (
+    ByDefinition,
     ChainAbove,
     ChainBelow,
+    ChainCoriolisBelow,
     ChainGravityBelow,
+    ChainIdentity,
     NoTorque,
     OwnLevers,
     OwnMoments,
 )
-from lyapcheck.check.kinds.chain_coriolis import ByDefinition, ChainCoriolisBelow, ChainIdentity
 from lyapcheck.check.kinds.constant import Agrees, Constant, ExactNumbers, OutsideRounding, SeparateBalls
 from lyapcheck.check.kinds.coriolis import CoriolisAtRest, CoriolisBelow, CoriolisTorque, MassSymmetric
 from lyapcheck.check.kinds.decreasing import (

@@ -8,9 +8,8 @@ from math import isqrt
 import pytest
 
 from lyapcheck.certificate import Certificate
-from lyapcheck.check.certificate import About
+from lyapcheck.check.certificate import About, judged
 from lyapcheck.check.judgement import shortened
-from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers

@@ -11,10 +11,9 @@ from flint import arb
 
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.boxes import Box
-from lyapcheck.check.loop.centred import CentredEvaluator, of_error, triangle
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.proof import proves
-from lyapcheck.check.loop.schur import Evaluator
+from lyapcheck.check.loop.schur import CentredEvaluator, Evaluator, of_error, triangle
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.members import member
 from lyapcheck.control.gains import paper_gain_file, read_gain_file

@@ -13,8 +13,7 @@ from typing import Any
 
 import pytest
 
-from lyapcheck.check.certificate import MAX_BYTES, parse
-from lyapcheck.check.judging import judged
+from lyapcheck.check.certificate import MAX_BYTES, judged, parse
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.refusal import Refused

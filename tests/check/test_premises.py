@@ -5,8 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from lyapcheck.check.kinds.property import PROPERTIES, Property
-from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stability import PROPERTIES, Property, Stable
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import (

@@ -16,11 +16,10 @@ import lyapcheck
 import lyapcheck.check.verify as verify_module
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.__main__ import main
-from lyapcheck.check.certificate import digest_of
+from lyapcheck.check.certificate import digest_of, judged
 from lyapcheck.check.files import Document, Unreadable, gather
 from lyapcheck.check.guard import Guard
 from lyapcheck.check.judgement import GENERAL, Judgement
-from lyapcheck.check.judging import judged
 from lyapcheck.check.kinds.constant import Constant, SeparateBalls
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
 from lyapcheck.check.refusal import Refused
@@ -495,7 +494,7 @@ class OnlyTheChecker(MetaPathFinder):
 sys.meta_path.insert(0, OnlyTheChecker())
 from pathlib import Path
 from lyapcheck.check.__main__ import main
-from lyapcheck.check.judging import judged
+from lyapcheck.check.certificate import judged
 for path in Path(sys.argv[1]).iterdir():
     assert not judged(path.read_bytes()).reason
 sys.exit(main(sys.argv[1:]))

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from lyapcheck.check import judging, kinds
+from lyapcheck.check import certificate, kinds
 from lyapcheck.check.verify import RULES
 from lyapcheck.rechecking.trusted import ROOT, lies_in, modules, source
 from tests.arena.run import ARENA
@@ -32,7 +32,7 @@ def run_by(content):
 
     sys.setprofile(note)
     try:
-        return judging.judged(content), run
+        return certificate.judged(content), run
     finally:
         sys.setprofile(None)
 
@@ -40,7 +40,7 @@ def run_by(content):
 @pytest.mark.slow
 def test_whatever_runs_is_listed():
     """The list is read off the imports; here certificates of every kind are judged, and what runs is seen."""
-    judging.judged(b"{}")
+    certificate.judged(b"{}")
     seen = set()
     for name, content in smallest():
         finding, run = run_by(content)
@@ -64,7 +64,7 @@ def test_what_no_certificate_names_is_not_listed():
     assert not [name for name in core if name.startswith("lyapcheck.check.kinds.")]
     assert not [name for name in core if not source(name).exists()]
     (theirs,) = lies_in("lyapcheck.check.kinds.chain:ChainAbove lyapcheck.check.kinds.chain:OwnMoments")
-    assert {theirs, "lyapcheck.check.loop.links"} <= {*modules((("", f"{theirs}:ChainAbove"),))}
+    assert {theirs, "lyapcheck.check.loop.chain"} <= {*modules((("", f"{theirs}:ChainAbove"),))}
     decreasing = modules((("", "lyapcheck.check.kinds.decreasing:Decreasing"),))
     assert "lyapcheck.check.numbers.functions.arctan" in decreasing
 

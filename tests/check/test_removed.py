@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from lyapcheck.check.certificate import judged
 from lyapcheck.check.codec import LAST_READ_BY, TAGS, from_json, members
-from lyapcheck.check.judging import judged
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from tests.arena.run import ARENA

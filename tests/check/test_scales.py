@@ -9,9 +9,8 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.expressions.asymptotic import Asymptotic, X, exactly
 from lyapcheck.check.expressions.expression import Tree, ball, evaluate
-from lyapcheck.check.expressions.scales import ScaleAlgebra, sign_beside, sign_from
+from lyapcheck.check.expressions.scales import Asymptotic, ScaleAlgebra, X, exactly, sign_beside, sign_from
 from lyapcheck.claims import (
     Expr,
     atan,

@@ -17,7 +17,7 @@ import pytest
 @contextmanager
 def one_process() -> Iterator[pytest.MonkeyPatch]:
     """As long as it lasts; what else is to be replaced as long may be."""
-    from lyapcheck.check import guard, judging
+    from lyapcheck.check import certificate, guard
     from lyapcheck.claims import fresh_check, script_process
     from lyapcheck.claims import script as ask
     from lyapcheck.rechecking import main as checker
@@ -27,7 +27,7 @@ def one_process() -> Iterator[pytest.MonkeyPatch]:
         return 0
 
     def ask_worker(own: guard.Guard, content: bytes, full: bool) -> dict[str, Any]:
-        return {"finding": asdict(judging.judged(content, full))}
+        return {"finding": asdict(certificate.judged(content, full))}
 
     def run_checker(words: list[str], **options: Any) -> CompletedProcess[bytes]:
         stdout = io.StringIO()

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from lyapcheck.check.certificate import certificate_of
 from lyapcheck.check.files import content, gather
-from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.recheck import Checked, Outcome, recheck
 from lyapcheck.kernel.coq import FILE, Kernel, written
 from lyapcheck.kernel.judge import judged

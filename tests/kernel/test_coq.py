@@ -15,9 +15,8 @@ from subprocess import CompletedProcess
 import pytest
 
 from lyapcheck.answers.recheck import _copied
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.check.certificate import Certificate, certificate_of
 from lyapcheck.check.files import gather
-from lyapcheck.check.judging import certificate_of
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Agrees

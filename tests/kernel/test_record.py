@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.check.proof import ClaimResult
-from lyapcheck.check.judging import certificate_of
-from lyapcheck.check.kinds.property import Property
+from lyapcheck.check.certificate import certificate_of
+from lyapcheck.check.kinds.stability import Property
 from lyapcheck.claims.decision import Decision
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.kernel import coq

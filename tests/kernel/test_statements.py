@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.check.certificate import Certificate
-from lyapcheck.check.judging import certificate_of
+from lyapcheck.check.certificate import Certificate, certificate_of
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow, RateBounds
+from lyapcheck.check.kinds.chain import ChainCoriolisBelow, RateBounds
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import Bisection, PostureWitness
 from lyapcheck.check.loop.chain import RigidLink

@@ -9,8 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, NoTorque, OwnMoments, StorageForms
-from lyapcheck.check.kinds.chain_coriolis import IDENTITIES, ByDefinition, ChainIdentity
+from lyapcheck.check.kinds.chain import (
+    IDENTITIES,
+    ByDefinition,
+    ChainAbove,
+    ChainBelow,
+    ChainIdentity,
+    NoTorque,
+    OwnMoments,
+    StorageForms,
+)
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.loop.storage import hinges, invariant_form
 from lyapcheck.check.refusal import Refused

@@ -16,8 +16,14 @@ import numpy as np
 from lyapcheck._types import SEED
 from lyapcheck.answers.robot.properties import DecidedProperty, PropertyQuestion
 from lyapcheck.asked import bound_of_constant
-from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainGravityBelow, NoTorque, OfLinks
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+from lyapcheck.check.kinds.chain import (
+    ChainAbove,
+    ChainBelow,
+    ChainCoriolisBelow,
+    ChainGravityBelow,
+    NoTorque,
+    OfLinks,
+)
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (

@@ -8,28 +8,280 @@ References: ``gruntz1996limits`` for the scale; ``tucker2011validated``, chapter
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
+from math import prod
 
-from flint import arb, ctx, fmpq_series
+from flint import arb, ctx, fmpq, fmpq_series
 
-from lyapcheck.check.expressions.asymptotic import (
-    LOG_X,
-    ONE,
-    ORDER,
-    Asymptotic,
-    Coefficient,
-    Key,
-    Open,
-    X,
-    constant,
-    exactly,
-    named,
-    power_of,
-    summed,
+from lyapcheck.check.expressions.expression import (
+    Algebra,
+    Tree,
+    Unsupported,
+    evaluate,
+    family_constant,
+    taylor,
 )
-from lyapcheck.check.expressions.expression import Algebra, Tree, Unsupported, evaluate, taylor
+from lyapcheck.check.numbers.polynomials import ball_of, rational, rational_root
+
+# --- Functions next to infinity as sums in the scale  e^{ax} x^b (ln x)^j,  enclosed on a half-line [X, ∞).
+#
+# An :class:`Asymptotic` is a finite sum  Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k}  in which each c_k is either
+# an exact number (a polynomial in π, γ_m, √c and their inverses) or lies in a ball for every x >= X. Sums and
+# products keep that form. Exact coefficients cancel exactly, so that functions which agree to some order at
+# infinity can be told apart by the next one.
+#
+# References: ``gruntz1996limits`` for the scale; ``tucker2011validated``, chapter 3.
+
+
+Key = tuple[Fraction | int, Fraction | int, int]
+"""(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""
+ONE: Key = (0, 0, 0)
+X: Key = (0, 1, 0)
+LOG_X: Key = (0, 0, 1)
+ORDER = 12
+"""The order of Taylor polynomials."""
+TERMS = 16
+"""How many terms are kept; lower ones are taken into the last."""
+
+
+class Open(Exception):
+    """X is too small, or the scale too coarse, to say anything."""
+
+
+Symbol = tuple[str, Fraction]
+"""A number by name: ("sqrt", c) for √c, ("gamma", m) and its like, ("pi", 0)."""
+Monomial = tuple[tuple[Symbol, int], ...]
+"""Powers of symbols."""
+
+
+class Coefficient:
+    """A number that lies in a ball; ``exact`` has its monomials if it is the same known one for all x."""
+
+    __slots__ = ("_ball", "exact")
+
+    def __init__(self, ball: arb | None, exact: tuple[tuple[Monomial, fmpq], ...] | None = None) -> None:
+        self._ball, self.exact = ball, exact
+
+    @property
+    def ball(self) -> arb:
+        """The ball; that of an exact number is worked out where it is asked for first."""
+        if self._ball is None:
+            parts = (prod((_value(*s) ** e for s, e in p), start=arb(c)) for p, c in self.exact or ())
+            self._ball = sum(parts, arb(0))
+        return self._ball
+
+    def __mul__(self, other: Coefficient) -> Coefficient:
+        if self.exact is None or other.exact is None:
+            return Coefficient(self.ball * other.ball)
+        return _collected(
+            _monomial((*p, *q), c * d) if p and q else (p or q, c * d)
+            for (p, c), (q, d) in product(self.exact, other.exact)
+        )
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the number is exactly zero."""
+        return self.exact == ()
+
+    def inverse(self) -> Coefficient:
+        """1/c, exact for one monomial."""
+        if self.exact is not None and len(self.exact) == 1:
+            ((p, c),) = self.exact
+            return _collected([_monomial([(symbol, -e) for symbol, e in p], 1 / c)])
+        return Coefficient(1 / self.ball)
+
+    def root(self) -> Coefficient:
+        """√c, exact for a rational number times even powers."""
+        if self.exact is not None and len(self.exact) == 1:
+            ((p, c),) = self.exact
+            if c > 0 and all(e % 2 == 0 for _, e in p):
+                halves = [(symbol, e // 2) for symbol, e in p]
+                root = ("sqrt", Fraction(int(c.p), int(c.q)))
+                return _collected([_monomial([*halves, (root, 1)], fmpq(1))])
+        return Coefficient(self.ball.sqrt())
+
+    def as_rational(self) -> Fraction | int | None:
+        """The value, if it is known to be rational; whole numbers as such, which make keys that hash fast."""
+        if self.exact is None or any(p for p, _ in self.exact):
+            return None
+        value = sum((c for _, c in self.exact), fmpq(0))
+        return int(value.p) if value.q == 1 else Fraction(int(value.p), int(value.q))
+
+
+def _monomial(powers: Iterable[tuple[Symbol, int]], factor: fmpq) -> tuple[Monomial, fmpq]:
+    """A product of powers of symbols, with squares of roots and roots of squares as numbers."""
+    exponents: dict[Symbol, int] = {}
+    for symbol, e in powers:
+        exponents[symbol] = exponents.get(symbol, 0) + e
+    for symbol, e in exponents.items():
+        name, c = symbol
+        if name == "sqrt":
+            factor *= rational(c) ** (e // 2)
+            exponents[symbol] = e % 2
+            root = rational_root(c)
+            if e % 2 and root is not None:
+                factor, exponents[symbol] = factor * rational(root), 0
+    return tuple(sorted((symbol, e) for symbol, e in exponents.items() if e)), factor
+
+
+def _collected(terms: Iterable[tuple[Monomial, fmpq]]) -> Coefficient:
+    """A sum of multiples of monomials."""
+    result: dict[Monomial, fmpq] = {}
+    for p, c in terms:
+        result[p] = result[p] + c if p in result else c
+    return Coefficient(None, tuple(sorted((p, c) for p, c in result.items() if c)))
+
+
+def _value(name: str, c: Fraction) -> arb:
+    if name == "sqrt":
+        return ball_of(c).sqrt()
+    return arb.pi() if name == "pi" else family_constant(name, int(c))
+
+
+def exactly(c: Fraction | int) -> Coefficient:
+    """A rational number."""
+    return _collected([((), rational(c))])
+
+
+def named(name: str, c: int = 0) -> Coefficient:
+    """The number of a symbol."""
+    return _collected([((((name, Fraction(c)), 1),), fmpq(1))])
+
+
+@dataclass(frozen=True)
+class Asymptotic:
+    """Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k} for x >= start, the dominant term first."""
+
+    terms: tuple[tuple[Key, Coefficient], ...]
+    start: Fraction
+
+    def __add__(self, other: Asymptotic) -> Asymptotic:
+        return summed([*self.terms, *other.terms], self.start)
+
+    def __mul__(self, other: Asymptotic) -> Asymptotic:
+        return summed(
+            [(_times(k, n), c * d) for k, c in self.terms for n, d in other.terms],
+            self.start,
+        )
+
+    def __neg__(self) -> Asymptotic:
+        return self.scaled(exactly(-1))
+
+    def __sub__(self, other: Asymptotic) -> Asymptotic:
+        return self + (-other)
+
+    def __truediv__(self, other: Asymptotic) -> Asymptotic:
+        """By  1/(1 + u) = 1 − u + … + (−u)^K/(1 + u)."""
+        key, c, small = other.leading()
+        result = constant(Coefficient(1 / (1 + small.enclosure())), self.start)
+        for _ in range(ORDER):
+            result = constant(exactly(1), self.start) - result * small
+        return self * result.scaled(c.inverse(), power_of(key, Fraction(-1)))
+
+    def scaled(self, by: Coefficient, key: Key = ONE) -> Asymptotic:
+        """The product with one term."""
+        return Asymptotic(tuple((_times(k, key), c * by) for k, c in self.terms), self.start)
+
+    def leading(self) -> tuple[Key, Coefficient, Asymptotic]:
+        """c, M and u with  f = c M (1 + u),  u > −1, where c is not 0."""
+        if not self.terms:
+            raise Open("a function that is zero")
+        (key, c), *rest = self.terms
+        if not (c.ball > 0 or c.ball < 0):
+            raise Open("the sign of the leading coefficient")
+        small = Asymptotic(tuple(rest), self.start).scaled(c.inverse(), power_of(key, Fraction(-1)))
+        if not small.enclosure() > -1:
+            raise Open("the leading term does not dominate yet")
+        return key, c, small
+
+    def enclosure(self) -> arb:
+        """A ball that contains every value; for functions whose terms are bounded."""
+        return sum((c.ball * _bounded(key, self.start) for key, c in self.terms), arb(0))
+
+    def parts(self) -> tuple[list[tuple[Key, Coefficient]], Coefficient, Asymptotic]:
+        """The terms that are not bounded, the constant one, and what tends to 0."""
+        large = [(key, c) for key, c in self.terms if key > ONE]
+        limit = dict(self.terms).get(ONE, exactly(0))
+        small = tuple((key, c) for key, c in self.terms if key < ONE)
+        return large, limit, Asymptotic(small, self.start)
+
+    def sign(self) -> int:
+        """The sign that the function keeps on [start, ∞); ``Open`` where that is not shown."""
+        _, c, _ = self.leading()
+        return 1 if c.ball > 0 else -1
+
+
+def _times(a: Key, b: Key) -> Key:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def power_of(key: Key, exponent: Fraction) -> Key:
+    """The scale function to a power; ``Unsupported`` where ln x would get a fractional exponent."""
+    a, b, logs = (x.numerator if x.denominator == 1 else x for x in (part * exponent for part in key))
+    if not isinstance(logs, int):
+        raise Unsupported("a fractional power of a logarithm")
+    return a, b, logs
+
+
+def _bounded(key: Key, start: Fraction) -> arb:
+    """A ball that contains e^{ax} x^b (ln x)^j for all x >= start.
+
+    Its logarithmic derivative a + b/x + j/(x ln x) is at most what it is at ``start`` with the negative ones
+    of b and j left out where something else is negative, and each such bound falls with x. Where that is not
+    negative, x^b (ln x)^j still is at most its largest value, (j/(−be))^j.
+    """
+    if key == ONE:
+        return arb(1)
+    if key > ONE:
+        raise Open("a term that grows")
+    a, b, j = key
+    x = ball_of(start)
+    log = x.log()
+    rise = j / log if j > 0 else arb(0)
+    if a < 0:
+        slope = ball_of(a) + (ball_of(max(b, 0)) + rise) / x
+    elif b < 0:
+        slope = ball_of(b) + rise
+    else:
+        slope = arb(j)
+    if slope <= 0:
+        return arb(0).union((ball_of(a) * x + ball_of(b) * log).exp() * log**j)
+    if a < 0:
+        raise Open("a term that does not fall yet")
+    return arb(0).union((ball_of(Fraction(-j) / b) / arb(1).exp()) ** j)
+
+
+def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:
+    """The sum of terms; the lowest ones are taken into the last that is kept."""
+    parts: dict[Key, list[Coefficient]] = {}
+    for key, c in terms:
+        parts.setdefault(key, []).append(c)
+    added = ((key, _added(parts[key])) for key in sorted(parts, reverse=True))
+    kept = [(key, c) for key, c in added if not c.is_zero]
+    if len(kept) > TERMS:
+        last = kept[TERMS - 1][0]
+        rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(exactly(1), power_of(last, Fraction(-1)))
+        kept = [*kept[: TERMS - 1], (last, Coefficient(rest.enclosure()))]
+    return Asymptotic(tuple(kept), start)
+
+
+def _added(parts: list[Coefficient]) -> Coefficient:
+    """The sum of numbers, those that are exact first."""
+    if len(parts) == 1:
+        return parts[0]
+    exact = _collected(term for c in parts if c.exact is not None for term in c.exact)
+    others = [c.ball for c in parts if c.exact is None]
+    return Coefficient(sum(others, exact.ball)) if others else exact
+
+
+def constant(c: Coefficient, start: Fraction) -> Asymptotic:
+    """A function that is one number, or lies in one ball."""
+    return Asymptotic(() if c.is_zero else ((ONE, c),), start)
+
 
 AT_ZERO = ("exp", "sin", "cos", "sinh", "cosh", "tanh", "atan", "asin")
 CENTRES = {"sqrt": 1, "log": 1, **dict.fromkeys(AT_ZERO, 0)}

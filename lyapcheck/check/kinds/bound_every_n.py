@@ -37,12 +37,11 @@ from lyapcheck.check.kinds.every_n import (
 )
 from lyapcheck.check.kinds.every_n import at_size as identity_at_size
 from lyapcheck.check.kinds.implies import Signs
-from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.letters.entries import Entries, compared
 from lyapcheck.check.letters.grammar import DIMENSION, LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.replay import coordinates
+from lyapcheck.check.replay import coordinates, require_distinct
 from lyapcheck.check.statement import OfTerms, Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 

@@ -14,10 +14,9 @@ from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import rational_value
 from lyapcheck.check.expressions.text import expression_text
-from lyapcheck.check.kinds.parts import relation_text, require_distinct, require_relations, terms_of
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.replay import require_bits
+from lyapcheck.check.replay import relation_text, require_bits, require_distinct, require_relations, terms_of
 from lyapcheck.check.statement import OfTerms, Proof, Relation
 from lyapcheck.check.verify import Accepted, rule
 

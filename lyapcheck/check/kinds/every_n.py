@@ -16,13 +16,12 @@ from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.identity import NormalForm
-from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.letters.entries import Entries, exact
 from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import coordinates
+from lyapcheck.check.replay import coordinates, require_distinct
 from lyapcheck.check.statement import OfTerms, Point, Proof
 from lyapcheck.check.verify import Accepted, rule
 

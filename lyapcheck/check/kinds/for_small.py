@@ -22,9 +22,16 @@ from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside
 from lyapcheck.check.kinds.implies import SignIdentity, Signs, require_identity
-from lyapcheck.check.kinds.parts import domain_of, range_text, relation_text, require_relations, terms_of
 from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.replay import coordinates, require_inside
+from lyapcheck.check.replay import (
+    coordinates,
+    domain_of,
+    range_text,
+    relation_text,
+    require_inside,
+    require_relations,
+    terms_of,
+)
 from lyapcheck.check.statement import OfTerms, Point, Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 

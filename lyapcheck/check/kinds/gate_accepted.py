@@ -16,6 +16,7 @@ from flint import arb
 
 from lyapcheck.check.expressions.text import diagonal_text, list_text, number_text
 from lyapcheck.check.judgement import LARGEST, MAX_ARM, TORQUE
+from lyapcheck.check.kinds.decreasing import OfLoop
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.identity import SameHarmonics
 from lyapcheck.check.kinds.inertia import (
@@ -26,7 +27,6 @@ from lyapcheck.check.kinds.inertia import (
     variable_names,
     written_out,
 )
-from lyapcheck.check.kinds.of_loop import OfLoop
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.constants import hyperbolic_constants

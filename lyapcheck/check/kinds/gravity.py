@@ -24,9 +24,8 @@ from lyapcheck.check.kinds.inertia import (
     written_out,
 )
 from lyapcheck.check.loop.arithmetic import Arithmetic
-from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.chain import RigidLink, lever_bound, pulls
 from lyapcheck.check.loop.field import MOST_BOXES, Field, Value, size_of, value_at
-from lyapcheck.check.loop.links import lever_bound, pulls
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
 from lyapcheck.check.refusal import require

@@ -20,12 +20,11 @@ from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.inertia import PostureWitness, require_posture
-from lyapcheck.check.kinds.parts import domain_of, range_text, require_distinct
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, combination
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import Pointwise
+from lyapcheck.check.replay import Pointwise, domain_of, range_text, require_distinct
 from lyapcheck.check.statement import Ends, Proof, Total, Variable
 from lyapcheck.check.verify import Accepted, rule
 

@@ -12,10 +12,9 @@ from lyapcheck.check.expressions.domain import Comparison, Interval
 from lyapcheck.check.expressions.expression import Unsupported, evaluate
 from lyapcheck.check.expressions.expression import variables as variables_of
 from lyapcheck.check.expressions.normal_form import RationalAlgebra, room_for
-from lyapcheck.check.kinds.parts import conditional_text, domain_of, require_relations
 from lyapcheck.check.numbers.polynomials import Enclosure, rational
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import Pointwise
+from lyapcheck.check.replay import Pointwise, conditional_text, domain_of, require_relations
 from lyapcheck.check.statement import Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 

@@ -5,17 +5,161 @@ References: ``reyes2019family`` (11), (12), (15).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from math import sqrt
+
+from flint import arb
 
 from lyapcheck.check.loop import storage
-from lyapcheck.check.loop.boxes import Box, leaves
-from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.loop.arithmetic import BALLS
+from lyapcheck.check.loop.boxes import Box, Side, leaves
+from lyapcheck.check.loop.chain import RigidLink, makes
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, masses_at_corners
-from lyapcheck.check.loop.error_form import SCALE, BoxForm
-from lyapcheck.check.loop.links import makes
+from lyapcheck.check.loop.field import ball
+from lyapcheck.check.loop.schur import inverse_one_plus_root, square, unit_vector
 from lyapcheck.check.loop.storage import Shown
-from lyapcheck.check.numbers.balls import precision
+from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.refusal import require
+
+# --- dV/dt < 0 everywhere over boxes of e alone, from bounds of M(q) and its rates: for arms of many joints.
+#
+# Let 0 ≼ M ≼ U and ±½ ∂M/∂q_j ≼ Q_j for all q, with diagonal U and Q_j. In p = M N w the arm's own part of
+# S is
+#
+#     S = C(q,h) − M N,   N = H' − h êᵀ/(1+r),   pᵀU⁻¹p ≤ pᵀN w,
+#
+# and N does not depend on q. What C(q,h) does is symmetric, or cubic in h:
+#
+#     |wᵀC(q,h)w| ≤ Σ_j |h_j| wᵀQ_j w,      |hᵀC(q,h)w| = |½ Σ_j w_j hᵀ(∂M/∂q_j)h| ≤ Σ_j |w_j| hᵀQ_j h.
+#
+# After σ = h and the damping are eliminated as in ``lyapcheck.check.loop``, with h_i² ≤ H_i |σ_i| and
+# |σ_i w_j| ≤ ½(t σ_i² + w_j²/t), t = t_ij, one form in (w, p) is left for each e, with a multiplier l:
+#
+#     wᵀWw − 2ε pᵀG w + ε pᵀZ p ≻ 0,      G = ½(I + l N) − ¼ ε B κ⁻¹,      Z = l U⁻¹ − ¼ ε² κ⁻¹,
+#     W = B − ε Σ_j |h_j| Q_j − ½ ε² Σ_i Q_ji H_i/t − ¼ ε B κ⁻¹ B,      κ_i = k̃_i − ½ ε Σ_j Q_ji H_i t,
+#     k̃_i = k_pi − ¼ ε (L k_vi + b_i' − b_i),
+#
+# W, Z and κ diagonal. B ≥ b stands at its lower ends b: the rest costs at most ¼ ε² (b' − b) h².
+# With a = εσ and π = εp held, each term of
+#
+#     wᵀ(W + ¼ ε B κ⁻¹ B)w − aᵀBw + aᵀκa/ε + πᵀa − πᵀ(I + l N)w + l πᵀU⁻¹π/ε
+#
+# falls as ε grows, for any t_ij > 0, so that a box is judged at its largest ε. Over a box
+# N = N₀ ± Δ, and |p_i Δ_ij w_j| ≤ ½ Δ_ij (x p_i² + w_j²/x) for any x > 0. Signs of e go over to w and p, so
+# that e ≥ 0 is enough.
+#
+# M is affine in each uncertain parameter, hence a mean of its values at the corners of their ranges; a bound
+# that holds at the corners holds in between.
+#
+# References: ``reyes2019family`` (11), (12), (15).
+
+
+FIRST, SCALES = ord("0"), 64
+"""The signs for scales: from "0" on, each √2 times the one before, 1 in the middle."""
+SCALE = {chr(FIRST + k): sqrt(2.0) ** (k - SCALES // 2) for k in range(SCALES)}
+_KEPT = 1 << 16
+Row = tuple[Fraction, ...]
+
+
+class BoxForm:
+    """The form in (w, p) over boxes of e ≥ 0.
+
+    Args:
+        loop: arm, controller and ε₀.
+        inertia: diagonal of U.
+        rates: diagonals of Q_2, …, Q_n; M does not depend on q_1.
+    """
+
+    def __init__(self, loop: ClosedLoop, inertia: Row, rates: Sequence[Row]) -> None:
+        self.loop, self.n = loop, loop.n
+        self.eps0 = to_arb(loop.eps0)
+        self.U = [to_arb(x) for x in inertia]
+        self.Q = [[arb(0)] * loop.n, *([to_arb(x) for x in row] for row in rates)]
+        self.b = [to_arb(low) for low, _ in loop.friction]
+        self.kp = [to_arb(k) for k in loop.kp]
+        rows = zip(loop.kv, loop.friction, strict=True)
+        self.fast = [to_arb((loop.member.L * k + high - low) / 4) for k, (low, high) in rows]
+        self.radius_squared = arb(loop.radius) ** 2
+        kept: Callable[[Callable[[Side], arb]], Callable[[Side], arb]] = lru_cache(maxsize=_KEPT)
+        self.h = kept(lambda side: _ends(loop.member.h(ball(side))))
+        self.dh = kept(lambda side: loop.member.dh(ball(side)))
+        self.square = kept(square)
+        self.root = [arb(float(b.sqrt())) for b in self.b]
+
+    def proves(self, box: Box, scales: str) -> bool:
+        """Whether the form is positive definite at every point of the box, or all of it lies beyond R."""
+        r_squared = sum((self.square(side) for side in box), arb(0))
+        if r_squared >= self.radius_squared:
+            return True
+        l, *sizes = (arb(SCALE[sign]) for sign in scales)
+        rows = self.rows(box, inverse_one_plus_root(r_squared), l, sizes[: self.n], sizes[self.n :])
+        return rows is not None and BALLS.positive_definite(rows)
+
+    def rows(
+        self, box: Box, shrink: arb, l: arb, w: Sequence[arb], p: Sequence[arb]
+    ) -> list[list[arb]] | None:
+        """W − ε GᵀZ⁻¹G, the entries on and below the diagonal; ``None`` where κ or Z may not be positive."""
+        joints, b, Q = range(self.n), self.b, self.Q
+        eps = (self.eps0 * shrink).upper()
+        h = [self.h(side) for side in box]
+        H = [high for _, high in h]
+        k = [kp - eps * fast for kp, fast in zip(self.kp, self.fast, strict=True)]
+        if not all(x > 0 for x in k):
+            return None
+        # t_ij = stiff_i/root_j, any positive numbers: k̃_i and b_j lose the same share
+        stiff = [arb(float((eps * x).sqrt())) for x in k]
+        kappa = [
+            k[i] - eps / 2 * H[i] * stiff[i] * _sum(Q[j][i] / self.root[j] for j in joints) for i in joints
+        ]
+        if not all(x > 0 for x in kappa):
+            return None
+        N, spread = self._between(box, h, shrink)
+        Z = [
+            l / self.U[i] - eps**2 / (4 * kappa[i]) - l / 2 * _sum(spread[i][j] * w[j] for j in joints) / p[i]
+            for i in joints
+        ]
+        if not all(x > 0 for x in Z):
+            return None
+        cubic = [H[i] / stiff[i] for i in joints]
+        W = [
+            b[j]
+            - eps * _sum(H[i] * Q[i][j] for i in joints)
+            - eps**2 / 2 * _sum(Q[j][i] * cubic[i] for i in joints) * self.root[j]
+            - eps * b[j] ** 2 / (4 * kappa[j])
+            - eps * l / 2 * _sum(spread[i][j] * p[i] for i in joints) / w[j]
+            for j in joints
+        ]
+        G = [[l / 2 * x for x in row] for row in N]
+        for i in joints:
+            G[i][i] += arb(1) / 2 - eps * b[i] / (4 * kappa[i])
+        scaled = [[eps / Z[i] * x for x in G[i]] for i in joints]
+        rows = [[-_sum(scaled[i][j] * G[i][k] for i in joints) for k in range(j + 1)] for j in joints]
+        for j in joints:
+            rows[j][j] += W[j]
+        return rows
+
+    def _between(
+        self, box: Box, h: Sequence[tuple[arb, arb]], shrink: arb
+    ) -> tuple[list[list[arb]], list[list[arb]]]:
+        """The middle and the spread of N = H' − h êᵀ/(1+r); h and ê are not negative."""
+        pull = [_ends(unit * shrink) for unit in unit_vector(box, self.square)]
+        N = [[-(low * x).union(high * y) for x, y in pull] for low, high in h]
+        for i, side in enumerate(box):
+            N[i][i] += self.dh(side)
+        return [[entry.mid() for entry in row] for row in N], [[entry.rad() for entry in row] for row in N]
+
+
+def _ends(x: arb) -> tuple[arb, arb]:
+    """Both ends of a ball of something that is not negative."""
+    return x.lower().max(arb(0)), x.upper()
+
+
+def _sum(parts: Iterator[arb]) -> arb:
+    return sum(parts, arb(0))
+
 
 BITS = 64
 

@@ -26,9 +26,9 @@ from lyapcheck.check.kinds.inertia import (
     variable_names,
     written_out,
 )
-from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.kinds.stability import ByObligations, Stable, all_proved
 from lyapcheck.check.refusal import require
+from lyapcheck.check.replay import require_distinct
 from lyapcheck.check.statement import Monomials, Relation, Statement, Total
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.facts import constants_of

@@ -10,10 +10,9 @@ from dataclasses import replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.loop.boxes import Box, halves, leaves
-from lyapcheck.check.loop.centred import CentredEvaluator
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.scalar import certifies
-from lyapcheck.check.loop.schur import Evaluator
+from lyapcheck.check.loop.schur import CentredEvaluator, Evaluator
 from lyapcheck.check.numbers.balls import precision
 
 # --- A judgement in parts, each by a process of its own: verdicts come sooner and are the same.

@@ -17,8 +17,8 @@ from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.parts import require_distinct
 from lyapcheck.check.refusal import require
+from lyapcheck.check.replay import require_distinct
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.system import System

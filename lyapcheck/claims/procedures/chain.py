@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.check.kinds.chain import ChainBelow, ChainGravityBelow
-from lyapcheck.check.kinds.chain_coriolis import ChainCoriolisBelow
+from lyapcheck.check.kinds.chain import ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.claims.search_result import (
     SearchResult,

@@ -1,7 +1,7 @@
 """Inequalities in one variable, on an interval, a half-line or the whole line.
 
 Search comes first: a sample of exact points, each tried in balls. Where it finds nothing, the domain is cut
-at 0, the negative side is reflected, and each piece is proved by the steps of ``check.inequality``.
+at 0, the negative side is reflected, and each piece is proved by the steps of ``check.kinds.for_all``.
 
 References: ``reyes2019family`` (7), (8); ``tucker2011validated``.
 """
@@ -13,7 +13,6 @@ from fractions import Fraction
 from flint import ctx
 
 from lyapcheck.check.expressions.expression import Tree, Unsupported
-from lyapcheck.check.expressions.inequality import positive_at, positive_on_box, sign_everywhere
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
 from lyapcheck.check.kinds.for_all import (
     Boxes,
@@ -22,6 +21,9 @@ from lyapcheck.check.kinds.for_all import (
     Stretch,
     Sturm,
     pieces,
+    positive_at,
+    positive_on_box,
+    sign_everywhere,
     zero_must_be_positive,
 )
 from lyapcheck.check.statement import Piece

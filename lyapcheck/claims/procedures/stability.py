@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from lyapcheck.check.kinds.property import Property
-from lyapcheck.check.kinds.stability import ByObligations, Stable
+from lyapcheck.check.kinds.stability import ByObligations, Property, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.systems.obligations import never_met
 from lyapcheck.claims.procedures.implication import counterexample

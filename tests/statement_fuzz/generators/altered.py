@@ -49,7 +49,7 @@ class Altered:
         try:
             self.statement.require_well_formed()
             verdict = Verdict(verify(self.statement, self.proof).verdict)
-        except Exception as refusal:  # as ``check.judging`` does
+        except Exception as refusal:  # as ``check.certificate`` does
             reason = str(refusal)
         point = {name: str(value) for name, value in getattr(self.proof, "point", ())}
         witness = {"point": point} if isinstance(self.proof, Witness) else None

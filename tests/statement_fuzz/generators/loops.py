@@ -6,8 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
-from lyapcheck.check.kinds.property import Property
-from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stability import Property, Stable
 from lyapcheck.claims import Relation
 from lyapcheck.claims.claim import Case
 from tests.statement_fuzz.generators import Made, generates
