@@ -1,15 +1,18 @@
-"""Computing time: of this process and those that it has started, whatever the clock on the wall says."""
+"""Processes: how long they compute, whatever the clock on the wall says, and work shared between some."""
 
 from __future__ import annotations
 
 import os
 import subprocess
+import sys
 import time
+from contextlib import contextmanager
+from functools import partial
 from multiprocessing import active_children
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
 _SCHEDULED = 2
@@ -68,3 +71,39 @@ def run_within(command: Sequence[str], seconds: float | None, cwd: Path) -> subp
                     return subprocess.CompletedProcess(command, process.returncode, out, err)
         finally:
             process.kill()
+
+
+@contextmanager
+def shared_between(jobs: int) -> Iterator[None]:
+    """Let the checker share large judgements between some processes inside; verdicts are the same."""
+    from lyapcheck.check.loop.proof import SHARE
+
+    token = SHARE.set(partial(_all_parts, jobs))
+    try:
+        yield
+    finally:
+        SHARE.reset(token)
+
+
+def _all_parts(jobs: int, judge: Callable[..., bool], *about: object) -> bool:
+    if jobs <= 1:
+        return judge(*about, 0, 1)
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        with main_unnamed():
+            parts = [pool.submit(judge, *about, part, jobs) for part in range(jobs)]
+        return all(part.result() for part in parts)
+
+
+@contextmanager
+def main_unnamed() -> Iterator[None]:
+    """Hide where the main module came from, so that processes spawned inside do not run a caller's script."""
+    main = sys.modules["__main__"]
+    file, main.__spec__, spec = vars(main).pop("__file__", None), None, main.__spec__
+    try:
+        yield
+    finally:
+        main.__spec__ = spec
+        vars(main).update({} if file is None else {"__file__": file})

@@ -15,8 +15,8 @@ from lyapcheck import store
 from lyapcheck.certificate import Certificate
 from lyapcheck.check import certificate as read
 from lyapcheck.check.certificate import certificate_of, judge
-from lyapcheck.check.loop.proof import shared_between
 from lyapcheck.check.refusal import Refused
+from lyapcheck.computing import shared_between
 
 T = TypeVar("T")
 BROKEN = (Refused, AttributeError, KeyError, TypeError, ValueError, ZeroDivisionError)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress
 from lyapcheck.answers.derive import Derivation
-from lyapcheck.check.loop.proof import main_unnamed
+from lyapcheck.computing import main_unnamed
 from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.drawings import (

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import LargerKv, PositiveAndDecreasing, statement_of
-from lyapcheck.check.loop.proof import shared_between
+from lyapcheck.computing import shared_between
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 
 if TYPE_CHECKING:

@@ -314,7 +314,7 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Pa
         "from fractions import Fraction\n"
         "from lyapcheck import load_robot, paper_gain_file, read_gain_file\n"
         "from lyapcheck.check.loop import proof\n"
-        "from lyapcheck.check.loop.proof import shared_between\n"
+        "from lyapcheck.computing import shared_between\n"
         "from lyapcheck.search.branch_and_bound import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
         "from lyapcheck.search.schur import SchurProblem\n"

@@ -13,7 +13,7 @@ from typing import Any
 
 from lyapcheck import store
 from lyapcheck.answers.sweep.question import Answered, Question, answered, arm
-from lyapcheck.check.loop.proof import main_unnamed
+from lyapcheck.computing import main_unnamed
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.extensions import modules
 from lyapcheck.libraries import missing

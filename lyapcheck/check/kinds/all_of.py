@@ -53,7 +53,6 @@ class AllOf(Total):
     parts: tuple[tuple[str, Statement], ...]
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require(len(self.parts) > 0, "parts", "none", "a conjunction needs at least one part")
         said: dict[str, tuple[str, object]] = {}
         for name, part in self.parts:
@@ -65,7 +64,6 @@ class AllOf(Total):
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
-        """Those of the parts."""
         return tuple(pair for _, part in self.parts for pair in part.theorems)
 
     def decided(self, proof: Proof) -> Iterator[tuple[int, Statement, Proof]]:
@@ -83,7 +81,6 @@ class AllOf(Total):
 
     @property
     def granted(self) -> tuple[str, ...]:
-        """What the parts take for granted."""
         return tuple(dict.fromkeys(line for _, part in self.parts for line in part.granted))
 
     def text(self) -> str:

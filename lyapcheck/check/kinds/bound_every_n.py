@@ -69,7 +69,6 @@ class BoundEveryN(OfTerms):
         return EveryN(self.left, ("num", "0"), self.symmetric, self.rates, self.given)
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         self.identity.require_well_formed()
         used = letters(self.left)
         for known, size in self.norms:
@@ -112,7 +111,6 @@ class BoundEveryN(OfTerms):
         return {name for tree in self.terms_with_values() for name in variables(tree)}
 
     def text(self) -> str:
-        """The statement in one line."""
         sides = f"{expression_text(self.left)} ≤ {expression_text(self.right)}"
         norms = [
             f"{''.join(f'‖{expression_text(letter)}‖' for letter in known)} ≤ {expression_text(size)}"

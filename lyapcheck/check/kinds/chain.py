@@ -47,7 +47,6 @@ class OfLinks(Total):
 
     @property
     def over(self) -> str:
-        """``for all q, …``."""
         entries = [f"link {k + 1}: {_link_text(link)}" for k, link in enumerate(self.links)]
         return f"for all q, with {written_out(entries, f'chain of {len(self.links)} links', self.links, ())}"
 
@@ -78,12 +77,10 @@ class ChainAbove(OfChain):
     low: Fraction
 
     def require_well_formed(self) -> None:
-        """A chain, and a bound that is not negative."""
         super().require_well_formed()
         require(self.low >= 0, "low", self.low, "must not be negative")
 
     def text(self) -> str:
-        """``M(q) ≻ low·I …``."""
         return f"M(q) ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
 
     def attempts(self) -> list[Proof]:
@@ -103,7 +100,6 @@ class ChainBelow(OfChain):
     high: Fraction
 
     def text(self) -> str:
-        """``‖M(q)‖ ≤ high …``."""
         return f"‖M(q)‖ ≤ {number_text(self.high)} {self.over}"
 
     def excess(self, at: PostureWitness) -> arb:
@@ -133,7 +129,6 @@ class ChainGravityBelow(OfChain):
         require(self.high >= 0, "high", self.high, "must not be negative")
 
     def text(self) -> str:
-        """``‖(g1, …)‖ ≤ high …``."""
         names = ", ".join(f"g{i}(q)" for i in self.joints)
         size = f"|{names}|" if len(self.joints) == 1 else f"‖({names})‖"
         return f"{size} ≤ {number_text(self.high)} with free fall {_vector(self.fall)}, {self.over}"
@@ -273,12 +268,10 @@ class ChainCoriolisBelow(OfLinks, Bound):
     high: Fraction
 
     def require_well_formed(self) -> None:
-        """A chain, and a bound that is not negative."""
         super().require_well_formed()
         require(self.high >= 0, "high", self.high, "must not be negative")
 
     def text(self) -> str:
-        """``‖C(q, x)y‖ ≤ high ‖x‖ ‖y‖ …``."""
         bound = f"‖C(q, x)y‖ ≤ {number_text(self.high)} ‖x‖ ‖y‖"
         return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
 

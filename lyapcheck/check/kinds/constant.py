@@ -31,15 +31,12 @@ class Constant(OfTerms):
     relation: Relation
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require_relations([self.relation], [])
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """Both sides."""
         return terms_of([self.relation], {})
 
     def text(self) -> str:
-        """The statement in one line."""
         return relation_text(self.relation)
 
 
@@ -126,7 +123,6 @@ class Agrees(OfTerms):
     solve_for: str | None = None
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         names = [name for name, _ in self.inputs]
         require_distinct("inputs", names)
         require(len(names) <= MAX_INPUTS, "inputs", len(names), f"must be at most {MAX_INPUTS}")
@@ -141,7 +137,6 @@ class Agrees(OfTerms):
         return [(self.formula, {name: Interval(r.lower, r.upper) for (name, _), r in ranges})]
 
     def text(self) -> str:
-        """The statement in one line."""
         inputs = ", ".join(f"{name} = {_printed(value)}" for name, value in self.inputs)
         given = f" for {inputs}" if inputs else ""
         formula, printed = expression_text(self.formula), _printed(self.printed)

@@ -54,7 +54,6 @@ class MassSymmetric(OfArm, Compared):
                 )
 
     def text(self) -> str:
-        """``M(q) = M(q)ᵀ …``."""
         return f"M(q) = M(q)ᵀ {super().over}"
 
 
@@ -136,7 +135,6 @@ class CoriolisAtRest(_OfCoriolis):
             yield f"C{i + 1}{j + 1}", (), self.symbol(i, j, self.joints)
 
     def text(self) -> str:
-        """``C(q, 0) = 0 …``."""
         return f"C(q, 0) = 0 {self.over}"
 
 
@@ -152,7 +150,6 @@ class RateOfMass(_OfCoriolis):
                     yield f"entry {i + 1}{j + 1}", rates, gap
 
     def text(self) -> str:
-        """``Ṁ(q) = C(q, w) + C(q, w)ᵀ …``."""
         return f"Ṁ(q) = C(q, w) + C(q, w)ᵀ with Ṁ along q̇ = w, and both are symmetric, {self.over}"
 
 
@@ -170,7 +167,6 @@ class RateLessTwiceCoriolis(_OfCoriolis):
                     yield f"entry {i + 1}{j + 1}", rates, mixed([(1, gap), (1, other)])
 
     def text(self) -> str:
-        """``Ṁ(q) − 2C(q, w) is skew-symmetric …``."""
         return f"Ṁ(q) − 2C(q, w) is skew-symmetric with Ṁ along q̇ = w, so that wᵀ[Ṁ − 2C]w = 0, {self.over}"
 
 
@@ -196,7 +192,6 @@ class CoriolisTorque(_OfCoriolis):
                 yield f"row {i + 1}", (j,), self.symbol(i, j, n)
 
     def text(self) -> str:
-        """``C(q, w)w is that of the Christoffel symbols of M …``."""
         return f"C(q, w)w is that of the Christoffel symbols of M, {self.over}"
 
 
@@ -232,7 +227,6 @@ class CoriolisBelow(OfArm, BoundedAbove):
     high: Fraction
 
     def text(self) -> str:
-        """``‖C(q, x)y‖ ≤ high ‖x‖ ‖y‖ …``."""
         bound = f"‖C(q, x)y‖ ≤ {number_text(self.high)} ‖x‖ ‖y‖"
         return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
 

@@ -137,13 +137,11 @@ class Decreasing(OfLoop, Total):
     coupling: tuple[Fraction, ...]
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         super().require_well_formed()
         if self.coupling:
             self.require_one_a_joint("coupling")
 
     def text(self) -> str:
-        """The statement in one line."""
         return (
             "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
             f"asymptotically stable by Lyapunov's direct method: for {self.loop_text()}"
@@ -300,11 +298,9 @@ class DampingBelow(OfLoop, OfTerms):
         require_expressions([self.bound], [])
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """The bound."""
         return [(self.bound, {})]
 
     def text(self) -> str:
-        """The statement in one line."""
         return (
             "for all κ > 0 and ε₀ > 0: if M(q) ≻ 0 and dV/dt < 0 at every state but the origin, for "
             f"{self.gains_text(' and κ K_v with K_v')}, then "

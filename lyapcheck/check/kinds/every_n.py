@@ -90,7 +90,6 @@ class EveryN(OfTerms):
         return [(tree, self.domain) for tree in (self.left, self.right, *known)]
 
     def text(self) -> str:
-        """The statement in one line."""
         sides = f"{expression_text(self.left)} = {expression_text(self.right)}"
         known = "; ".join(known_of(self))
         over = sorts_text(tree for tree, _ in self.terms())

@@ -106,7 +106,6 @@ class ForAll(Pointwise):
     variable: str = "x"
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require_relations([self.relation], [self.variable])
         low, high = self.low, self.high
         endless = (low is None and self.open_low) or (high is None and self.open_high)
@@ -122,16 +121,13 @@ class ForAll(Pointwise):
 
     @property
     def ranges(self) -> dict[str, Interval]:
-        """The one variable over the interval."""
         return {self.variable: self.interval}
 
     @property
     def at_points(self) -> tuple[tuple[()], Comparison]:
-        """The relation, on no hypothesis."""
         return (), self.relation.comparison
 
     def text(self) -> str:
-        """The statement in one line."""
         low = "−∞" if self.low is None else number_text(self.low)
         high = "∞" if self.high is None else number_text(self.high)
         left = "(" if self.open_low or self.low is None else "["

@@ -54,7 +54,6 @@ class ForSmall(OfTerms):
     bounded: tuple[str, ...] = ()
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         names = [*(v.name for v in self.variables), self.small, *self.bounded]
         require_relations((*self.hypotheses, self.conclusion), names)
 
@@ -64,7 +63,6 @@ class ForSmall(OfTerms):
         return terms_of((*self.hypotheses, self.conclusion), domain)
 
     def text(self) -> str:
-        """The statement in one line."""
         over, given = range_text(self.variables), " and ".join(map(relation_text, self.hypotheses))
         unit = f" and all {', '.join(self.bounded)} in (0, 1]" if self.bounded else ""
         return (

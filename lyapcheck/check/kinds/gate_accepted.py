@@ -150,12 +150,10 @@ class GateAccepted(Total):
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
-        """Those of the parts."""
         return tuple(pair for part in self.stability for pair in part.theorems)
 
     @property
     def granted(self) -> tuple[str, ...]:
-        """What ties the numbers to a robot."""
         premise = (
             f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at every posture, for which no g is given"
         )
@@ -163,7 +161,6 @@ class GateAccepted(Total):
         return tuple(dict.fromkeys((TORQUE, *(() if self.gravity else (premise,)), *parts)))
 
     def text(self) -> str:
-        """The statement in one line."""
         limits = ", ".join("none" if x is None else number_text(x) for x in self.limits)
         ranges = [f"{number_text(a)} … {number_text(b)}" for a, b in (*self.viscous, *self.parameters)]
         function = self.family if self.m is None else f"{self.family}_{self.m}"

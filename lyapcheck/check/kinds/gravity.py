@@ -43,7 +43,6 @@ class GravityBelow(BoundedAbove):
     high: Fraction
 
     def require_well_formed(self) -> None:
-        """Polynomials, and a bound that is not negative."""
         require(len(self.gravity) > 0, "gravity", "", "must have an entry")
         require_polynomials(self.gravity, self.joints, self.parameters)
         require(self.high >= 0, "high", self.high, "must not be negative")
@@ -80,7 +79,6 @@ class GravityBelow(BoundedAbove):
         return dot(values, values) - to_arb(self.high**2)
 
     def text(self) -> str:
-        """``‖(g1, …)‖ ≤ high …``."""
         size = "‖g(q)‖" if len(self.gravity) > 1 else "|g(q)|"
         about = gravity_text(self.gravity, self.joints, self.parameters)
         return f"{size} ≤ {number_text(self.high)} for all q, with {about}"
@@ -153,7 +151,6 @@ class GravityOfPotential(Compared):
     parameters: tuple[Ends, ...]
 
     def require_well_formed(self) -> None:
-        """Polynomials."""
         require_polynomials((*self.gravity, self.potential), self.joints, self.parameters)
 
     @property
@@ -169,7 +166,6 @@ class GravityOfPotential(Compared):
             yield f"g{i + 1}", (), mixed([(1, by_parameters(entry, self.joints)), (-1, slope)])
 
     def text(self) -> str:
-        """``g(q) is the gradient of U(q) …``."""
         names = variable_names(self.joints, len(self.parameters))
         potential = written_out(
             [f"U = {polynomial_text(self.potential, names)}"], "potential", self.potential, ()

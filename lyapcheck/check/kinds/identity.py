@@ -57,11 +57,9 @@ class Identity(Pointwise):
 
     @property
     def at_points(self) -> tuple[tuple[()], Comparison]:
-        """Both sides, on no hypothesis."""
         return (), (self.left, "=", self.right)
 
     def text(self) -> str:
-        """``left = right for all …``."""
         sides = f"{expression_text(self.left)} = {expression_text(self.right)}"
         free = sorted(self.names - {variable.name for variable in self.variables})
         over = ", ".join(

@@ -167,21 +167,17 @@ class Implies(Pointwise):
     conclusion: Relation
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require_relations((*self.hypotheses, self.conclusion), [v.name for v in self.variables])
 
     @property
     def ranges(self) -> dict[str, Interval]:
-        """The ranges of the variables."""
         return domain_of(self.variables)
 
     @property
     def at_points(self) -> tuple[tuple[Comparison, ...], Comparison]:
-        """As they are."""
         return tuple(one.comparison for one in self.hypotheses), self.conclusion.comparison
 
     def text(self) -> str:
-        """The statement in one line."""
         return conditional_text(self.variables, self.hypotheses, self.conclusion)
 
 

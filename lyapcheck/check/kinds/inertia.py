@@ -194,7 +194,6 @@ class OfArm(Total):
     parameters: tuple[Ends, ...]
 
     def require_well_formed(self) -> None:
-        """A matrix of polynomials."""
         require_mass(self.mass, self.parameters)
 
     @property
@@ -215,7 +214,6 @@ class OfArm(Total):
 
     @property
     def over(self) -> str:
-        """``for all q …``."""
         return f"for all q, with {mass_text(self.mass, self.parameters)}"
 
     def vector(self, name: str, entries: tuple[Fraction, ...]) -> list[arb]:
@@ -233,16 +231,13 @@ class MassAbove(OfArm, Bounded):
     low: Fraction
 
     def require_well_formed(self) -> None:
-        """A matrix of polynomials, and a bound that is not negative."""
         super().require_well_formed()
         require(self.low >= 0, "low", self.low, "must not be negative")
 
     def text(self) -> str:
-        """``M(q) = M(q)ᵀ ≻ low·I …``."""
         return f"M(q) = M(q)ᵀ ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
-        """See :meth:`Inertia.above`."""
         return self.symmetric.above(self.low, most)
 
     def excess(self, at: PostureWitness) -> arb:
@@ -259,7 +254,6 @@ class MassBelow(OfArm, BoundedAbove):
     high: Fraction
 
     def text(self) -> str:
-        """``‖M(q)‖ ≤ high …``."""
         return f"‖M(q)‖ ≤ {number_text(self.high)} {self.over}"
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:

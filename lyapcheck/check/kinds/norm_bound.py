@@ -34,7 +34,6 @@ class NormBound(Pointwise):
     power: int = 0
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require(1 <= self.n <= MAX_JOINTS, "n", self.n, f"must be from 1 to {MAX_JOINTS}")
         require(self.power in (0, 1), "power", self.power, "must be 0 or 1")
         require_expressions([self.component], ["x"])
@@ -42,7 +41,6 @@ class NormBound(Pointwise):
 
     @property
     def ranges(self) -> dict[str, Interval]:
-        """The entries of x."""
         return dict.fromkeys(entries(self), REALS)
 
     @property
@@ -55,7 +53,6 @@ class NormBound(Pointwise):
         return [(self.component, {}), (self.bound, {})]
 
     def text(self) -> str:
-        """The statement in one line."""
         size = self.bound if self.power == 0 else ("mul", self.bound, ("var", "‖x‖"))
         entry, bound = expression_text(self.component), expression_text(size)
         return f"‖({entry})ᵢ‖ ≤ {bound} for all x in R^{self.n}, x = xᵢ in the i-th entry"

@@ -48,14 +48,12 @@ class Resting(Total):
 
     @property
     def granted(self) -> tuple[str, ...]:
-        """What ties the numbers to a robot."""
         return (
             TORQUE,
             "at rest no torque acts beside (6), g(q) and d; dry friction that holds the robot is part of d",
         )
 
     def text(self) -> str:
-        """The statement in one line."""
         member_m = "" if self.m is None else f"_{self.m}"
         return (
             "at every state of rest of (11) with a torque d on its right, K_p h(e) + d = 0, "

@@ -45,13 +45,11 @@ class Stable(Total):
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
-        """Its own."""
         known = THEOREMS[self.argument.theorem]
         return ((known.name, known.reference),)
 
     @property
     def granted(self) -> tuple[str, ...]:
-        """What holds of the arm and of the letters."""
         return granted_of(self.argument)
 
     @property
@@ -311,7 +309,6 @@ class Property(Total):
 
     @property
     def granted(self) -> tuple[str, ...]:
-        """What holds of the arm and of the letters."""
         return granted_of(self.argument)
 
     def text(self) -> str:

@@ -111,7 +111,6 @@ class StableArm(Total):
 
     @property
     def theorems(self) -> tuple[tuple[str, str], ...]:
-        """That of the argument."""
         return Stable(self.argument).theorems
 
     @property

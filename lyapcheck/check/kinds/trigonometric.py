@@ -34,16 +34,13 @@ class TrigonometricBound(OfTerms):
     entries: tuple[tuple[Tree, Fraction | None], ...]
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require(len(self.entries) > 0, "entries", "", "must be one or more")
         require_expressions(tree for tree, _ in self.entries)
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """The polynomials, for all angles."""
         return [(tree, {}) for tree, _ in self.entries]
 
     def text(self) -> str:
-        """The statement in one line."""
         parts = [
             f"{expression_text(tree)} is bounded"
             if bound is None
@@ -60,16 +57,13 @@ class TrigonometricPositive(OfTerms):
     entries: tuple[Tree, ...]
 
     def require_well_formed(self) -> None:
-        """Refuse what the rules should not have to look at."""
         require(len(self.entries) > 0, "entries", "", "must be one or more")
         require_expressions(self.entries)
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """The polynomials, for all angles."""
         return [(tree, {}) for tree in self.entries]
 
     def text(self) -> str:
-        """The statement in one line."""
         shown = "; ".join(f"{expression_text(tree)} > 0" for tree in self.entries)
         return f"{shown}, for all {_angles(self.entries)}"
 

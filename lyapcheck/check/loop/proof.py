@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from contextvars import ContextVar
 from dataclasses import replace
 
@@ -15,47 +13,6 @@ from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.loop.schur import CentredEvaluator, Evaluator
 from lyapcheck.check.numbers.balls import precision
 
-# --- A judgement in parts, each by a process of its own: verdicts come sooner and are the same.
-
-_JOBS = ContextVar("jobs", default=1)
-
-
-@contextmanager
-def shared_between(jobs: int) -> Iterator[None]:
-    """Let large judgements be shared between some processes inside."""
-    token = _JOBS.set(jobs)
-    try:
-        yield
-    finally:
-        _JOBS.reset(token)
-
-
-def all_parts(judge: Callable[..., bool], *about: object) -> bool:
-    """Whether ``judge(*about, part, parts)`` holds for every part from 0 on."""
-    jobs = _JOBS.get()
-    if jobs <= 1:
-        return judge(*about, 0, 1)
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        with main_unnamed():
-            parts = [pool.submit(judge, *about, part, jobs) for part in range(jobs)]
-        return all(part.result() for part in parts)
-
-
-@contextmanager
-def main_unnamed() -> Iterator[None]:
-    """Hide where the main module came from, so that processes spawned inside do not run a caller's script."""
-    main = sys.modules["__main__"]
-    file, main.__spec__, spec = vars(main).pop("__file__", None), None, main.__spec__
-    try:
-        yield
-    finally:
-        main.__spec__ = spec
-        vars(main).update({} if file is None else {"__file__": file})
-
-
 BITS = 64
 BLOCK = 64
 MORE_HALVINGS = 12
@@ -64,26 +21,23 @@ MOST_CENTRED = 2
 """Joints up to which slopes cost less than the smaller boxes that go without."""
 WORTH_SHARING = 20_000
 """Characters of a tree from which a second process pays for its start."""
+SHARE: ContextVar[Callable[..., bool]] = ContextVar(
+    "share", default=lambda judge, *about: judge(*about, 0, 1)
+)
+"""Whether ``judge(*about, part, parts)`` holds for every part from 0 on; here there is one."""
 
 
 def proves(loop: ClosedLoop, tree: str) -> bool:
     """Whether a tree of boxes proves dV/dt < 0 at every state but the origin.
 
-    Args:
-        loop: arm, controller and ε₀.
-        tree: in preorder, a digit for the side of ``loop.start`` that is cut, a dot for a leaf.
-
-    Returns:
-        ``True`` only if proved; ``False`` says nothing about the statement.
-
-    Raises:
-        BrokenTree: the text is not a tree of this box.
+    The tree is in preorder, a digit for the side of ``loop.start`` that is cut, a dot for a leaf; raises
+    ``BrokenTree`` if it is none. ``False`` says nothing about the statement.
 
     Soundness: what lies outside the start is an image under a symmetry or has ‖e‖ ≥ R; the leaves cover it.
     """
     if len(tree) < WORTH_SHARING:
         return proves_part(loop, tree, 0, 1)
-    return all_parts(proves_part, replace(loop), tree)  # the copy leaves behind what the loop has computed
+    return SHARE.get()(proves_part, replace(loop), tree)  # the copy leaves behind what the loop has computed
 
 
 def proves_part(loop: ClosedLoop, tree: str, part: int, parts: int) -> bool:
