@@ -8,15 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import fields
+from functools import partial
+from operator import eq, ge, le
 from typing import Any
 
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Statement
-
-
-def _same(shown: Any, asked: Any) -> bool:
-    return bool(shown == asked)
 
 
 def _wider(shown: Any, asked: Any) -> bool:
@@ -26,27 +24,12 @@ def _wider(shown: Any, asked: Any) -> bool:
     )
 
 
-def _at_least(shown: Any, asked: Any) -> bool:
-    """No number that is shown is below the one that was asked for."""
-    return _each(shown, asked, lambda a, b: a >= b)
-
-
-def _at_most(shown: Any, asked: Any) -> bool:
-    """No number that is shown is above the one that was asked for."""
-    return _each(shown, asked, lambda a, b: a <= b)
-
-
 def _each(shown: Any, asked: Any, holds: Callable[[Any, Any], bool]) -> bool:
     """``None`` asks nothing, and shows nothing."""
     if isinstance(asked, tuple):
         same = isinstance(shown, tuple) and len(shown) == len(asked)
         return same and all(_each(a, b, holds) for a, b in zip(shown, asked, strict=True))
     return asked is None or (shown is not None and holds(shown, asked))
-
-
-def _among(shown: Any, asked: Any) -> bool:
-    """Each condition that was asked about is among those that are shown, in the same order."""
-    return [one for one in shown if one in asked] == list(asked)
 
 
 def _each_covers(shown: Any, asked: Any) -> bool:
@@ -60,6 +43,9 @@ def _each_covers(shown: Any, asked: Any) -> bool:
 
 
 Row = Callable[[Any, Any], bool]
+_at_least: Row = partial(_each, holds=ge)
+_at_most: Row = partial(_each, holds=le)
+_same: Row = eq
 _ARM: dict[str, Row] = {"mass": _same, "parameters": _wider}
 _LOOP: dict[str, Row] = _ARM | {"viscous": _wider, **dict.fromkeys(("family", "m", "kp", "kv"), _same)}
 _CHAIN: dict[str, Row] = {"links": _same}
@@ -86,8 +72,8 @@ ROWS: dict[str, dict[str, Row]] = {
     # no limit is asked as ``None``. But k_g is a
     # bound in two directions, of gravity from above and of the gains from below, and so the same.
     "GateAccepted": dict.fromkeys(("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv"), _same)
-    | {"parameters": _wider, "viscous": _wider, "limits": _at_most, "conditions": _among}
-    | {"stability": _each_covers},
+    | {"parameters": _wider, "viscous": _wider, "limits": _at_most, "stability": _each_covers}
+    | {"conditions": lambda shown, asked: [one for one in shown if one in asked] == [*asked]},
     "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),
 }
 """For each kind, how a field that is shown must stand to the one that was asked for.
@@ -109,8 +95,11 @@ def require_covered(shown: Statement, asked: Statement) -> None:
     """
     kind = type(asked).__name__
     require(type(shown) is type(asked), "statement", type(shown).__name__, f"was asked for as {kind}")
-    if isinstance(shown, AllOf) and isinstance(asked, AllOf):
-        _require_parts(shown, asked)
+    if isinstance(shown, AllOf) and isinstance(asked, AllOf):  # each part covers the one of that name
+        names = [", ".join(name for name, _ in whole.parts) for whole in (shown, asked)]
+        require(names[0] == names[1], "parts", names[0], f"must be {names[1]}")
+        for (_, have), (_, want) in zip(shown.parts, asked.parts, strict=True):
+            require_covered(have, want)
         return
     if shown == asked:
         return
@@ -121,11 +110,3 @@ def require_covered(shown: Statement, asked: Statement) -> None:
         require(row is not None, f"{kind}.{one.name}", "", "has no direction in which one covers the other")
         assert row is not None
         require(row(have, want), f"{kind}.{one.name}", have, f"does not cover {want}")
-
-
-def _require_parts(shown: AllOf, asked: AllOf) -> None:
-    """Each part of a conjunction covers the part of that name."""
-    names = [", ".join(name for name, _ in whole.parts) for whole in (shown, asked)]
-    require(names[0] == names[1], "parts", names[0], f"must be {names[1]}")
-    for (_, have), (_, want) in zip(shown.parts, asked.parts, strict=True):
-        require_covered(have, want)

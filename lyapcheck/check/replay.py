@@ -123,13 +123,12 @@ def relation_text(relation: Relation) -> str:
 
 def range_text(variables: Iterable[Variable]) -> str:
     """``x in R, y > 0``."""
-    return ", ".join(map(_range, variables))
-
-
-def _range(variable: Variable) -> str:
-    if variable.low is None:
-        return f"{variable.name} in R"
-    return f"{variable.name} {'>' if variable.strict else '≥'} {number_text(variable.low)}"
+    return ", ".join(
+        f"{one.name} in R"
+        if one.low is None
+        else f"{one.name} {'>' if one.strict else '≥'} {number_text(one.low)}"
+        for one in variables
+    )
 
 
 def conditional_text(

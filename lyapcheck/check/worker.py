@@ -45,9 +45,11 @@ def serve(limits: Limits) -> None:
     with verify.each_once():
         while line := requests.readline():
             request = json.loads(line)
-            _limit_seconds(limits)
+            if resource is not None:  # on what this certificate may take, above what was used before
+                used = resource.getrusage(resource.RUSAGE_SELF)
+                _lower(resource.RLIMIT_CPU, ceil(used.ru_utime + used.ru_stime) + limits.seconds)
             finding = asdict(certificate.judged(requests.read(request["size"]), request["full"]))
-            last = _is_spent(limits)
+            last = _most_memory() * SHARE > limits.memory * 2**20
             _send(answers, {"finding": finding, "last": last})
             if last:
                 return
@@ -75,18 +77,6 @@ def _lower(limit: int, wanted: int) -> None:
     """Set a limit of the system, within what the process may."""
     hard = resource.getrlimit(limit)[1]
     resource.setrlimit(limit, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
-
-
-def _limit_seconds(limits: Limits) -> None:
-    """The limit of the system on what this certificate may take, above what was used before."""
-    if resource is not None:
-        used = resource.getrusage(resource.RUSAGE_SELF)
-        _lower(resource.RLIMIT_CPU, ceil(used.ru_utime + used.ru_stime) + limits.seconds)
-
-
-def _is_spent(limits: Limits) -> bool:
-    """Whether the process has grown so much that the next certificate would have less memory."""
-    return _most_memory() * SHARE > limits.memory * 2**20
 
 
 def _most_memory() -> int:

@@ -16,7 +16,6 @@ from lyapcheck.check.expressions.normal_form import Ratio
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm, leading_term
 from lyapcheck.check.kinds.for_small import signs_of as small_signs
 from lyapcheck.check.kinds.implies import Implies, SignIdentity, Signs, signs_of
-from lyapcheck.check.kinds.implies import _below as below
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.kernel.statements import small_hypotheses
@@ -175,9 +174,8 @@ def _generators(variables: Sequence[Variable], signs: Signs) -> tuple[list[str],
 
 
 def _below(signs: Signs, index: int) -> Fraction:
-    """The number by which a root was shifted."""
-    value = below(Enclosure.from_arb(signs.algebra.constants()[index]).lower)
-    return Fraction(int(value.p), int(value.q))
+    """The number by which `Signs` has shifted a root."""
+    return Fraction(int(Enclosure.from_arb(signs.algebra.constants()[index]).lower * 16), 16)
 
 
 def _gap(relation: Relation, signs: Signs, plain: Sequence[str]) -> tuple[str, str]:

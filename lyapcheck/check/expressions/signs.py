@@ -109,60 +109,38 @@ def by_value(tree: Tree, domain: Domain) -> Signs:
     names = variables(tree)
     if not names:
         return _of_number(tree)
-    result = _of_polynomial(tree, domain) & _of_all_values(tree, names, domain)
+    result = _of_polynomial(tree, domain)
+    with ctx.workprec(BITS[0]):  # over the whole domain, in which a sine lies between −1 and 1
+        result &= _sign_of(ball(tree, {name: _ball_over(domain.get(name, REALS)) for name in names}))
     if len(result) > 1 and len(names) == 1:
         (name,) = names
         result &= _over_pieces(tree, name, domain.get(name, REALS))
     return result
 
 
-def _sum(reader: _Reader, rest: list[Any]) -> Signs:
-    parts = [reader.of(part) for part in rest]
+def _sum(parts: list[Signs]) -> Signs:
     for sign in (1, -1):
         if all(part <= {0, sign} for part in parts):
             return frozenset([sign]) if any(part == {sign} for part in parts) else frozenset([0, sign])
     return ANY
 
 
-def _product(reader: _Reader, rest: list[Any]) -> Signs:
-    result = PLUS
-    for part in rest:
-        result = frozenset(a * b for a, b in product(result, reader.of(part)))
-    return result
-
-
-def _quotient(reader: _Reader, rest: list[Any]) -> Signs:
-    top, bottom = reader.of(rest[0]), reader.of(rest[1]) - {0}
-    return frozenset(a * b for a, b in product(top, bottom))
-
-
-def _power(reader: _Reader, rest: list[Any]) -> Signs:
-    base, k = reader.of(rest[0]), rest[1]
-    return frozenset(sign**k for sign in base)
-
-
-def _absolute(reader: _Reader, rest: list[Any]) -> Signs:
-    return frozenset(abs(sign) for sign in reader.of(rest[0]))
-
-
-def _root(reader: _Reader, rest: list[Any]) -> Signs:
-    return reader.of(rest[0]) & NOT_NEGATIVE
-
-
-def _dot(reader: _Reader, rest: list[Any]) -> Signs:
-    return NOT_NEGATIVE if rest[0] == rest[1] else ANY
+def _times(first: Signs, *others: Signs) -> Signs:
+    for other in others:
+        first = frozenset(a * b for a, b in product(first, other))
+    return first
 
 
 RULES: dict[str, Callable[[_Reader, list[Any]], Signs]] = {
     "neg": lambda reader, rest: frozenset(-sign for sign in reader.of(rest[0])),
-    "add": _sum,
-    "mul": _product,
-    "div": _quotient,
-    "pow": _power,
-    "abs": _absolute,
-    "sqrt": _root,
+    "add": lambda reader, rest: _sum([reader.of(part) for part in rest]),
+    "mul": lambda reader, rest: _times(PLUS, *map(reader.of, rest)),
+    "div": lambda reader, rest: _times(reader.of(rest[0]), reader.of(rest[1]) - {0}),
+    "pow": lambda reader, rest: frozenset(sign ** rest[1] for sign in reader.of(rest[0])),
+    "abs": lambda reader, rest: frozenset(abs(sign) for sign in reader.of(rest[0])),
+    "sqrt": lambda reader, rest: reader.of(rest[0]) & NOT_NEGATIVE,
     "acos": lambda reader, rest: NOT_NEGATIVE,
-    "dot": _dot,
+    "dot": lambda reader, rest: NOT_NEGATIVE if rest[0] == rest[1] else ANY,
 }
 
 
@@ -181,12 +159,6 @@ def _of_number(tree: Tree) -> Signs:
             if len(result) == 1:
                 return result
     return ANY
-
-
-def _of_all_values(tree: Tree, names: set[str], domain: Domain) -> Signs:
-    """The sign of the ball over the whole domain, in which a sine lies between −1 and 1."""
-    with ctx.workprec(BITS[0]):
-        return _sign_of(ball(tree, {name: _ball_over(domain.get(name, REALS)) for name in names}))
 
 
 def _ball_over(interval: Interval) -> arb:
@@ -213,7 +185,7 @@ def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
     if ratio.top == 0:
         return frozenset([0])
     top, bottom = (_of_terms(part, algebra, domain) for part in (ratio.top, ratio.bottom))
-    result = frozenset(a * b for a, b in product(top, bottom - {0}))
+    result = _times(top, bottom - {0})
     short = max(map(max, (*ratio.top.monoms(), *ratio.bottom.monoms())), default=0) <= MAX_EXPONENT
     if len(result) > 1 and short and not algebra.uses and len(algebra.names) == 1:
         interval = domain.get(algebra.names[0], REALS)
@@ -245,11 +217,7 @@ def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) 
                 result = frozenset(a * b ** int(e) for a, b in product(result, own))
         return result
 
-    parts = [frozenset(_sign(c) * s for s in of_monomial(e)) for e, c in shifted.items()]
-    for sign in (1, -1):
-        if all(part <= {0, sign} for part in parts):
-            return frozenset([sign]) if any(part == {sign} for part in parts) else frozenset([0, sign])
-    return ANY
+    return _sum([frozenset(_sign(c) * s for s in of_monomial(e)) for e, c in shifted.items()])
 
 
 def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:

@@ -33,8 +33,12 @@ def expression_text(tree: Tree) -> str:
 
 def _text(tree: Tree) -> Text:
     kind, *rest = tree
+    if kind == "num":
+        shown = number_text(value := Fraction(rest[0]))
+        return shown, SUM if value < 0 else PRODUCT if "/" in shown else ATOM
     if kind in LEAVES:
-        return _leaf(kind, rest)
+        name = rest[0] if kind == "var" else NAMES[kind]
+        return name.format(rest[0]) if kind in CONSTANTS else name, ATOM
     if kind in FAMILY:
         return f"{NAMES[kind].format(rest[0])}({expression_text(rest[1])})", ATOM
     shape = SHAPES.get(kind)
@@ -43,19 +47,6 @@ def _text(tree: Tree) -> Text:
     if kind == "abs":
         return f"|{expression_text(rest[0])}|", ATOM
     return f"{NAMES.get(kind, kind)}({expression_text(rest[0])})", ATOM
-
-
-def _leaf(kind: str, rest: list[Any]) -> Text:
-    if kind == "num":
-        return _number(Fraction(rest[0]))
-    if kind == "var":
-        return str(rest[0]), ATOM
-    return NAMES[kind].format(rest[0]) if kind in CONSTANTS else NAMES[kind], ATOM
-
-
-def _number(value: Fraction) -> Text:
-    shown = number_text(value)
-    return shown, SUM if value < 0 else PRODUCT if "/" in shown else ATOM
 
 
 def number_text(value: Fraction) -> str:
@@ -111,30 +102,10 @@ def _product(rest: list[Any]) -> Text:
     return f"−{text if binding != SUM else f'({text})'}", SUM
 
 
-def _quotient(rest: list[Any]) -> Text:
-    return f"{_bracketed(rest[0], PRODUCT)}/{_bracketed(rest[1], POWER)}", PRODUCT
-
-
-def _negative(rest: list[Any]) -> Text:
-    return f"−{_bracketed(rest[0], PRODUCT)}", SUM
-
-
 def _power(rest: list[Any]) -> Text:
     if rest[1] == 1:
         return _text(rest[0])
     return f"{_bracketed(rest[0], ATOM)}{str(rest[1]).translate(SUPERSCRIPTS)}", POWER
-
-
-def _vector_sum(rest: list[Any]) -> Text:
-    return _sum(rest) if rest else ("0", ATOM)
-
-
-def _dot(rest: list[Any]) -> Text:
-    return f"{_transposed(rest[:1])[0]}·{_bracketed(rest[1], PRODUCT)}", PRODUCT
-
-
-def _transposed(rest: list[Any]) -> Text:
-    return f"{_bracketed(rest[0], ATOM)}ᵀ", POWER
 
 
 def _bracketed(tree: Tree, least: int) -> str:
@@ -145,17 +116,17 @@ def _bracketed(tree: Tree, least: int) -> str:
 SHAPES: dict[str, Callable[[list[Any]], Text]] = {
     "add": _sum,
     "mul": _product,
-    "div": _quotient,
-    "neg": _negative,
+    "div": lambda rest: (f"{_bracketed(rest[0], PRODUCT)}/{_bracketed(rest[1], POWER)}", PRODUCT),
+    "neg": lambda rest: (f"−{_bracketed(rest[0], PRODUCT)}", SUM),
     "pow": _power,
     "sqrt": _root,
     "vec": lambda rest: (rest[0], ATOM),
     "mat": lambda rest: (rest[0], ATOM),
     "diag": lambda rest: (f"diag({rest[0]})", ATOM),
     "rate": lambda rest: (f"d/dt({expression_text(rest[0])})", ATOM),
-    "sum": _vector_sum,
+    "sum": lambda rest: _sum(rest) if rest else ("0", ATOM),
     "scale": _product,
     "apply": _product,
-    "dot": _dot,
-    "transpose": _transposed,
+    "dot": lambda rest: (f"{_bracketed(rest[0], ATOM)}ᵀ·{_bracketed(rest[1], PRODUCT)}", PRODUCT),
+    "transpose": lambda rest: (f"{_bracketed(rest[0], ATOM)}ᵀ", POWER),
 }

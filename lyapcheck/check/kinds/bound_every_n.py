@@ -270,11 +270,8 @@ def written_letters(words: Words, powers: dict[str, int]) -> Iterator[Counter[Tr
     plain = Counter({("var", name): k for name, k in powers.items() if name not in words.seen})
     written = [sorted(words.seen[name]) for name, k in powers.items() if name in words.seen for _ in range(k)]
     for choice in product(*written):
-        yield plain + Counter(_letter(*letter) for word in choice for letter in word)
-
-
-def _letter(kind: str, name: str) -> Tree:
-    return ("mat" if kind == "transposed" else kind, name)
+        seen = (letter for word in choice for letter in word)
+        yield plain + Counter(("mat" if kind == "transposed" else kind, name) for kind, name in seen)
 
 
 def _by_least(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:

@@ -106,7 +106,8 @@ class OfLoop(Statement):
 
     def gains_text(self, kv: str = ", K_v") -> str:
         """``B = …, h = …, K_p = …, K_v = …``."""
-        friction = ", ".join(map(_ends_text, self.viscous))
+        ranges = ((number_text(low), number_text(high)) for low, high in self.viscous)
+        friction = ", ".join(low if low == high else f"{low} … {high}" for low, high in ranges)
         function = self.family if self.m is None else f"{self.family}_{self.m}"
         return (
             f"B = diag({friction}), h = {function}, "
@@ -116,11 +117,6 @@ class OfLoop(Statement):
     def mass_text(self) -> str:
         """M(q) and the ranges of its parameters."""
         return mass_text(self.mass, self.parameters)
-
-
-def _ends_text(ends: Ends) -> str:
-    low, high = map(number_text, ends)
-    return low if low == high else f"{low} … {high}"
 
 
 @dataclass(frozen=True)

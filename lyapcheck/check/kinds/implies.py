@@ -87,7 +87,7 @@ class Signs:
             if low:
                 generators[i] += self.ring.constant(rational(low))
         for i, ball in self.algebra.constants().items():
-            generators[i] += self.ring.constant(_below(Enclosure.from_arb(ball).lower))
+            generators[i] += self.ring.constant(fmpq(int(Enclosure.from_arb(ball).lower * 16), 16))
         return polynomial.compose(*generators, ctx=self.ring)
 
     @property
@@ -151,11 +151,6 @@ def require_identity(signs: Signs, goal: fmpq_mpoly, strict: bool, proof: SignId
         strict = strict and not (hypothesis_strict and signs.monomial_is(over, True))
     shown = signs.is_positive(remainder) if strict else signs.is_nonnegative(remainder)
     require(shown, "remainder", "", "has a term that may be negative, or is not shown to be positive")
-
-
-def _below(value: Fraction) -> fmpq:
-    """A short rational at or below a positive number."""
-    return fmpq(int(value * 16), 16)
 
 
 @dataclass(frozen=True)

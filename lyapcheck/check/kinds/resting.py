@@ -100,8 +100,9 @@ def by_rest(statement: Resting, proof: RestWitness) -> Accepted:
     beyond = bound is not None and proof.error > bound
     require(beyond, "error", proof.error, "must be beyond the bound")
     ratio = statement.torque[proof.joint] / statement.kp[proof.joint]
-    held = balanced_at(member(statement.family, statement.m), ratio, proof.error)
-    require(held, "error", proof.error, "is not shown to be held by a torque within its bound")
+    with precision(BITS):
+        held = abs(member(statement.family, statement.m).h(to_arb(proof.error))) <= to_arb(ratio)
+    require(bool(held), "error", proof.error, "is not shown to be held by a torque within its bound")
     return Accepted("refuted", "enclosure")
 
 
@@ -115,9 +116,3 @@ def rests_within(member: Member, ratio: Fraction, error: Fraction) -> bool:
         return False
     with precision(BITS):
         return ratio == 0 or bool(member.h(to_arb(error)) >= to_arb(ratio))
-
-
-def balanced_at(member: Member, ratio: Fraction, error: Fraction) -> bool:
-    """Whether |h(error)| ≤ ratio is shown."""
-    with precision(BITS):
-        return bool(abs(member.h(to_arb(error))) <= to_arb(ratio))

@@ -176,7 +176,7 @@ class ClosedLoop:
     def start(self) -> Box:
         """The box of the angles that matter, the errors, in rad, and what is uncertain."""
         errors = [(0.0 if i in self.one_sided else -x, x) for i, x in enumerate(self.farthest)]
-        uncertain = [(Enclosure(*ends).float_lower, Enclosure(*ends).float_upper) for ends in self.free]
+        uncertain = [Enclosure(*ends).side for ends in self.free]
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
 
 
@@ -208,11 +208,6 @@ def corners_of(parameters: Sequence[Ends]) -> Iterator[tuple[Fraction, ...]]:
     return product(*([low, high] if low < high else [low] for low, high in parameters))
 
 
-def is_affine(mass: Mass) -> bool:
-    """Whether M(q) is affine in each of its parameters."""
-    return all(max(p[2 * len(mass) :], default=0) <= 1 for row in mass for entry in row for p, _ in entry)
-
-
 def at_parameters(entry: Monomials, angles: int, parameters: Sequence[Fraction]) -> Monomials:
     """The entry with numbers for the parameters; their exponents follow those of sines and cosines."""
     return tuple(
@@ -223,7 +218,8 @@ def at_parameters(entry: Monomials, angles: int, parameters: Sequence[Fraction])
 
 def masses_at_corners(mass: Mass, parameters: Sequence[Ends]) -> tuple[Mass, ...]:
     """M(q), affine in each parameter, at each corner of their ranges, in the order of ``corners_of``."""
-    require(is_affine(mass), "M(q)", "", "must be affine in each of its parameters")
+    affine = all(max(p[2 * len(mass) :], default=0) <= 1 for row in mass for entry in row for p, _ in entry)
+    require(affine, "M(q)", "", "must be affine in each of its parameters")
     ranging = sum(low < high for low, high in parameters)
     require(2**ranging <= MOST_CORNERS, "corners", 2**ranging, f"must not exceed {MOST_CORNERS}")
     return tuple(

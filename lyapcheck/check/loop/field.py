@@ -56,7 +56,8 @@ class Field:
 
         Soundness: the boxes cover all angles that occur and all parameters; each of them shows it.
         """
-        start: Box = (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *map(_side, self.parameters))
+        ranges = [Enclosure(*ends).side for ends in self.parameters]
+        start: Box = (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *ranges)
         whole = [high - low for low, high in start]
         waiting, count = [start], 0
         with precision(BITS):
@@ -113,10 +114,6 @@ def value_at(
 def ball(side: Side) -> arb:
     """The ball between two doubles, which it contains."""
     return arb(side[0]).union(arb(side[1]))
-
-
-def _side(ends: Ends) -> Side:
-    return Enclosure(*ends).float_lower, Enclosure(*ends).float_upper
 
 
 class Polynomial:

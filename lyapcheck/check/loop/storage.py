@@ -120,7 +120,8 @@ def rate_of_mass(links: Sequence[RigidLink], joint: int, sign: int) -> list[Stag
     """Costs that sum up to sign · ½ q̇ᵀ(∂M/∂q_j)q̇ for a joint j, counted from 0."""
     result, nothing = [], _zeros(TWIST)
     turned = _scaled(-1, _cross([ZERO, ZERO, Fraction(1)]))
-    appended = _blocks(_identity(TWIST), nothing, _blocks(turned, _zeros(3), _zeros(3), turned), nothing)
+    one = [[Fraction(int(i == k)) for k in range(TWIST)] for i in range(TWIST)]
+    appended = _blocks(one, nothing, _blocks(turned, _zeros(3), _zeros(3), turned), nothing)
     for k, hinge in enumerate(hinges(links)):
         half = _scaled(Fraction(sign, 2) if k >= joint else ZERO, hinge.body)
         result.append(
@@ -202,7 +203,7 @@ def shows(stages: Sequence[Stage], forms: Sequence[fmpq_mat], prices: Sequence[F
     rows = zip(forms, [*forms[1:], None], prices, strict=True)
     slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after, kappa) in enumerate(rows)]
     with ctx.workprec(BITS):
-        return all(BALLS.positive_definite(_balls(form)) for form in slacks)
+        return all(BALLS.positive_definite([list(map(arb, row)) for row in form.tolist()]) for form in slacks)
 
 
 @dataclass(frozen=True)
@@ -229,10 +230,6 @@ def stored_at_base(stages: Sequence[Stage], forms: Sequence[fmpq_mat], fall: Seq
     start = stages[0].carry * _matrix([[ZERO]] * TWIST + [[x] for x in fall])
     result = (start.transpose() * forms[0] * start)[0, 0]
     return Fraction(int(result.p), int(result.q))
-
-
-def _balls(form: fmpq_mat) -> list[list[arb]]:
-    return [[arb(form[i, j]) for j in range(form.ncols())] for i in range(form.nrows())]
 
 
 def _upright(axis: Sequence[Fraction]) -> list[list[Fraction]]:
@@ -263,10 +260,6 @@ def _zeros(n: int) -> list[list[Fraction]]:
 
 def _scaled(factor: Fraction | int, rows: Matrix) -> list[list[Fraction]]:
     return [[factor * x for x in row] for row in rows]
-
-
-def _identity(n: int) -> list[list[Fraction]]:
-    return [[Fraction(int(i == k)) for k in range(n)] for i in range(n)]
 
 
 def _matrix(rows: Matrix) -> fmpq_mat:

@@ -208,13 +208,22 @@ class Enclosure:
     @property
     def float_lower(self) -> float:
         """The largest double that is not above ``lower``."""
-        value = _nearest_double(self.lower)
-        return value if _not_above(value, self.lower) else math.nextafter(value, -math.inf)
+        try:
+            value = float(self.lower)  # the nearest
+        except OverflowError:
+            value = math.inf if self.lower > 0 else -math.inf
+        fits = value == -math.inf or (value != math.inf and Fraction(value) <= self.lower)
+        return value if fits else math.nextafter(value, -math.inf)
 
     @property
     def float_upper(self) -> float:
         """The smallest double that is not below ``upper``."""
         return 0.0 - Enclosure(-self.upper, -self.lower).float_lower
+
+    @property
+    def side(self) -> tuple[float, float]:
+        """Two doubles with the interval between them."""
+        return self.float_lower, self.float_upper
 
     def __bool__(self) -> NoReturn:
         raise TypeError("an enclosure has no truth value; compare its ends")
@@ -231,17 +240,6 @@ def dyadic(point: arb) -> Fraction:
 def ball_of(value: Fraction | int) -> arb:
     """A ball of the current precision that contains a rational number."""
     return arb(fmpq(value.numerator, value.denominator))
-
-
-def _nearest_double(value: Fraction) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf if value > 0 else -math.inf
-
-
-def _not_above(value: float, bound: Fraction) -> bool:
-    return value == -math.inf or (value != math.inf and Fraction(value) <= bound)
 
 
 def root_above(value: Fraction) -> Fraction:

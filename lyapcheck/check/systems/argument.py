@@ -172,7 +172,8 @@ class Argument:
             words = Words((), {}, {}).expand(change.equals)
             with_own = [word for word in words if any(name == change.letter for _, name in word)]
             factor = words.get((own,))
-            plain = factor is not None and with_own == [(own,)] and _is_sign(factor)
+            signs = [] if factor is None else [(abs(c), powers) for c, powers in terms_of(factor)]
+            plain = with_own == [(own,)] and signs == [(1, {})]
             require(plain, "change", change.state, f"must be ±{change.letter} and what does not contain it")
         gone = {name for f in system.functions if f.of in names for name in (f.name, f"U{f.name}")}
         used = {name for _, name in letters(self.energy)}
@@ -212,15 +213,15 @@ class Argument:
             for change in self.changes:  # the new letters are then norms as good as the old ones
                 ends = {*system.moving, change.letter}
                 words = Words((), {}, {}).expand(change.equals).items()
-                fits = all(word[-1][1] in ends and _is_number(factor) for word, factor in words)
+                fits = all(word[-1][1] in ends for word, _ in words)
+                fits = fits and not any(powers for _, factor in words for _, powers in terms_of(factor))
                 fits = fits and all(name in system.diagonal for word, _ in words for _, name in word[:-1])
                 require(fits, "change", change.state, "must be linear, of numbers, diag(K) and states")
             for form in (self.lower, self.upper, self.rate):
                 assert form is not None
                 fits = len(form.sizes) == len(every) and not form.linear
-                fits = fits and not any(
-                    size in form.sizes for f in system.functions for size in _sizes(f.name)
-                )
+                own = {size for f in system.functions for size in (f"norm_{f.name}", f"sum_U{f.name}")}
+                fits = fits and not own & {*form.sizes}
                 require(fits, "form", ", ".join(form.sizes), "must be quadratic in the norms of all states")
                 require(
                     all(SHARE not in variables(tree) for tree in form.coefficients), "form", SHARE, "varies"
@@ -247,18 +248,3 @@ class Argument:
         fits = used <= {*allowed, *self._sees()}
         require(fits, "motion", ", ".join(sorted(used)), "must be in sizes and constants")
         terms_of(cascade.motion)  # refuses what is no polynomial, and may have no bound
-
-
-def _sizes(name: str) -> tuple[str, str]:
-    """The sizes of a function."""
-    return f"norm_{name}", f"sum_U{name}"
-
-
-def _is_number(factor: Tree) -> bool:
-    """Whether a factor is a number that is written out."""
-    return all(not powers for _, powers in terms_of(factor))
-
-
-def _is_sign(factor: Tree) -> bool:
-    """Whether a factor is 1 or −1."""
-    return [(abs(c), powers) for c, powers in terms_of(factor)] == [(1, {})]

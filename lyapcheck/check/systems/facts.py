@@ -174,7 +174,8 @@ def at_most(
     solved = {(one.matrix, one.vector): one.equals for one in given}
     words = Words(("M",), moved, solved)
     number = words.number(left)
-    used = {_plain(letter) for word in chain.from_iterable(words.seen.values()) for letter in word}
+    seen = {letter for word in chain.from_iterable(words.seen.values()) for letter in word}
+    used = {("mat", name) if kind == "transposed" else (kind, name) for kind, name in seen}
     used |= {("var", name) for name in variables(number) if name not in words.seen}
     known = [(own, bound) for own, bound in norms(system, changed, local) if set(own) <= used]
     inertia = M in used or bool(given)
@@ -187,11 +188,6 @@ def at_most(
         tuple(known),
         tuple(least(system, words, changed)),
     )
-
-
-def _plain(letter: tuple[str, str]) -> Tree:
-    kind, name = letter
-    return ("mat", name) if kind == "transposed" else (kind, name)
 
 
 def constants_of(system: System) -> dict[str, Variable]:
