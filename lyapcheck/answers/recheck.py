@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.check.judgement import GENERAL
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.errors import argument_error
 from lyapcheck.kernel.coq import Kernel, require_coq
@@ -18,6 +17,7 @@ from lyapcheck.kernel.judge import graded, judged
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.rechecking.command import Writer, as_json, text
+from lyapcheck.rechecking.trusted import GENERAL
 from lyapcheck.temporary import temporary_folder
 
 SIGNS = {"refused": "✗", "undecided": "?", "accepted": "✓"}

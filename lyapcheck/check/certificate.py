@@ -120,9 +120,7 @@ def read(data: Any) -> Certificate:
     """A certificate from its JSON value; refused if it is none. The proof in it is not judged."""
     content = sealed(data)
     require_keys(
-        content,
-        {"schema", "claim", "statement", "verdict", "grade", "proof", "uses", "versions"},
-        "document",
+        content, {"schema", "claim", "statement", "verdict", "grade", "proof", "uses", "versions"}, "document"
     )
     for digest in (uses := _texts(content["uses"], "uses")).values():
         require(DIGEST.fullmatch(digest) is not None, "uses", digest, "is not a digest")
@@ -180,12 +178,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def certificate_of(content: bytes) -> tuple[Certificate, Any]:
-    """A certificate from the bytes of a file, and its JSON value.
-
-    Raises:
-        UnicodeDecodeError, JSONDecodeError: they are not JSON in UTF-8.
-        Refused: they are no certificate.
-    """
+    """A certificate from the bytes of a file, and its JSON value; refused if they are none."""
     data = parse(content.decode("utf-8"))
     return read(data), data
 

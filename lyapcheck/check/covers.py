@@ -86,9 +86,7 @@ hypothesis, the direction turns.
 def require_covered(shown: Statement, asked: Statement) -> None:
     """Refuse unless what is shown implies what was asked.
 
-    Args:
-        shown: the statement that a proof shows.
-        asked: the question as a statement of the same kind, with the numbers that are printed.
+    ``asked`` is the question as a statement of the same kind, with the numbers that are printed.
 
     Soundness: each row of ``ROWS`` is a direction in which statements of that kind are monotone. A kind or a
         field without a row is refused, unless both statements are equal.

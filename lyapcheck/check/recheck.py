@@ -82,13 +82,8 @@ class Outcome:
 def recheck(documents: Iterable[Document], limits: Limits | None = None, full: bool = False) -> Outcome:
     """Judge certificates, and whether what they use was judged well too.
 
-    Args:
-        documents: files, from ``lyapcheck.check.files.gather``.
-        limits: what judging one of them may take.
-        full: whether statements and words of authors are given whole.
-
-    Raises:
-        Unreadable: a file that was named by itself is not JSON.
+    ``limits`` are for each of them; ``full`` gives statements and words of authors whole. Raises
+    ``Unreadable`` where a file that was named by itself is not JSON.
 
     Soundness: a certificate is accepted if its own proof is, and each certificate that it uses is at hand and
     accepted, is of the claim it is used for and proves it. It is refused if one of these is known not to be

@@ -66,17 +66,9 @@ def each_once() -> Iterator[None]:
 
 
 def verify(statement: Statement, proof: Proof) -> Accepted:
-    """What a proof shows about a statement.
+    """What a proof, which is untrusted data, shows about a statement; refused, with a reason, if nothing.
 
-    Args:
-        statement: what is claimed.
-        proof: untrusted data.
-
-    Returns:
-        The verdict and its grade, recomputed; never taken from the proof.
-
-    Raises:
-        Refused: the proof shows nothing, for the reason given.
+    Verdict and grade are recomputed, never taken from the proof.
 
     Soundness: rests on the functions entered with :func:`rule`, on the judgement that every term has a value
         (``expressions.defined``), and on nothing that searches. Whatever goes wrong inside them, an overflow

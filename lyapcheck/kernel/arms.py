@@ -29,11 +29,9 @@ from lyapcheck.check.kinds.decreasing import (
     StateWitness,
 )
 from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
-from lyapcheck.check.loop.boxes import BrokenTree, Side, nodes
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.field import PI_ABOVE
+from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
+from lyapcheck.check.loop.field import PI_ABOVE, BrokenTree, Side, nodes
 from lyapcheck.check.loop.proof import MORE_HALVINGS
-from lyapcheck.check.loop.scalar import certifies
 from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof

@@ -11,12 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.kinds.bound_every_n import (
-    BoundEveryN,
-    CoveredTerms,
-    terms_in_words,
-    terms_of,
-)
+from lyapcheck.check.kinds.bound_every_n import BoundEveryN, CoveredTerms, terms_in_words, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.statement import Proof

@@ -26,7 +26,7 @@ from typing import Protocol
 
 from flint import arb
 
-from lyapcheck.check.loop.scalar import ScalarForm
+from lyapcheck.check.loop.closed_loop import ScalarForm
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 

@@ -10,10 +10,10 @@ from typing import Any
 
 from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.guard import CannotStart
-from lyapcheck.check.judgement import GENERAL, Limits
+from lyapcheck.check.judgement import Limits
 from lyapcheck.check.recheck import Checked, Outcome, recheck
 from lyapcheck.check.refusal import plain
-from lyapcheck.rechecking.trusted import lies_in, modules
+from lyapcheck.rechecking.trusted import GENERAL, lies_in, modules
 
 # --- The outcome of a recheck as text or JSON; its statements are rendered from data, not an author's words.
 

@@ -24,8 +24,7 @@ from multiprocessing import get_context
 import numpy as np
 
 from lyapcheck._types import Array, Progress
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
 from lyapcheck.computing import computing_time, main_unnamed
 from lyapcheck.search.centred import judge_of
 from lyapcheck.search.cover import Chooser, CoverOutcome, Prover, SharedSearch, cover, explored

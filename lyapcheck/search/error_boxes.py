@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
-from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.field import Box
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.family import named
 from lyapcheck.intervals import Interval

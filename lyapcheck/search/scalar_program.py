@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop.scalar import ScalarForm, certifies
+from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
 from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
     Args:
         form: Θ', or ``None`` for an unbounded function.
 
-    Soundness: ``lyapcheck.check.loop.scalar.certifies`` alone decides.
+    Soundness: ``lyapcheck.check.loop.closed_loop.certifies`` alone decides.
     """
     if form is None:
         return ScalarResult(None, None, "h is unbounded, and the scalar form needs its bound γ")

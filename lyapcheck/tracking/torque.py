@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop.scalar import ScalarForm
+from lyapcheck.check.loop.closed_loop import ScalarForm
 from lyapcheck.check.loop.states import State, value
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.constants import robot_constants

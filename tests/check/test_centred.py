@@ -10,8 +10,8 @@ import pytest
 from flint import arb
 
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.boxes import Box
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.field import Box
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.schur import CentredEvaluator, Evaluator, of_error, triangle
 from lyapcheck.check.numbers.balls import precision

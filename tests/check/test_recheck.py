@@ -19,7 +19,7 @@ from lyapcheck.check.__main__ import main
 from lyapcheck.check.certificate import digest_of, judged
 from lyapcheck.check.files import Document, Unreadable, gather
 from lyapcheck.check.guard import Guard
-from lyapcheck.check.judgement import GENERAL, Judgement
+from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.kinds.constant import Constant, SeparateBalls
 from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
 from lyapcheck.check.refusal import Refused
@@ -29,6 +29,7 @@ from lyapcheck.claims import run_proof
 from lyapcheck.claims.certificates import file_name
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.rechecking.command import as_json, text
+from lyapcheck.rechecking.trusted import GENERAL
 from tests.helpers.command import lyapcheck as command
 from tests.helpers.json_schema import faults
 

@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Span
-from lyapcheck.check.loop.boxes import Box, BrokenTree, halves, leaves
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.field import Box, BrokenTree, halves, leaves
 from lyapcheck.check.loop.proof import proves, proves_part
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.loop.states import State, rate

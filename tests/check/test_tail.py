@@ -10,8 +10,7 @@ from flint import arb
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.scalar import ScalarForm, certifies
+from lyapcheck.check.loop.closed_loop import ClosedLoop, ScalarForm, certifies
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load

@@ -26,7 +26,7 @@ from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import MassBelow
 from lyapcheck.check.kinds.stable_arm import StableArm
-from lyapcheck.check.loop.boxes import BrokenTree
+from lyapcheck.check.loop.field import BrokenTree
 from lyapcheck.check.recheck import recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify

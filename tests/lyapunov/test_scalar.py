@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import family, robots
-from lyapcheck.check.loop.scalar import ScalarForm, certifies
+from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form

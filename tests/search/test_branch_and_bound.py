@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop.boxes import leaves
+from lyapcheck.check.loop.field import leaves
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file

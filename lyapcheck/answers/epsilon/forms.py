@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.constants import robot_bounds
 from lyapcheck.files.decimals import significant_down

@@ -9,14 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
-from lyapcheck.control.conditions import (
-    ACCEPTED,
-    REJECTED,
-    UNDECIDED,
-    Check,
-    Conditions,
-    gamma_of,
-)
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions, gamma_of
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, GainFile, GainSet, deciding_for
 from lyapcheck.control.limits import ArmLimits, Limits, limits_for
 from lyapcheck.errors import argument_error

@@ -26,13 +26,7 @@ from lyapcheck.check.kinds.chain import (
 )
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
-from lyapcheck.check.kinds.inertia import (
-    Bisection,
-    HarmonicSizes,
-    MassAbove,
-    MassBelow,
-    PostureWitness,
-)
+from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, MassAbove, MassBelow, PostureWitness
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure

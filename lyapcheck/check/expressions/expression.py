@@ -113,11 +113,7 @@ class SeriesAlgebra(Algebra):
 
 
 def evaluate(tree: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
-    """The value of an expression with the variables replaced by elements of an algebra.
-
-    Raises:
-        Unsupported: for a node that is not in the list above or that the algebra cannot express.
-    """
+    """The value of an expression with elements of an algebra for its variables (or ``Unsupported``)."""
     return _Evaluation(values, algebra).of(tree)
 
 

@@ -53,7 +53,9 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
     """Refuse expressions that are malformed or have variables beyond ``names`` (``None``: any are)."""
     names = None if names is None else set(names)
     for name in names or ():
-        require_name(name)
+        require(
+            is_name(name), "variable", name, "is not a name of Latin or Greek letters, digits and underscores"
+        )
     for tree in trees:
         if tree in _WELL_FORMED:
             continue
@@ -78,10 +80,7 @@ def require_expressions(trees: Iterable[Any], names: Iterable[str] | None = None
 def require_tree(tree: Any, depth: int, seen: dict[int, int] | None = None) -> None:
     """Refuse an expression with an unknown operation, a wrong number of parts or too many levels.
 
-    Args:
-        tree: the expression.
-        depth: how many levels it may have.
-        seen: nodes that were looked at, by id, with the levels that were left to them.
+    ``seen`` has nodes that were looked at, by id, with the levels that were left to them.
     """
     if not isinstance(tree, tuple) or not tree:
         raise Refused("expression", tree, "is not an operation with its parts")
@@ -115,13 +114,6 @@ def written_out(tree: Any, known: dict[int, int]) -> int:
         number = len(parts[0]) // 10 if operation == "num" else 0
         known[id(tree)] = 1 + number + inner * times
     return known[id(tree)]
-
-
-def require_name(name: str) -> None:
-    """Refuse what is not the name of a variable."""
-    require(
-        is_name(name), "variable", name, "is not a name of Latin or Greek letters, digits and underscores"
-    )
 
 
 def is_name(name: str) -> bool:

@@ -152,7 +152,8 @@ class RationalAlgebra(Algebra):
             return self._opaque("sqrt", value)
         radicand = value.top / value.bottom.leading_coefficient()
         if radicand.is_constant():
-            exact = rational_root(_constant(radicand))
+            number = radicand.leading_coefficient() if radicand != 0 else fmpq(0)
+            exact = rational_root(Fraction(int(number.p), int(number.q)))
             if exact is not None:
                 return self.number(exact)
         root = self._generator("sqrt", str(radicand))
@@ -209,11 +210,6 @@ def _product(left: fmpq_mpoly, right: fmpq_mpoly) -> fmpq_mpoly:
     return left * right
 
 
-def _constant(polynomial: fmpq_mpoly) -> Fraction:
-    value = polynomial.leading_coefficient() if polynomial != 0 else fmpq(0)
-    return Fraction(int(value.p), int(value.q))
-
-
 def normal_form(tree: Tree) -> tuple[Ratio, RationalAlgebra]:
     """The reduced quotient of polynomials that an expression is, where it is one (``Unsupported``)."""
     if written_out(tree, {}) > MAX_SIZE:
@@ -236,10 +232,7 @@ def rational_value(tree: Tree) -> fmpq | None:
 
 
 def is_zero(tree: Tree) -> bool:
-    """Whether the normal form of an expression is zero; ``False`` says nothing.
-
-    Raises:
-        Unsupported: where the expression has no such form.
+    """Whether the normal form of an expression, if it has one, is zero; ``False`` says nothing.
 
     Soundness: every relation that is used (squares of roots, sin² + cos² = 1, products of exponentials) holds
     for the real functions, so a zero normal form is a zero function wherever no denominator vanishes.

@@ -163,10 +163,7 @@ class Asymptotic:
         return summed([*self.terms, *other.terms], self.start)
 
     def __mul__(self, other: Asymptotic) -> Asymptotic:
-        return summed(
-            [(_times(k, n), c * d) for k, c in self.terms for n, d in other.terms],
-            self.start,
-        )
+        return summed([(_times(k, n), c * d) for k, c in self.terms for n, d in other.terms], self.start)
 
     def __neg__(self) -> Asymptotic:
         return self.scaled(exactly(-1))

@@ -55,10 +55,7 @@ MOST_PARTS = 400
 def never(tree: Tree, unwanted: Signs, domain: Domain) -> bool:
     """Whether an expression takes none of some signs where it is defined; ``False`` says nothing.
 
-    Args:
-        tree: numbers, or the dot products and derivatives of ``check.letters``, of which little is seen.
-        unwanted: the signs that it must not take.
-        domain: the ranges of its variables.
+    It may have the dot products and derivatives of ``check.letters``, of which little is seen.
     """
     result = _Reader(domain, deep=False).of(tree)
     if result & unwanted:

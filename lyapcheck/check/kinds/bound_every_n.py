@@ -225,9 +225,8 @@ def _squares(entries: Entries, letter: Tree) -> list[Tree]:
 
 def names_at(statement: BoundEveryN, n: int, pairs: list[Equation]) -> set[str]:
     """The variables of some pairs at one n, and all that the statement has there beside."""
-    entries = Entries(n, statement.symmetric, dict(statement.rates))
-    trees = chain(*pairs, entries.moving.values())
-    return statement.numbers.union(*map(variables, trees))
+    moving = Entries(n, statement.symmetric, dict(statement.rates)).moving.values()
+    return statement.numbers.union(*map(variables, chain(*pairs, moving)))
 
 
 def terms_in_words(statement: BoundEveryN) -> tuple[list[Term], Words]:

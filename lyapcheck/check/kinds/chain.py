@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
+from itertools import chain, product
 
 from flint import arb, fmpq_mat
 
@@ -41,7 +41,9 @@ class OfLinks(Total):
         n = len(self.links)
         require(1 <= n <= MAX_LINKS, "links", n, f"must be 1 to {MAX_LINKS}")
         for link in self.links:
-            short = all(len(str(max(abs(x.numerator), x.denominator))) <= MAX_DIGITS for x in _numbers(link))
+            rows = (link.axis, link.origin, link.com, *link.inertia, *link.turn)
+            sizes = (max(abs(x.numerator), x.denominator) for x in (link.mass, *chain.from_iterable(rows)))
+            short = all(len(str(size)) <= MAX_DIGITS for size in sizes)
             require(short, "link", "", f"must have numbers of at most {MAX_DIGITS} digits")
             require(link.fits, "link", "", "must have a unit axis, a rotation, mass and inertia ⪰ 0")
 
@@ -233,11 +235,6 @@ def _forms(proof: StorageForms, statement: OfChain, vectors: int) -> list[fmpq_m
 def _require_shown(stages: Sequence[storage.Stage], forms: Sequence[fmpq_mat], kappa: Fraction) -> None:
     prices = [kappa] * len(stages)
     require(storage.shows(stages, forms, prices), "forms", "", "do not show the bound at every joint")
-
-
-def _numbers(link: RigidLink) -> list[Fraction]:
-    rows = (link.axis, link.origin, link.com, *link.inertia, *link.turn)
-    return [link.mass, *(x for row in rows for x in row)]
 
 
 def _link_text(link: RigidLink) -> str:

@@ -47,11 +47,8 @@ class MassSymmetric(OfArm, Compared):
         """Each entry below the diagonal less that above."""
         for i, j in product(range(self.joints), repeat=2):
             if j < i:
-                yield (
-                    f"M{i + 1}{j + 1}",
-                    (),
-                    mixed([(1, self.inertia.mass[i][j]), (-1, self.inertia.mass[j][i])]),
-                )
+                gap = mixed([(1, self.inertia.mass[i][j]), (-1, self.inertia.mass[j][i])])
+                yield f"M{i + 1}{j + 1}", (), gap
 
     def text(self) -> str:
         return f"M(q) = M(q)ᵀ {super().over}"

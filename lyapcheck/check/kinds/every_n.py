@@ -137,8 +137,7 @@ def by_entries(statement: EveryN, proof: EntriesWitness) -> Accepted:
 def moved_at(statement: EveryN, n: int, point: Mapping[str, Fraction]) -> set[str]:
     """The variables at one n that move, if functions of time are at the point at some instant.
 
-    Raises:
-        Refused: that is not shown, as the derivatives of what is given are not checked.
+    Refused where that is not shown, as the derivatives of what is given are not checked.
 
     Soundness: letters without a derivative stay as they are, but for vectors solved for by a matrix that is
         invertible there: they follow the others, whose derivatives are continuous functions (Peano).

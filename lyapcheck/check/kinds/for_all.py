@@ -228,11 +228,5 @@ def _require_boxes(statement: ForAll, domain: Stretch, piece: Boxes) -> None:
     for left, right in pairwise(cuts):
         require(left < right, "cuts", f"{left}, {right}", "must rise")
         require(positive_on_box(tree, name, left, right), "box", f"[{left}, {right}]", "the sign is open")
-    _require_point(tree, name, piece)
-
-
-def _require_point(tree: Tree, name: str, piece: Boxes) -> None:
-    """A single cut is a domain of one point, unless 0 and infinity meet there."""
-    if len(piece.cuts) == 1 and not (piece.from_zero or piece.to_infinity):
-        x = piece.cuts[0]
-        require(positive_at(tree, name, x), "point", x, "the sign is open")
+    if len(cuts) == 1 and not (piece.from_zero or piece.to_infinity):  # a domain of one point
+        require(positive_at(tree, name, cuts[0]), "point", cuts[0], "the sign is open")

@@ -167,8 +167,7 @@ class GravityOfPotential(Compared):
 
     def text(self) -> str:
         names = variable_names(self.joints, len(self.parameters))
-        potential = written_out(
-            [f"U = {polynomial_text(self.potential, names)}"], "potential", self.potential, ()
-        )
+        energy = [f"U = {polynomial_text(self.potential, names)}"]
+        potential = written_out(energy, "potential", self.potential, ())
         about = gravity_text(self.gravity, self.joints, self.parameters)
         return f"g(q) is the gradient of U(q), for all q, with {potential}, {about}"

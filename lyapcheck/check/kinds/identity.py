@@ -147,17 +147,11 @@ def by_posture(statement: Compared, proof: MovingPosture) -> Accepted:
 def differences(statement: Compared, at: MovingPosture) -> Iterator[tuple[str, arb]]:
     """The difference at each place in balls."""
     for place, rows in groupby(statement.gaps(), key=lambda gap: gap[0]):
-        yield (
-            place,
-            sum(
-                (
-                    to_arb(prod((at.x[k] for k in rates), start=Fraction(1)))
-                    * value_at(gap, at.q, at.parameters)
-                    for _, rates, gap in rows
-                ),
-                arb(0),
-            ),
-        )
+        value = arb(0)
+        for _, rates, gap in rows:
+            rate = prod((at.x[k] for k in rates), start=Fraction(1))
+            value += to_arb(rate) * value_at(gap, at.q, at.parameters)
+        yield place, value
 
 
 def mixed(parts: Iterable[tuple[int | Fraction, Uncertain]]) -> Uncertain:

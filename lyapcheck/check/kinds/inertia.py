@@ -9,7 +9,7 @@ from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, product
 from math import prod
 
 from flint import arb
@@ -63,12 +63,10 @@ def mass_text(mass: Mass, parameters: tuple[Ends, ...]) -> str:
 
 def mass_entries(mass: Mass, parameters: tuple[Ends, ...]) -> list[str]:
     """The entries written out, those below the diagonal where they differ from those above."""
-    n = len(mass)
-    names = variable_names(n, len(parameters))
+    n, names = len(mass), variable_names(len(mass), len(parameters))
     return [
         f"M{i + 1}{j + 1} = {polynomial_text(mass[i][j], names)}"
-        for i in range(n)
-        for j in range(n)
+        for i, j in product(range(n), repeat=2)
         if j >= i or mass[i][j] != mass[j][i]
     ]
 
@@ -290,18 +288,6 @@ def by_links(statement: MassAbove, proof: Links) -> Accepted:
     moves = all(link.about_axis > 0 for link in proof.links)
     require(moves, "links", "", "have one without energy about its own axis")
     return Accepted("proved", "exact")
-
-
-def shifted(mass: Mass, sign: int, diagonal: Sequence[Fraction], parameters: int) -> Mass:
-    """± M + diag(…), M a polynomial in so many parameters."""
-    constant = (0,) * (2 * len(mass) + parameters)
-    return tuple(
-        tuple(
-            (*((powers, sign * c) for powers, c in entry), *([(constant, diagonal[i])] if i == j else []))
-            for j, entry in enumerate(row)
-        )
-        for i, row in enumerate(mass)
-    )
 
 
 def dot(x: Sequence[arb], y: Sequence[arb]) -> arb:

@@ -15,10 +15,9 @@ from flint import arb
 
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.boxes import Box, Side, leaves
 from lyapcheck.check.loop.chain import RigidLink, makes
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, masses_at_corners
-from lyapcheck.check.loop.field import ball
+from lyapcheck.check.loop.field import Box, Side, ball, leaves
 from lyapcheck.check.loop.schur import inverse_one_plus_root, square, unit_vector
 from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.numbers.balls import precision, to_arb

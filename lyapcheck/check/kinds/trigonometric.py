@@ -156,9 +156,6 @@ def extent(tree: Tree) -> tuple[Fraction, Fraction]:
     """The mean of an expression in sin q_i and cos q_i, and by how much it departs from that at most.
 
     By the normal form in sines and cosines, and the sum of the amplitudes of its harmonics.
-
-    Raises:
-        Unsupported: the expression is anything else, or too large to be written in harmonics.
     """
     ratio, algebra = normal_form(tree)
     if not ratio.bottom.is_constant():

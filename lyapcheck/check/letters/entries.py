@@ -26,13 +26,7 @@ Matrix = list[Vector]
 
 
 class Entries:
-    """Expressions at one n; a symmetric matrix has the variables of its upper half.
-
-    Args:
-        n: at least 1.
-        symmetric: the names of the matrices with Aᵀ = A.
-        rates: the derivatives of the letters.
-    """
+    """Expressions at one n >= 1; a symmetric matrix has the variables of its upper half."""
 
     def __init__(self, n: int, symmetric: Iterable[str], rates: Mapping[Tree, Tree]) -> None:
         self.joints, self.symmetric, self.rates = range(n), frozenset(symmetric), rates
@@ -122,12 +116,7 @@ class Entries:
 
 
 def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:
-    """The value of an ordinary expression at a rational point.
-
-    Raises:
-        Unsupported: the value is not found by rational arithmetic.
-        ZeroDivisionError: it has no value there.
-    """
+    """The value of an ordinary expression at a rational point; ``Unsupported`` where it is not rational."""
     return evaluate(tree, {name: rational(value) for name, value in point.items()}, ExactAlgebra())
 
 

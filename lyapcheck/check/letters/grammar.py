@@ -31,13 +31,9 @@ PARTS: dict[tuple[str, str], tuple[str, ...]] = {
 
 
 def require_sort(tree: Any, sort: str, rate: bool = False, depth: int = MAX_DEPTH) -> None:
-    """Refuse an expression that is not a number, a vector or a matrix, as ``sort`` says.
+    """Refuse an expression that is not a ``number``, a ``vector`` or a ``matrix``, as ``sort`` says.
 
-    Args:
-        tree: untrusted data.
-        sort: ``number``, ``vector`` or ``matrix``.
-        rate: whether derivatives may occur; never one inside another.
-        depth: how many levels are allowed.
+    With ``rate`` derivatives may occur; never one inside another.
     """
     plain = isinstance(tree, tuple) and len(tree) > 0 and isinstance(tree[0], str)
     require(plain, "expression", tree, "is not an operation with its parts")
@@ -85,14 +81,9 @@ NOTHING: Tree = ("sum",)
 
 
 def rate(tree: Tree, rates: Mapping[Tree, Tree]) -> Tree:
-    """The derivative of an expression.
+    """The derivative of an expression without derivatives in it, from those of its letters.
 
-    Args:
-        tree: numbers, vectors or matrices without a derivative in it.
-        rates: the derivative of each letter in it, by the letter.
-
-    Raises:
-        Unsupported: a letter whose derivative is not given, a function, or diag of a vector that moves.
+    ``Unsupported``: a letter whose derivative is not given, a function, or diag of a vector that moves.
 
     Soundness: sums, products, quotients and powers are differentiated by their rules; dot, apply and scale
     are bilinear.

@@ -39,10 +39,7 @@ class Words:
     """
 
     def __init__(
-        self,
-        symmetric: Iterable[str],
-        rates: Mapping[Tree, Tree],
-        given: Mapping[tuple[str, str], Tree],
+        self, symmetric: Iterable[str], rates: Mapping[Tree, Tree], given: Mapping[tuple[str, str], Tree]
     ) -> None:
         self.symmetric, self.rates = frozenset(symmetric), rates
         self.seen: dict[str, set[Word]] = {}

@@ -94,14 +94,7 @@ class Wrench:
 
 
 class Posture:
-    """A chain with its joints at some angles.
-
-    Args:
-        links: base first; their numbers are exact, or values of the arithmetic.
-        sines: of the angles, (n,), in the arithmetic.
-        cosines: (n,).
-        of: the arithmetic.
-    """
+    """A chain, base first, with joints at some angles; its numbers may be values of the arithmetic."""
 
     def __init__(self, links: Sequence[RigidLink], sines: Vector, cosines: Vector, of: Algebra) -> None:
         self.links, self.n, self.of = links, len(links), of

@@ -12,16 +12,50 @@ from itertools import product
 from math import prod
 
 from lyapcheck.check.judgement import MOST_CORNERS
-from lyapcheck.check.loop.boxes import Box
-from lyapcheck.check.loop.field import PI_ABOVE
+from lyapcheck.check.loop.field import PI_ABOVE, Box
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
-from lyapcheck.check.loop.scalar import ScalarForm, certifies
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, mirrored
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof
+
+# --- The scalar certificate, checked in rational arithmetic.
+#
+# With a = ‖h(e)‖ and b = ‖w‖ the derivative of V is at most −[a b] Θ'(ε) [a b]ᵀ with
+#
+#     θ'11 = ε k,   θ'22 = β − ε c,   θ'12 = −½ ε (d + ε c),   ε = ε₀/(1 + ‖e‖) in (0, ε₀],
+#
+# where k = λmin(K_p), β = λmin(B), and c, d are the bounds of ``lyapcheck.lyapunov.scalar``.
+
+
+@dataclass(frozen=True)
+class ScalarForm:
+    """The four numbers of Θ': ``stiffness`` k, ``friction`` β, ``drift`` c and ``cross`` d, all rational."""
+
+    stiffness: Fraction
+    friction: Fraction
+    drift: Fraction
+    cross: Fraction
+
+    def margin(self, eps: Fraction) -> Fraction:
+        """det Θ'(ε)/ε = k (β − ε c) − ¼ ε (d + ε c)²."""
+        return (
+            self.stiffness * (self.friction - eps * self.drift)
+            - eps * (self.cross + eps * self.drift) ** 2 / 4
+        )
+
+
+def certifies(form: ScalarForm, eps0: Fraction) -> bool:
+    """Whether Θ'(ε) ≻ 0 for every ε in (0, ε₀].
+
+    Soundness: k, β > 0 and c, d ≥ 0 make det Θ'(ε)/ε fall as ε grows, so its sign at ε₀ decides; there
+    k (β − ε₀ c) > 0 follows, and θ'11 = ε k > 0: Sylvester's criterion.
+    """
+    signs = form.stiffness > 0 and form.friction > 0 and form.drift >= 0 and form.cross >= 0
+    return signs and eps0 > 0 and form.margin(eps0) > 0
+
 
 LARGEST_RADIUS = 1 << 64
 """Radians; what takes more is no statement about an arm."""

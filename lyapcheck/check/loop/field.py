@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import prod
 from typing import Any
@@ -11,11 +11,60 @@ from typing import Any
 from flint import arb
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Ring
-from lyapcheck.check.loop.boxes import Box, Side, halves
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, angles_in, derivative, largest
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Ends
+
+# --- Trees of boxes: a box is cut in the middle of one side, and again, until each part can be judged.
+#
+# A tree is written in preorder, a digit for the side that is cut and a dot for a leaf. Both halves of a side
+# share the double in the middle, so the leaves cover the start whatever the tree.
+
+
+Side = tuple[float, float]
+Box = tuple[Side, ...]
+
+
+class BrokenTree(ValueError):
+    """The text is not the preorder of a tree of cuts of this box."""
+
+
+def leaves(start: Box, tree: str) -> Iterator[Box]:
+    """The boxes at the dots of a tree; raises ``BrokenTree`` as `nodes` does."""
+    return (box for box, side in nodes(start, tree) if side is None)
+
+
+def nodes(start: Box, tree: str) -> Iterator[tuple[Box, int | None]]:
+    """Every box of a tree with the side that is cut, ``None`` at a dot; ``BrokenTree`` if it is none."""
+    stack = [start]
+    for mark in tree:
+        if not stack:
+            raise BrokenTree("the tree ends before its text does")
+        box = stack.pop()
+        side = None if mark == "." else _side(mark, len(box))
+        yield box, side
+        if side is not None:
+            left, right = halves(box, side)
+            stack += (right, left)
+    if stack:
+        raise BrokenTree("the text ends before its tree does")
+
+
+def halves(box: Box, side: int) -> tuple[Box, Box]:
+    """Both halves of a box, cut at one double."""
+    low, high = box[side]
+    middle = 0.5 * (low + high)
+    before, after = box[:side], box[side + 1 :]
+    return (*before, (low, middle), *after), (*before, (middle, high), *after)
+
+
+def _side(mark: str, sides: int) -> int:
+    side = ord(mark) - ord("0")
+    if not 0 <= side < sides:
+        raise BrokenTree(f"{mark!r} is not a side of the box")
+    return side
+
 
 PI_ABOVE = 3.1415926535897936
 """A double above π."""
@@ -30,13 +79,9 @@ Values = dict[tuple[int, ...], tuple[Value, Value]]
 
 
 class Field:
-    """Some polynomials of one arm.
+    """Some polynomials of an arm of n joints.
 
-    Args:
-        entries: the polynomials.
-        n: number of joints.
-        parameters: the range of each parameter.
-        angles: the joints whose angles boxes have as sides; all that occur, unless it is said.
+    ``angles`` are the joints whose angles boxes have as sides; all that occur, unless it is said.
     """
 
     def __init__(
@@ -88,14 +133,10 @@ class Field:
 
 def size_of(entry: Uncertain, parameters: Sequence[Ends]) -> Fraction:
     """A bound of the absolute value of a polynomial: the sum of the sizes of its harmonics."""
-    sizes = [max(abs(low), abs(high)) for low, high in parameters]
-    return sum(
-        (
-            largest(part) * prod(x**p for x, p in zip(sizes, powers, strict=True))
-            for powers, part in entry.items()
-        ),
-        Fraction(0),
-    )
+    sizes, total = [max(abs(low), abs(high)) for low, high in parameters], Fraction(0)
+    for powers, part in entry.items():
+        total += largest(part) * prod(x**p for x, p in zip(sizes, powers, strict=True))
+    return total
 
 
 def value_at(
@@ -127,12 +168,7 @@ class Polynomial:
         self.used = [k for terms in entry.values() for k in terms if any(k)]
 
     def over(
-        self,
-        wide: Values,
-        centre: Values,
-        offset: list[Value],
-        parameters: Sequence[Value],
-        of: Arithmetic,
+        self, wide: Values, centre: Values, offset: list[Value], parameters: Sequence[Value], of: Arithmetic
     ) -> Value:
         """The values over a box of angles and parameters."""
         return self.put_together(lambda part: part.over(wide, centre, offset, of), parameters, of)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import accumulate, count, takewhile
 
 from flint import arb
 
@@ -21,12 +22,7 @@ Rows = tuple[tuple[Monomials, ...], ...]
 
 
 class Inertia:
-    """M(q) of n joints, for all parameters in their ranges.
-
-    Args:
-        mass: rows of entries; a term has exponents of s1 … sn, c1 … cn and the parameters.
-        parameters: the range of each parameter.
-    """
+    """M(q) of n joints, for all parameters in their ranges."""
 
     def __init__(self, mass: Sequence[Sequence[Monomials]], parameters: Sequence[Ends]) -> None:
         self.n, self.parameters = len(mass), tuple(parameters)
@@ -49,8 +45,7 @@ class Inertia:
     def below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
         """Whether high·I − M(q) and high·I + M(q) are positive definite throughout: then ‖M(q)‖ < high."""
         return self._lower_half().throughout(
-            lambda m, of: all(exceeds(rows_of(signed), 1, high, of) for signed in (m, _negative(m, of))),
-            most,
+            lambda m, of: all(exceeds(rows_of(signed), 1, high, of) for signed in (m, _negative(m, of))), most
         )
 
     def coriolis_below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
@@ -96,13 +91,8 @@ class Inertia:
     @cached_property
     def squares_of_symbols(self) -> Fraction:
         """A bound of Σ c_ijk², which ‖C(q, x)y‖² ≤ Σ c_ijk² ‖x‖²‖y‖² asks for, by Cauchy–Schwarz twice."""
-        return sum(
-            (
-                (1 if j == k else 2) * size_of(c, self.parameters) ** 2
-                for (_, j, k), c in self.symbols.items()
-            ),
-            Fraction(0),
-        )
+        sizes = ((j == k, size_of(c, self.parameters)) for (_, j, k), c in self.symbols.items())
+        return sum(((1 if same else 2) * size**2 for same, size in sizes), Fraction(0))
 
     def _lower_half(self) -> Field:
         entries = [self.mass[i][j] for i in range(self.n) for j in range(i + 1)]
@@ -140,13 +130,8 @@ def _product(x: list[Value], y: list[Value], same: bool, of: Arithmetic) -> Valu
 
 def rows_of(entries: Sequence[Value]) -> list[list[Value]]:
     """The entries on and below the diagonal of a matrix, row by row."""
-    result: list[list[Value]] = []
-    left = list(entries)
-    while left:
-        count = len(result) + 1
-        result.append(left[:count])
-        left = left[count:]
-    return result
+    starts = takewhile(lambda start: start < len(entries), accumulate(count()))
+    return [list(entries[start : start + 1 + k]) for k, start in enumerate(starts)]
 
 
 def exceeds(rows: list[list[Value]], sign: int, shift: Fraction, of: Arithmetic) -> bool:

@@ -7,9 +7,8 @@ from contextvars import ContextVar
 from dataclasses import replace
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
-from lyapcheck.check.loop.boxes import Box, halves, leaves
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
+from lyapcheck.check.loop.field import Box, halves, leaves
 from lyapcheck.check.loop.schur import CentredEvaluator, Evaluator
 from lyapcheck.check.numbers.balls import precision
 

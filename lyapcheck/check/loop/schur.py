@@ -9,9 +9,8 @@ from typing import Any, NamedTuple
 from flint import arb, arb_mat
 
 from lyapcheck.check.loop.arithmetic import BALLS, Arithmetic, Ring
-from lyapcheck.check.loop.boxes import Box, Side
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.field import Field, Part, ball, combined, cosines_and_sines
+from lyapcheck.check.loop.field import Box, Field, Part, Side, ball, combined, cosines_and_sines
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.members import Member
 
@@ -34,12 +33,7 @@ class Errors(NamedTuple):
 
 
 class Evaluator:
-    """P over boxes; ranges of functions of one side, and of all errors, are kept, since boxes share them.
-
-    Args:
-        loop: what is to be shown.
-        of: the arithmetic.
-    """
+    """P over boxes; ranges of functions of one side, and of all errors, are kept, since boxes share them."""
 
     def __init__(self, loop: ClosedLoop, of: Arithmetic) -> None:
         self.loop = loop
@@ -334,9 +328,6 @@ def of_error(member: Member, side: Side) -> tuple[tuple[arb, arb, arb], tuple[ar
     """h and h' of one error: in the middle of the side, over it, and their slopes.
 
     Where h' is convex or concave (h'(x) − h'(c))/(x − c) is monotone, hence between its values at the ends.
-
-    Raises:
-        ValueError: h'' is not known.
     """
     if member.d2h is None:
         raise ValueError("the checker does not know h''")

@@ -76,13 +76,6 @@ def value(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: 
 def rate(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: int = 128) -> arb:
     """A ball that contains dV/dt along (11) at the state, in W.
 
-    Args:
-        arm: M and B.
-        controller: the functions and gains.
-        eps0: ε₀ of (12).
-        state: an exact state.
-        bits: working precision.
-
     Soundness: contains dV/dt of the arm whose M is given by the terms; gravity has cancelled in (11). At
         e = 0, where ‖e‖ has no derivative, h = 0 makes the term with dε/dt vanish.
 

@@ -154,9 +154,6 @@ def invariant_form(coefficients: Sequence[Fraction], vectors: int) -> fmpq_mat:
 
     For each pair a, b of them, a before or at b, come the coefficients of 2 a_z b_z, of 2 (a_x b_x + a_y b_y)
     and for a ≠ b of 2 (a_x b_y − a_y b_x), the first two without the 2 where a is b.
-
-    Raises:
-        ValueError: the number of coefficients is another one than vectors · (3 vectors + 1) / 2.
     """
     rows = [[ZERO] * (3 * vectors) for _ in range(3 * vectors)]
     if len(coefficients) != vectors * (3 * vectors + 1) // 2:

@@ -92,9 +92,6 @@ def peak_of_secant(m: int) -> arb:
 def bracketed_root(function: Callable[[arb], arb], low: arb, high: arb) -> arb:
     """An enclosure, tight at the current precision, of a root of a continuous function between two points.
 
-    Raises:
-        ArithmeticError: balls of twice that precision do not show a change of sign.
-
     Soundness: the ball lies between the points and holds a root because the function changes sign inside it;
     that no other root is meant is for the caller to argue.
     """
@@ -155,14 +152,7 @@ def hyperbolic_constants(m: int, digits: int = 30) -> Constants:
 
     m = 1 is tanh: γ = 1 is the limit at infinity, ρ = L = 1 belong to x = 0. For m >= 2 all are reached.
 
-    Args:
-        m: the member of the family, m >= 1.
-        digits: decimal digits that the enclosures resolve.
-
-    Raises:
-        ValueError: m or digits below 1.
-
-    Soundness: roots are bracketed by certified signs and counted by Descartes' rule; see ``critical``.
+    Soundness: roots are bracketed by certified signs and counted by Descartes' rule.
 
     References: ``reyes2019family`` (6), (7), (8).
     """

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
 
 Harmonic = tuple[int, ...]
 """Integer multiples k of the joint angles; the first that is not zero is positive."""
@@ -77,19 +78,11 @@ def largest(terms: Mapping[Harmonic, Gaussian]) -> Fraction:
 
 def christoffel(mass: Sequence[Sequence[Harmonics]]) -> dict[tuple[int, int, int], Harmonics]:
     """The c_ijk = c_ikj = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) with k ≤ j that do not vanish."""
-    n, half = len(mass), Fraction(1, 2)
-    result = {}
-    for i in range(n):
-        for j in range(n):
-            for k in range(j + 1):
-                parts = (
-                    (half, derivative(mass[i][j], k)),
-                    (half, derivative(mass[i][k], j)),
-                    (-half, derivative(mass[j][k], i)),
-                )
-                symbol = combination(parts)
-                if symbol:
-                    result[i, j, k] = symbol
+    n, half, result = len(mass), Fraction(1, 2), {}
+    for i, j, k in product(range(n), repeat=3):
+        turned = ((half, mass[i][j], k), (half, mass[i][k], j), (-half, mass[j][k], i))
+        if k <= j and (symbol := combination((share, derivative(entry, at)) for share, entry, at in turned)):
+            result[i, j, k] = symbol
     return result
 
 

@@ -161,13 +161,8 @@ def at_most(
 ) -> BoundEveryN:
     """``left <= right`` for every n, with all that is known of the letters in it.
 
-    Args:
-        system: the closed loop.
-        left: a number made of its letters.
-        right: an expression in sizes and constants.
-        rates: the derivatives of its letters, where it is one; M ẇ is then that of the system.
-        changed: letters that stand for others.
-        local: whether ‖e‖ <= R.
+    ``right`` is in sizes and constants. With ``rates``, the derivatives of letters, M ẇ is the system's;
+    ``changed`` are letters that stand for others, ``local`` is for ‖e‖ <= R.
     """
     moved = dict(rates or {})
     given = (system.given,) if moved else ()
@@ -195,16 +190,8 @@ def constants_of(system: System) -> dict[str, Variable]:
     positive = ["mu", "beta", "R", "eps0", *system.constants, *(f"{name}_min" for name in system.gains)]
     for f in system.functions:
         positive += [f"{f.name}_{bound}" for bound in BOUNDS]
-    upper = [
-        "kc",
-        "kg",
-        "km",
-        "kc2",
-        "vd",
-        "ad",
-        "delta",
-        *(f"{name}_{end}" for name in system.diagonal for end in ("max", "norm")),
-    ]
+    upper = ["kc", "kg", "km", "kc2", "vd", "ad", "delta"]
+    upper += [f"{name}_{end}" for name in system.diagonal for end in ("max", "norm")]
     (positive if system.friction == "positive" else upper).append("B_min")
     result = {name: Variable(name, Fraction(0)) for name in positive}
     return result | {name: Variable(name, Fraction(0), strict=False) for name in upper}

@@ -96,11 +96,7 @@ def determinant(rows: list[list[Tree]]) -> Tree:
 def is_positive(system: System, tree: Tree, where: tuple[Relation, ...], small: bool) -> Statement:
     """That an expression in constants, ε₀ and s is positive for all constants that meet the conditions.
 
-    Args:
-        system: the closed loop, whose constants they are.
-        tree: the expression.
-        where: the conditions.
-        small: whether ε₀ may be as small as need be, and is not one of the constants.
+    With ``small`` ε₀ may be as small as need be, and is not one of the constants.
     """
     used = variables(tree).union(*(variables(one.gap) for one in where))
     known = constants_of(system)

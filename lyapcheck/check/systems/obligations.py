@@ -85,10 +85,8 @@ def above(argument: Argument) -> Named:
     """V >= φ, positive definite."""
     by = {("vec", change.state): change.equals for change in argument.changes}
     left = _with_gravity(argument, replaced(argument.energy, by))
-    yield (
-        "above",
-        at_most(argument.system, ("neg", left), ("neg", argument.lower.tree), changed=argument.changed),
-    )
+    right: Tree = ("neg", argument.lower.tree)
+    yield "above", at_most(argument.system, ("neg", left), right, changed=argument.changed)
     yield from _definite(argument, "above", argument.lower)
 
 
@@ -138,10 +136,8 @@ def _follows(argument: Argument, cascade: Cascade) -> Named:
     turned = ("apply", system.rates()[M], y)
     moving: Tree = ("add", ("rate", ("dot", TEST, ("apply", M, y))), ("neg", ("dot", TEST, turned)))
     most = product(size(TEST[1]), cascade.motion)
-    yield (
-        "cascade, motion",
-        at_most(system, _changed(argument, moving), most, changed=(*argument.changed, TEST[1])),
-    )
+    changed = (*argument.changed, TEST[1])
+    yield "cascade, motion", at_most(system, _changed(argument, moving), most, changed=changed)
     left: Tree = ("neg", ("dot", E, change.equals))
     right: Tree = ("neg", cascade.contraction.tree)
     yield "cascade, contraction", at_most(system, left, right, changed=argument.changed)

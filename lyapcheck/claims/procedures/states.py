@@ -22,7 +22,7 @@ from lyapcheck.check.kinds.decreasing import (
     StateWitness,
 )
 from lyapcheck.check.kinds.inertia import Bisection
-from lyapcheck.check.loop.scalar import certifies
+from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.procedures.constants import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
