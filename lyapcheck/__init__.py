@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.answers.tune.tuning import tune as tune_gains
-    from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
+    from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
     from lyapcheck.check.numbers.polynomials import Enclosure
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
@@ -116,7 +116,7 @@ _HOMES = {
     "Bounds": "control.gains",
     "Claim": "claims.claim",
     "ClaimResult": "answers.check",
-    "Constants": "check.numbers.constants",
+    "Constants": "check.numbers.balls",
     "Decision": "claims.decision",
     "Enclosure": "check.numbers.polynomials",
     "EpsilonResult": "answers.epsilon",
@@ -152,7 +152,7 @@ _HOMES = {
     "explain": "answers.explain",
     "gamma_less_than": "family.asymptotes",
     "gate": "answers.gate",
-    "hyperbolic_constants": "check.numbers.constants",
+    "hyperbolic_constants": "check.numbers.balls",
     "limits_for": "control.limits",
     "load_robot": "robots.registry:load",
     "lyapunov_graph": "lyapunov.graph",

@@ -14,7 +14,7 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
-from lyapcheck.check.numbers.constants import Constants, hyperbolic_constants
+from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
@@ -213,7 +213,7 @@ def build_table(
     Raises:
         ValueError: an m or ``digits`` below 1.
 
-    Soundness: see ``lyapcheck.check.numbers.constants``; digits are cut off from an enclosure, never rounded.
+    Soundness: see ``lyapcheck.check.numbers.balls``; digits are cut off from an enclosure, never rounded.
 
     References: (6), (7) and (8) of reyes2019family.
 

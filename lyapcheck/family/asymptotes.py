@@ -18,8 +18,7 @@ from math import ceil, log
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
-from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.constants import Constants, gamma_value, peak_of_h
+from lyapcheck.check.numbers.balls import Constants, gamma_value, peak_of_h, precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 
 

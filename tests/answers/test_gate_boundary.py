@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import GateResult, gate
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file

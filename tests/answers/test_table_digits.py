@@ -13,8 +13,7 @@ import pytest
 from flint import arb
 
 from lyapcheck.answers.table import build_table
-from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants, precision
 from tests.oracle.numbers import supremum
 
 SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))

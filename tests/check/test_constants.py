@@ -11,7 +11,7 @@ from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers.constants import bracketed_root, hyperbolic_constants, peak_of_h
+from lyapcheck.check.numbers.balls import bracketed_root, hyperbolic_constants, peak_of_h
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family.asymptotes import gamma_less_than
 

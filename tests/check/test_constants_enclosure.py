@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.numbers import balls
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.output.digits import correct_digits, decimals
 

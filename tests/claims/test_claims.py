@@ -205,7 +205,7 @@ def test_a_derivative_that_is_off_by_a_factor_is_refuted(m, wrong):
 @given(st.integers(2, 9), st.integers(-6, 6))
 def test_bounds_just_beside_gamma_fall_on_their_sides(m, offset):
     """γ_m from the certified constants: a bound above is proved by Sturm, one below refuted by a point."""
-    from lyapcheck.check.numbers.constants import hyperbolic_constants
+    from lyapcheck.check.numbers.balls import hyperbolic_constants
 
     bound = hyperbolic_constants(m).gamma.mid + Fraction(2 * offset + 1, 500)
     expected = Verdict.PROVED if offset >= 0 else Verdict.REFUTED

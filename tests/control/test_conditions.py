@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from mpmath import mpf
 
 from lyapcheck.check.expressions.expression import Tree, ball
-from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants, precision, to_arb
 from lyapcheck.check.verify import verify
 from lyapcheck.control.conditions import Check, Conditions, check_10p, check_19, gamma_of
 from lyapcheck.control.gains import PRINTED_GAMMA, GainSet

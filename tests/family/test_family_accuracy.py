@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import family
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 
 MEMBERS = (1, 2, 3, 5, 10, 50, 100, 317, 513, 1000)
 FORMS = ("h", "dh", "potential", "secant")

@@ -10,7 +10,7 @@ from mpmath import mp
 from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.resting import Resting
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.claims import (
     agrees,

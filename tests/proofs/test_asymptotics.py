@@ -7,8 +7,7 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants, precision
 from lyapcheck.claims import exp, for_all, log, run_proof, var
 from lyapcheck.claims.procedures import propose
 from lyapcheck.family.asymptotes import gamma_less_than

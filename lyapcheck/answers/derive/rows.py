@@ -16,8 +16,7 @@ from sympy.printing.str import sstr
 from lyapcheck.answers.derive.statements import equal_values, of_family, rate_of_value, tree
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants, precision
 from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement

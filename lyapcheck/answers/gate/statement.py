@@ -21,7 +21,7 @@ from lyapcheck.check.kinds.gate_accepted import (
     GateParts,
     SaturatingState,
 )
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED
 from lyapcheck.control.gravity import steep_postures

@@ -29,7 +29,7 @@ from math import ceil, floor, isqrt, prod, sqrt
 
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.numbers.harmonics import by_parameters, largest
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.limits import Limits

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.table import Budget, Table
 from lyapcheck.answers.tune.largest import GainRange
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.constants import Constants
+from lyapcheck.check.numbers.balls import Constants, precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for, varied_limits

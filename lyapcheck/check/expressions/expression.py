@@ -22,7 +22,7 @@ from typing import Any
 
 from flint import arb, arb_series, ctx, fmpq
 
-from lyapcheck.check.numbers.constants import hyperbolic_constants, power
+from lyapcheck.check.numbers.balls import hyperbolic_constants, power
 
 Tree = tuple[Any, ...]
 FUNCTIONS = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")

@@ -28,8 +28,7 @@ from lyapcheck.check.kinds.inertia import (
     written_out,
 )
 from lyapcheck.check.loop.field import value_at
-from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants, precision, to_arb
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import require

@@ -11,7 +11,7 @@ from typing import Any
 from flint import arb
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers.constants import hyperbolic_constants, peak_of_h, peaks_of_dh
+from lyapcheck.check.numbers.balls import hyperbolic_constants, peak_of_h, peaks_of_dh
 from lyapcheck.family.arithmetic import Arithmetic
 from lyapcheck.family.base import Family, FamilyConstants, SymbolicForms
 from lyapcheck.family.hyperbolic_numeric import HyperbolicForms

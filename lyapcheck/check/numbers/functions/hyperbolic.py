@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import partial
 
 from lyapcheck.check.numbers import balls
-from lyapcheck.check.numbers.constants import hyperbolic_constants
+from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.numbers.members import Member, unknown
 
 MOST = 60
