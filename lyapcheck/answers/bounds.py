@@ -244,13 +244,13 @@ class _Runs:
         known = [0.0 if number is None else float(number.value) for number in model.coulomb]
         friction = known if dry is None else [float(f) for f in dry]
         let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
-        run, other = (
+        (t, e), (_, other) = (
             disturbed(gain_set, model, task.q_d, q0, w0, task.T, dry=friction)
             for q0, w0 in ((task.q0, task.w0), (let_go, None))
         )
-        ends = np.max(np.abs([run.e[-1], other.e[-1]]), axis=0)
-        largest = np.max(np.abs(run.e), axis=0)
-        return cls(inside_from(run.t, run.e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
+        ends = np.max(np.abs([e[-1], other[-1]]), axis=0)
+        largest = np.max(np.abs(e), axis=0)
+        return cls(inside_from(t, e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
 
 
 def inside_from(t: Array, e: Array, delta: float) -> float | None:

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array, Progress
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.batch import Runs, simulate_many
-from lyapcheck.simulate.breach import Breach
+from lyapcheck.simulate.breach import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.results import LEAST_ENERGY, V_NOISE, torque_limits
+from lyapcheck.simulate.results import torque_limits
+from lyapcheck.simulate.run import Breach
 from lyapcheck.simulate.task import Gains, Task, gains_for
 
 if TYPE_CHECKING:

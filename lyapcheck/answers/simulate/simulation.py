@@ -18,10 +18,9 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.simulate.breach import Breach
-    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.run import Breach, Run
     from lyapcheck.simulate.starts import Sweep
-    from lyapcheck.tracking.run import TrackingRun
+    from lyapcheck.simulate.tracking import TrackingRun
 
 
 PROMISES, FINISHED = "promises", "finished"

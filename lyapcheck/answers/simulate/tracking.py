@@ -23,7 +23,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section
 from lyapcheck.output.fields import Field, data, records
-from lyapcheck.tracking.run import TrackingRun
+from lyapcheck.simulate.tracking import TrackingRun
 
 ESTIMATED = (
     "Estimated: by theory at the arm's nominal numbers, for all times and all motions from this start, "
@@ -44,10 +44,6 @@ def above(value: Fraction) -> float:
 def all_above(values: Iterable[Fraction]) -> list[float]:
     """The same of each."""
     return list(map(above, values))
-
-
-def _error_rate(one: TrackingRun) -> float:
-    return float(np.max(np.linalg.norm(one.motion.w, axis=1)))
 
 
 def _inside(one: TrackingRun) -> list[str]:
@@ -71,8 +67,8 @@ def _yes(whether: bool) -> str:
 
 
 SEEN = (
-    Field("reference_speed", "seen_speed", to=plain),
-    Field("error_rate", lambda one: plain(_error_rate(one))),
+    Field("reference_speed", lambda one: plain(one.largest(one.speed))),
+    Field("error_rate", lambda one: plain(one.largest(one.w))),
     Field("tightness", "tightness", to=plain),
 )
 PROMISED = (
@@ -87,15 +83,15 @@ PROMISED = (
 )
 FIELDS = (
     Field("name", "name", "gains", align="l"),
-    Field("m", "gains.family.m"),
+    Field("m", "m"),
     Field("robot", "robot"),
-    Field("kind", lambda one: "tracking"),
+    Field("kind", "kind"),
     Field("reference", "reference.sentence"),
     Field("complete", "complete"),
-    Field("time", "T"),
-    Field("reached", lambda one: plain(one.motion.t[-1])),
+    Field("time", "task.T"),
+    Field("reached", lambda one: plain(one.t[-1])),
     Field("joints", "joints", "joint", to=list, align="l", each=True, csv="joint"),
-    Field("start", lambda one: one.motion.q[0], to=degrees, each=True),
+    Field("start", lambda one: one.q[0], to=degrees, each=True),
     Field("rms", "indices.rms", "rms [°]", "z.4f", plains, each=True),
     Field("peak_error", "indices.peak_error", "peak error [°]", "z.3f", plains, each=True),
     Field("entered", "indices.entered", "within {band} from [s]", "z.3f", plains, each=True),
@@ -149,10 +145,10 @@ class TrackingRuns(Simulation[TrackingRun]):
 
 
 def _headline(one: TrackingRun) -> str:
-    member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
-    start = row(np.round(np.degrees(one.motion.q[0]), 9))
-    cut = "" if one.complete else f", CUT SHORT at {one.motion.t[-1]:.4g} s"
-    return f"{one.name}{member}: from {start}° in {one.T:g} s{cut}"
+    member = "" if one.m is None else f" (m = {one.m})"
+    start = row(np.round(np.degrees(one.q[0]), 9))
+    cut = "" if one.complete else f", CUT SHORT at {one.t[-1]:.4g} s"
+    return f"{one.name}{member}: from {start}° in {one.task.T:g} s{cut}"
 
 
 def _facts(one: TrackingRun) -> tuple[str, ...]:
@@ -161,7 +157,7 @@ def _facts(one: TrackingRun) -> tuple[str, ...]:
     if math.isnan(one.accuracy):
         checks = "accuracy unknown: the run was cut short"
     return (
-        f"estimated: ‖q̇_d‖ ≤ v_d = {speed} rad/s, seen {at_most(one.seen_speed)}",
+        f"estimated: ‖q̇_d‖ ≤ v_d = {speed} rad/s, seen {at_most(one.largest(one.speed))}",
         *_promised(one),
         f"{checks}; work balance {sized(one.work_balance)}",
     )
@@ -178,10 +174,8 @@ def _promised(one: TrackingRun) -> list[str]:
         else f"; up to {at_most(100 * one.tightness, 3)} % of the fall was estimated"
     )
     lines = [f"V need not fall: {promise.reason}"] if promise.reason else []
-    lines.append(
-        f"seen: dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.motion.t.size} samples{share}"
-    )
+    lines.append(f"seen: dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.t.size} samples{share}")
     if promise.torque is not None:
-        most, seen = up(promise.torque.error_rate), _error_rate(one)
+        most, seen = up(promise.torque.error_rate), one.largest(one.w)
         lines.append(f"estimated: ‖q̇ − q̇_d‖ ≤ {most} rad/s, seen {at_most(seen)}")
     return lines

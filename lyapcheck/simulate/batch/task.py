@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.simulate.batch.integrator import FAILURES, Paths
-from lyapcheck.simulate.results import LEAST_ENERGY, LEAST_STEP
+from lyapcheck.simulate.breach import LEAST_ENERGY
+from lyapcheck.simulate.results import LEAST_STEP
 from lyapcheck.simulate.task import FARTHEST, FASTEST, Gains, gains_for, task_for
 
 if TYPE_CHECKING:

@@ -15,23 +15,29 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+from flint import fmpq_mpoly
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.scalar import ScalarForm
 from lyapcheck.check.loop.states import State, value
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.harmonics import harmonics
+from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.constants import robot_constants
 from lyapcheck.constants.arm import robot_bounds
 from lyapcheck.files.decimals import round_down
 from lyapcheck.lyapunov.scalar import scalar_form
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.simulate.breach import Breach, Monitor, Watched
-from lyapcheck.simulate.disturbed import coriolis_squares, gravity_sizes, mass_sizes
-from lyapcheck.tracking.reference.base import BITS, above
+from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.trig import to_terms
+from lyapcheck.simulate.breach import Monitor
+from lyapcheck.simulate.reference.base import BITS, above
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
-    from lyapcheck.tracking.reference import Suprema
+    from lyapcheck.simulate.reference import Suprema
+    from lyapcheck.simulate.run import Breach, Motion
+    from lyapcheck.simulate.task import Setup
 
 Row = tuple[Fraction, ...]
 
@@ -100,6 +106,36 @@ def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
         return (k_c,) * controlled.n
     with precision(BITS):
         return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(controlled.fixed))
+
+
+# --- How large the entries of M and g and the Christoffel symbols of an arm can be, at any angles.
+#
+# Each is a sum of harmonics a cos(k·q) + b sin(k·q), and at most Σ (a² + b²)^½ in size.
+
+
+def mass_sizes(model: Plant) -> tuple[Row, ...]:
+    """At least sup |M_ij(q)| for each entry, (n, n), kg·m²; nominal parameters."""
+    return tuple(tuple(_size(entry, model.n) for entry in row) for row in model.fixed().mass)
+
+
+def gravity_sizes(model: Plant) -> Row:
+    """At least sup |g_i(q)|, (n,), N·m."""
+    return tuple(_size(entry, model.n) for entry in model.fixed().gravity)
+
+
+def coriolis_squares(model: Plant) -> Row:
+    """At least Σ_jk sup |c_ijk(q)|² for each i, so that |(C(q, x) y)_i| is at most its root times ‖x‖ ‖y‖."""
+    symbols = model.fixed().christoffel
+    return tuple(
+        sum((_size(entry, model.n) ** 2 for row in layer for entry in row), Fraction(0)) for layer in symbols
+    )
+
+
+def _size(poly: fmpq_mpoly, n: int) -> Fraction:
+    pairs = harmonics(to_terms(poly), n).values()
+    return sum(
+        (max(abs(a), abs(b)) if not a or not b else root_above(a * a + b * b) for a, b in pairs), Fraction(0)
+    )
 
 
 # --- How fast V must fall under (21): dV/dt ≤ −[a b] Θ' [a b]ᵀ with a = ‖h(e)‖, b = ‖w‖ and v_d = sup ‖q̇_d‖.
@@ -182,7 +218,7 @@ ROUNDING = 1e-9
 def form_monitor(bound: Array | None) -> Monitor:
     """dV/dt ≤ −[a b] Θ' [a b]ᵀ at every sample; ``bound`` (N,) in W."""
 
-    def monitor(run: Watched) -> Breach | None:
+    def monitor(setup: Setup, run: Motion) -> Breach | None:
         if bound is None:
             return None
         scale = ROUNDING * max(float(np.max(np.abs(bound))), float(np.max(np.abs(run.dV))))
@@ -190,6 +226,6 @@ def form_monitor(bound: Array | None) -> Monitor:
         if not beyond.size:
             return None
         i = int(beyond[0])
-        return run.breach("dV/dt ≤ −zᵀΘ'z", i, run.dV[i], bound[i], "W", False)
+        return run.broken("dV/dt ≤ −zᵀΘ'z", i, run.dV[i], bound[i], "W", False)
 
     return monitor
