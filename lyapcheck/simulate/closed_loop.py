@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots import graph
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.breach import (
     Monitor,
@@ -27,7 +29,7 @@ from lyapcheck.simulate.course import Course, Loop
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
 from lyapcheck.simulate.results import imbalance, l2_of, motion_of, observe
 from lyapcheck.simulate.run import Run
-from lyapcheck.simulate.task import Gains, set_up
+from lyapcheck.simulate.task import Gains, Setup, set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -53,6 +55,9 @@ def closed_loop(gains: Gains, model: RobotModel) -> Loop:
 
 TOLERANCE = 1e-11
 """Relative tolerance of the first integration; the one handed back is ten times tighter."""
+
+CREEP = 1e-3
+"""rad/s: dry friction is f tanh(w/creep), so that a joint that should stick creeps."""
 
 POINTS = 2001
 """Samples of a run: every 2.5 ms of the paper's five seconds."""
@@ -105,18 +110,30 @@ def simulate(
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
-    course = SetPoint(setup, closed_loop(setup.gains, model), [*setup.task.q0, *setup.task.w0], points)
-    return course.moved(tolerance, max_steps, stop, on_progress or silent)
+    return SetPoint(setup, points).moved(tolerance, max_steps, stop, on_progress or silent)
 
 
 class SetPoint(Course[Run]):
-    """The way to a set point."""
+    """The way to a set point; ``dry``: against dry friction f tanh(w/creep) of so many N·m a joint."""
 
     of_extremes = ("indices", "promises")
 
+    def __init__(self, setup: Setup, points: int, dry: Sequence[float] = ()) -> None:
+        loop = closed_loop(setup.gains, setup.model)
+        if dry:
+            q, w = loop.state[: loop.n], loop.state[loop.n : 2 * loop.n]
+            slowed = graph.solve(graph.mass(setup.model, q), -ca.DM(list(dry)) * ca.tanh(w / CREEP))
+            loop = replace(loop, rate=loop.rate + ca.vertcat(ca.SX.zeros(loop.n), slowed, 0, 0))
+        self._still = np.array(setup.task.q_d)
+        super().__init__(setup, loop, [*setup.task.q0, *setup.task.w0], points)
+
     def goal(self, t: Array) -> Array:
         """See `Course.goal`."""
-        return np.tile(self.setup.task.q_d, (t.size, 1))
+        return np.tile(self._still, (t.size, 1))
+
+    def at(self, time: float) -> Array:
+        """See `Course.at`; asked for at every step, and always the same."""
+        return self._still
 
     def run(self, path: Trajectory, accuracy: float) -> Run:
         """See `Course.run`."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Generic, TypeVar
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from lyapcheck._types import Array, Progress
 from lyapcheck.simulate.breach import Monitor, first_breach
-from lyapcheck.simulate.integrate import Compiled, Trajectory, integrate, with_extremes
+from lyapcheck.simulate.integrate import MAX_STEPS, Compiled, Trajectory, integrate, with_extremes
 from lyapcheck.simulate.run import Motion, PromiseBroken, SimulationFailed
 from lyapcheck.simulate.task import Setup
 
@@ -77,6 +77,11 @@ class Course(ABC, Generic[Moved]):
     def goal(self, t: Array) -> Array:
         """(N, k) the goal at times (N,) in s."""
 
+    def at(self, time: float) -> Array:
+        """(k,) the same at one time."""
+        row: Array = self.goal(np.array([time]))[0]
+        return row
+
     @abstractmethod
     def run(self, path: Trajectory, accuracy: float) -> Moved:
         """Everything that can be computed from the samples of a path."""
@@ -95,37 +100,33 @@ class Course(ABC, Generic[Moved]):
         tau, energy = self.loop.signals().map(path.t.size)(path.y.T, self.goal(path.t).T)
         return np.array(tau).T, np.array(energy)[0]
 
-    def twice(self, tolerance: float, max_steps: int, progress: Progress) -> tuple[Trajectory, Trajectory]:
-        """The integration, and again ten times tighter."""
-        rate, jacobian, T = self.loop.compiled_rate(), self.loop.compiled_jacobian(), self.setup.task.T
+    def once(
+        self, tolerance: float, max_steps: int = MAX_STEPS, on_time: Callable[[float], None] | None = None
+    ) -> Trajectory:
+        """The motion at its samples, or as many of them as were reached."""
+        rate, jacobian = self.loop.compiled_rate(), self.loop.compiled_jacobian()
         weights = np.ones(self.y0.size)
         weights[-2] = self.easier
-
-        def at(time: float) -> Array:
-            row: Array = self.goal(np.array([time]))[0]
-            return row
-
-        def once(tolerance: float, done: float) -> Trajectory:
-            return integrate(
-                lambda time, y: rate(y, at(time)),
-                lambda time, y: jacobian(y, at(time)),
-                self.y0,
-                np.linspace(0.0, T, self.points),
-                tolerance * weights,
-                max_steps=max_steps,
-                on_time=lambda time: progress(done + 0.5 * time / T, ""),
-            )
-
-        return once(tolerance, 0.0), once(tolerance / 10, 0.5)
+        return integrate(
+            lambda time, y: rate(y, self.at(time)),
+            lambda time, y: jacobian(y, self.at(time)),
+            self.y0,
+            np.linspace(0.0, self.setup.task.T, self.points),
+            tolerance * weights,
+            max_steps=max_steps,
+            on_time=on_time,
+        )
 
     def moved(self, tolerance: float, max_steps: int, stop: bool, progress: Progress) -> Moved:
-        """The run, with the first promise that it broke.
+        """The run, integrated again ten times tighter, with the first promise that it broke.
 
         Raises:
             SimulationFailed: the integrator gave up; carries what was reached.
             PromiseBroken: a promise was broken, and ``stop``; carries the run up to that state.
         """
-        rough, fine = self.twice(tolerance, max_steps, progress)
+        T = self.setup.task.T
+        rough = self.once(tolerance, max_steps, lambda time: progress(0.5 * time / T, ""))
+        fine = self.once(tolerance / 10, max_steps, lambda time: progress(0.5 + 0.5 * time / T, ""))
         failure, title = fine.failure or rough.failure, self.setup.title
         accuracy = math.nan if failure else float(np.max(np.abs(fine.y - rough.y)[:, :-2]))
         with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise

@@ -108,8 +108,7 @@ def l2_index(t: Array, e: Array) -> float:
 
     References: (20) of ``reyes2019family``.
     """
-    squares = np.sum(e * e, axis=1)
-    return math.degrees(math.sqrt(float(np.trapezoid(squares, t)) / float(t[-1] - t[0])))
+    return l2_of(float(np.trapezoid(np.sum(e * e, axis=1), t)), float(t[-1] - t[0]))
 
 
 def settling_times(t: Array, e: Array, band: float | Array = SETTLING_BAND) -> Array:
@@ -154,19 +153,6 @@ def overshoots(e: Array) -> Array:
     size = np.abs(start)
     share = np.divide(beyond, size, out=np.full_like(size, np.nan), where=size > LEAST_STEP)
     return np.asarray(100.0 * share)
-
-
-def peak_torques(tau: Array) -> Array:
-    """Per joint the largest |τ_i| of the samples in N·m; ``tau`` is (N, n)."""
-    return np.asarray(np.max(np.abs(tau), axis=0))
-
-
-def final_errors(e: Array) -> Array:
-    """Per joint the position error at the end of the run in degrees; ``e`` is (N, n) in rad.
-
-    This is what the paper calls the error in steady state; it is one only if the run has come to rest.
-    """
-    return np.asarray(np.degrees(e[-1]))
 
 
 def energies(
@@ -239,8 +225,8 @@ def _indices(t: Array, e: Array, tau: Array, L2: float, band: float) -> Indices:
         rms=np.degrees(rms),
         peak_error=np.degrees(size.max(axis=0)),
         entered=np.array([_entered(t, column, band) for column in size.T]),
-        peak_torque=peak_torques(tau),
-        final_error=final_errors(e),
+        peak_torque=np.max(np.abs(tau), axis=0),
+        final_error=np.degrees(e[-1]),
     )
 
 

@@ -63,7 +63,6 @@ class Sweep:
     """(R,) whether V rose by more than the run's own error."""
     beyond: NDArray[np.bool_]
     """(R,) whether a torque left its motor's limit."""
-    torque_limit: tuple[float | None, ...]
     notes: tuple[str, ...]
     breach: Breach | None
     """What the first run that broke a promise says when it is run alone."""
@@ -122,7 +121,6 @@ def sweep(
         eps0=eps0,
         risen=runs.V_rise > V_NOISE * np.maximum(first, LEAST_ENERGY),
         beyond=np.any(runs.peak_torque > limits, axis=1),
-        torque_limit=torque_limits(model),
         notes=model.assumptions,
         breach=None,
         without_dry_friction=model.dry,

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,25 +45,12 @@ Row = tuple[Fraction, ...]
 
 @dataclass(frozen=True)
 class TorqueBounds:
-    """Bounds of |τ_i|, N·m, and their parts, each (n,) and exact."""
+    """What bounds the motions from one start, exact."""
 
-    feedback: Row
-    """γ (k_pi + k_vi)."""
-    inertia: Row
-    """M q̈_d."""
-    coriolis: Row
-    """C(q, q̇) q̇_d."""
-    gravity: Row
-    friction: Row
-    """B q̇_d."""
+    total: Row
+    """(n,) of each |τ_i|, N·m."""
     error_rate: Fraction
     """b̄ ≥ ‖q̇ − q̇_d‖ at all times, rad/s."""
-
-    @property
-    def total(self) -> Row:
-        """The bound of each |τ_i|."""
-        parts = (self.feedback, self.inertia, self.coriolis, self.gravity, self.friction)
-        return tuple(sum(column, Fraction(0)) for column in zip(*parts, strict=True))
 
 
 def torque_bounds(
@@ -87,17 +75,14 @@ def torque_bounds(
         spin = above((2 * stored / to_arb(least)).sqrt())
     top = gamma.upper
     product = (suprema.speed + spin) * suprema.speed
-    return TorqueBounds(
-        feedback=tuple(top * (p + v) for p, v in zip(controlled.gains.kp, controlled.gains.kv, strict=True)),
-        inertia=tuple(
-            sum((m * a for m, a in zip(row, suprema.acceleration, strict=True)), Fraction(0))
-            for row in mass_sizes(controlled.fixed)
-        ),
-        coriolis=tuple(k * product for k in _coriolis_rows(controlled, constants.k_c.upper)),
-        gravity=gravity_sizes(controlled.fixed),
-        friction=tuple(b * v for b, v in zip(controlled.arm.viscous, suprema.rate, strict=True)),
-        error_rate=spin,
+    parts = (
+        [top * (p + v) for p, v in zip(controlled.gains.kp, controlled.gains.kv, strict=True)],
+        [sum(map(mul, row, suprema.acceleration), Fraction(0)) for row in mass_sizes(controlled.fixed)],
+        [k * product for k in _coriolis_rows(controlled, constants.k_c.upper)],
+        gravity_sizes(controlled.fixed),
+        map(mul, controlled.arm.viscous, suprema.rate),
     )
+    return TorqueBounds(tuple(sum(column, Fraction(0)) for column in zip(*parts, strict=True)), spin)
 
 
 def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
