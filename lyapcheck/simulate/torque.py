@@ -26,10 +26,9 @@ from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.constants import robot_constants
 from lyapcheck.constants.arm import robot_bounds
-from lyapcheck.files.decimals import round_down
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import scalar_form
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.robots.plant import Plant
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.simulate.breach import Monitor
 from lyapcheck.simulate.reference.base import BITS, above
@@ -73,50 +72,39 @@ def torque_bounds(
     with precision(BITS):
         stored = value(controlled.arm, controlled.controller, Fraction(0), start, BITS)
         spin = above((2 * stored / to_arb(least)).sqrt())
-    top = gamma.upper
+    top, fixed, n = gamma.upper, controlled.fixed, controlled.n
     product = (suprema.speed + spin) * suprema.speed
     parts = (
         [top * (p + v) for p, v in zip(controlled.gains.kp, controlled.gains.kv, strict=True)],
-        [sum(map(mul, row, suprema.acceleration), Fraction(0)) for row in mass_sizes(controlled.fixed)],
+        [
+            sum((_size(x, n) * a for x, a in zip(row, suprema.acceleration, strict=True)), Fraction(0))
+            for row in fixed.mass
+        ],
         [k * product for k in _coriolis_rows(controlled, constants.k_c.upper)],
-        gravity_sizes(controlled.fixed),
+        [_size(entry, n) for entry in fixed.gravity],
         map(mul, controlled.arm.viscous, suprema.rate),
     )
     return TorqueBounds(tuple(sum(column, Fraction(0)) for column in zip(*parts, strict=True)), spin)
 
 
 def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
-    """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²."""
-    if controlled.n > FEW_JOINTS:
-        return (k_c,) * controlled.n
+    """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²: k_c or √(Σ_jk sup c_ijk²)."""
+    n = controlled.n
+    if n > FEW_JOINTS:
+        return (k_c,) * n
+    squares = [
+        sum((_size(entry, n) ** 2 for row in layer for entry in row), Fraction(0))
+        for layer in controlled.fixed.christoffel
+    ]
     with precision(BITS):
-        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(controlled.fixed))
-
-
-# --- How large the entries of M and g and the Christoffel symbols of an arm can be, at any angles.
-#
-# Each is a sum of harmonics a cos(k·q) + b sin(k·q), and at most Σ (a² + b²)^½ in size.
-
-
-def mass_sizes(model: Plant) -> tuple[Row, ...]:
-    """At least sup |M_ij(q)| for each entry, (n, n), kg·m²; nominal parameters."""
-    return tuple(tuple(_size(entry, model.n) for entry in row) for row in model.fixed().mass)
-
-
-def gravity_sizes(model: Plant) -> Row:
-    """At least sup |g_i(q)|, (n,), N·m."""
-    return tuple(_size(entry, model.n) for entry in model.fixed().gravity)
-
-
-def coriolis_squares(model: Plant) -> Row:
-    """At least Σ_jk sup |c_ijk(q)|² for each i, so that |(C(q, x) y)_i| is at most its root times ‖x‖ ‖y‖."""
-    symbols = model.fixed().christoffel
-    return tuple(
-        sum((_size(entry, model.n) ** 2 for row in layer for entry in row), Fraction(0)) for layer in symbols
-    )
+        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in squares)
 
 
 def _size(poly: fmpq_mpoly, n: int) -> Fraction:
+    """At least how large an entry of M, g or C can be at any angles.
+
+    It is a sum of harmonics a cos(k·q) + b sin(k·q), and at most Σ (a² + b²)^½ in size.
+    """
     pairs = harmonics(to_terms(poly), n).values()
     return sum(
         (max(abs(a), abs(b)) if not a or not b else root_above(a * a + b * b) for a, b in pairs), Fraction(0)
@@ -164,7 +152,7 @@ class TrackingForm:
         for _ in range(HALVINGS):
             middle = (low + high) / 2
             low, high = (middle, high) if self.certifies(middle) else (low, middle)
-        short = _short(low) if low else low
+        short = significant_down(low, DIGITS) if low else low
         return short if self.certifies(short) else None
 
     def promised(self, eps0: float, r: Array, a: Array, b: Array) -> Array:
@@ -184,13 +172,6 @@ def tracking_form(controlled: ControlledArm, speed: Fraction) -> TrackingForm | 
     """
     still = scalar_form(controlled.gains, controlled.family.constants(), robot_bounds(controlled.model))
     return None if still is None else TrackingForm(still, robot_constants(controlled.model).k_c.upper * speed)
-
-
-def _short(value: Fraction) -> Fraction:
-    places = DIGITS
-    while value * 10**places < 10 ** (DIGITS - 1):
-        places += 1
-    return round_down(value, places)
 
 
 # --- The promise of (21) along a run: dV/dt below its form.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -14,7 +14,7 @@ import numpy as np
 
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import InputError, Problem, argument_problem
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import Monitor, fall_monitor, joint_monitor, limit_monitor, rate_monitor
@@ -49,12 +49,10 @@ class Promise:
     """What theory says of a run before it begins, at nominal numbers, by bounds without certificates."""
 
     suprema: Suprema
-    eps0: float
-    """The ε₀ of V that is watched."""
     largest: Fraction | None
     """The largest ε₀ for which Θ' is positive definite at v_d; none where there is none."""
     falls: bool
-    """Whether Θ' is positive definite at ``eps0``, so that dV/dt < 0 away from e = ė = 0."""
+    """Whether Θ' is positive definite at the ε₀ watched, so that dV/dt < 0 away from e = ė = 0."""
     torque: TorqueBounds | None
     """Bounds of each |τ_i|; none for an unbounded controller."""
     reason: str = ""
@@ -124,7 +122,10 @@ def request_for(
     except InputError as error:
         problems += error.problems
     if not 0.0 < band <= math.pi:
-        problems.append(_problem("band", f"{math.degrees(band):g}", "must be more than 0 and at most 180°"))
+        rule = "must be more than 0 and at most 180°"
+        problems.append(
+            argument_problem("band", f"{math.degrees(band):g}", rule, "give degrees, for instance 1")
+        )
     if reference is not None:
         problems += _reference_problems(n, reference, seconds)
     if problems:
@@ -132,32 +133,18 @@ def request_for(
     return task
 
 
-def _reference_problems(n: int, reference: Reference, T: float) -> list[Problem]:
-    result = []
+def _reference_problems(n: int, reference: Reference, T: float) -> Iterator[Problem]:
+    write = "write another reference file"
     if reference.n != n:
-        result.append(
-            _problem("reference", reference.kind, f"moves {reference.n} joints, but the arm has {n}")
-        )
+        rule = f"moves {reference.n} joints, but the arm has {n}"
+        yield argument_problem("reference", reference.kind, rule, write)
     if reference.span is not None and reference.span < T:
         rule = f"is longer than the recording, which ends at {reference.span:.6g} s"
-        result.append(_problem("T", f"{T:g}", rule))
-    if reference.suprema().speed > FASTEST:
-        speed = float(reference.suprema().speed)
-        result.append(
-            _problem("reference", reference.kind, f"moves at {speed:.3g} rad/s, more than {FASTEST:g} rad/s")
-        )
-    return result
-
-
-def _problem(key: str, value: str, rule: str) -> Problem:
-    return Problem("argument", None, key, value, rule, _REPAIRS[key])
-
-
-_REPAIRS = {
-    "band": "give degrees, for instance 1",
-    "reference": "write another reference file",
-    "T": "give a shorter time",
-}
+        yield argument_problem("T", f"{T:g}", rule, "give a shorter time")
+    speed = reference.suprema().speed
+    if speed > FASTEST:
+        rule = f"moves at {float(speed):.3g} rad/s, more than {FASTEST:g} rad/s"
+        yield argument_problem("reference", reference.kind, rule, write)
 
 
 # --- The loop that (21) closes as one differentiable graph, with the reference as its input.
@@ -199,6 +186,10 @@ SHARE = Fraction(1, 2)
 """ε₀ as a share of the largest one for which Θ' is positive definite: there the form is singular."""
 
 
+UNBOUNDED = "h is unbounded, and Θ' needs its bound γ"
+NO_EPS0 = "no ε₀ > 0 makes Θ' positive definite; λmin(B) and λmin(K_p) must be positive"
+
+
 class Tracking(Course[TrackingRun]):
     """The way along a reference.
 
@@ -230,8 +221,17 @@ class Tracking(Course[TrackingRun]):
         self.form: TrackingForm | None = tracking_form(controlled, suprema.speed)
         first = reference.at(np.zeros(1))[0]
         start = (first[0] - np.array(task.q0)).tolist(), (np.array(task.w0) - first[1]).tolist()
-        self.promise = _promise(self.form, eps0, suprema, torque_bounds(controlled, suprema, task.q0, *start))
-        setup = Setup(gains, model, task, self.promise.eps0, controlled)
+        largest = None if self.form is None else self.form.largest()
+        if eps0 is None:
+            eps0 = 0.0 if largest is None else float(largest * SHARE)
+        self.promise = Promise(
+            suprema,
+            largest,
+            falls=self.form is not None and self.form.certifies(Fraction(eps0)),
+            torque=torque_bounds(controlled, suprema, task.q0, *start),
+            reason=UNBOUNDED if self.form is None else NO_EPS0 if largest is None else "",
+        )
+        setup = Setup(gains, model, task, eps0, controlled)
         super().__init__(setup, tracking_loop(gains, model), [*start[0], *start[1]], points)
 
     def goal(self, t: Array) -> Array:
@@ -278,20 +278,6 @@ class Tracking(Course[TrackingRun]):
         torque = None if run.promise.torque is None else tuple(map(float, run.promise.torque.total))
         joints = joint_monitor("its bound for (21)", torque)
         return rate_monitor, fall_monitor, form_monitor(run.bound), joints, limit_monitor
-
-
-def _promise(
-    form: TrackingForm | None, eps0: float | None, suprema: Suprema, torque: TorqueBounds | None
-) -> Promise:
-    largest, reason = None if form is None else form.largest(), ""
-    if form is None:
-        reason = "h is unbounded, and Θ' needs its bound γ"
-    elif largest is None:
-        reason = "no ε₀ > 0 makes Θ' positive definite; λmin(B) and λmin(K_p) must be positive"
-    if eps0 is None:
-        eps0 = 0.0 if largest is None else float(largest * SHARE)
-    falls = form is not None and form.certifies(Fraction(eps0))
-    return Promise(suprema, eps0, largest, falls, torque, reason)
 
 
 def bound_of(form: TrackingForm, gains: Gains, eps0: float, e: Array, w: Array) -> Array:

@@ -222,7 +222,7 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     none = np.zeros_like(q)
     states = {"q": q, "e": e, "w": w, "tau": none, "speed": speed, "acceleration": none}
     falling = {"t": np.arange(500.0), "V": -np.arange(500.0), "dV": np.minimum(dV, -1e-12)}
-    still = replace(run.promise, eps0=0.01, torque=None)
+    still = replace(run.promise, torque=None)
     slow, fast = (replace(run, **states, **falling, promise=still, eps0=0.01, bound=x) for x in (low, high))
     assert "Θ'" in first_breach(setup, slow, Tracking.monitors(slow)).promise
     assert first_breach(setup, fast, Tracking.monitors(fast)) is None

@@ -11,7 +11,9 @@ import numpy as np
 from lyapcheck.answers.simulate.simulation import (
     BREACH,
     Simulation,
+    accuracy,
     degrees,
+    headline,
     lower,
     plain,
     plains,
@@ -74,7 +76,7 @@ SEEN = (
 PROMISED = (
     Field("reference_speed", "promise.suprema.speed", to=above),
     Field("reference_acceleration", "promise.suprema.acceleration_norm", to=above),
-    Field("eps0", "promise.eps0"),
+    Field("eps0", "eps0"),
     Field("largest_eps0", "promise.largest", to=decimal_text),
     Field("V_falls", "promise.falls"),
     Field("reason", "promise.reason"),
@@ -101,7 +103,7 @@ FIELDS = (
     Field("torque_limit", "torque_limit", "limit [N·m]", lower, list, each=True),
     Field("", _inside, "inside limit", align="l", each=True, csv=None),
     Field("L2", "indices.L2", "L2 [°]", ".4f", plain),
-    Field("", "promise.eps0", "ε₀", lower, csv=None),
+    Field("", "eps0", "ε₀", lower, csv=None),
     Field("", "promise.largest", "estimated Θ′ ≻ 0 up to", lower, csv=None),
     Field("", "promise.falls", "estimated to fall", _yes, align="l", csv=None),
     Field("band", lambda one: plain(math.degrees(one.band))),
@@ -141,25 +143,16 @@ class TrackingRuns(Simulation[TrackingRun]):
     def section(self, one: TrackingRun) -> Section:
         """A row a joint, and what is estimated beside what was seen."""
         table = self.by_joint(one, band=f"{math.degrees(one.band):g}°")
-        return Section(f"{self.mark(one.name)} {_headline(one)}".strip(), (table, Bullets(_facts(one))))
-
-
-def _headline(one: TrackingRun) -> str:
-    member = "" if one.m is None else f" (m = {one.m})"
-    start = row(np.round(np.degrees(one.q[0]), 9))
-    cut = "" if one.complete else f", CUT SHORT at {one.t[-1]:.4g} s"
-    return f"{one.name}{member}: from {start}° in {one.task.T:g} s{cut}"
+        head = headline(one, f"from {row(np.round(np.degrees(one.q[0]), 9))}°")
+        return Section(f"{self.mark(one.name)} {head}".strip(), (table, Bullets(_facts(one))))
 
 
 def _facts(one: TrackingRun) -> tuple[str, ...]:
     speed = up(one.promise.suprema.speed)
-    checks = f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run"
-    if math.isnan(one.accuracy):
-        checks = "accuracy unknown: the run was cut short"
     return (
         f"estimated: ‖q̇_d‖ ≤ v_d = {speed} rad/s, seen {at_most(one.largest(one.speed))}",
         *_promised(one),
-        f"{checks}; work balance {sized(one.work_balance)}",
+        f"{accuracy(one)}; work balance {sized(one.work_balance)}",
     )
 
 
