@@ -42,11 +42,11 @@ if TYPE_CHECKING:
     from lyapcheck.robots.registry import load as load_robot
     from lyapcheck.robots.registry import names as robot_names
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
+    from lyapcheck.simulate.reference.file import read_reference
     from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.tracking import TrackingRun
+    from lyapcheck.simulate.tracking import track as run_tracking
     from lyapcheck.simulate.trial import experiment as run_experiment
-    from lyapcheck.tracking.reference.file import read_reference
-    from lyapcheck.tracking.run import TrackingRun
-    from lyapcheck.tracking.simulation import track as run_tracking
     from lyapcheck.verdicts import Exit, Grade, Verdict
 
     __version__: str
@@ -142,7 +142,7 @@ _HOMES = {
     "Run": "simulate.run",
     "Table": "answers.table",
     "Targets": "answers.tune.targets",
-    "TrackingRun": "tracking.run",
+    "TrackingRun": "simulate.tracking",
     "Tuning": "answers.tune.answer",
     "Verdict": "verdicts",
     "build_report": "report.build:build",
@@ -160,14 +160,14 @@ _HOMES = {
     "paper_gain_file": "control.gains",
     "read_gain_file": "control.gains",
     "read_plan": "answers.sweep",
-    "read_reference": "tracking.reference.file",
+    "read_reference": "simulate.reference.file",
     "recheck": "check.recheck",
     "robot_constants": "constants.arm",
     "robot_names": "robots.registry:names",
     "run_experiment": "simulate.trial:experiment",
     "run_proof": "answers.check.run",
     "run_simulation": "simulate.closed_loop:simulate",
-    "run_tracking": "tracking.simulation:track",
+    "run_tracking": "simulate.tracking:track",
     "sweep": "answers.sweep",
     "tune_gains": "answers.tune.tuning:tune",
 }

@@ -28,7 +28,8 @@ from lyapcheck.output.document import Bullets, Document, Section, Table
 from lyapcheck.promise import Promise, all_say, promised
 from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.search.rest import resting
-from lyapcheck.simulate.disturbed import disturbed
+from lyapcheck.simulate.closed_loop import SetPoint
+from lyapcheck.simulate.task import set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile, GainSet
@@ -43,6 +44,8 @@ if TYPE_CHECKING:
 
 PLACES = 6
 """Decimals of a degree."""
+POINTS, TOLERANCE = 1001, 1e-8
+"""Samples of a run, and its relative tolerance."""
 JUST_INSIDE = 0.95
 """Where a run starts, beside the proved bound of rest: simulated friction lets a joint creep."""
 RULE = "what dry friction leaves of the errors at every state of rest is proved"
@@ -244,13 +247,16 @@ class _Runs:
         known = [0.0 if number is None else float(number.value) for number in model.coulomb]
         friction = known if dry is None else [float(f) for f in dry]
         let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
-        run, other = (
-            disturbed(gain_set, model, task.q_d, q0, w0, task.T, dry=friction)
+        paths = [
+            SetPoint(set_up(gain_set, model, task.q_d, q0, w0, T=task.T, eps0=None), POINTS, friction).once(
+                TOLERANCE
+            )
             for q0, w0 in ((task.q0, task.w0), (let_go, None))
-        )
-        ends = np.max(np.abs([run.e[-1], other.e[-1]]), axis=0)
-        largest = np.max(np.abs(run.e), axis=0)
-        return cls(inside_from(run.t, run.e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
+        ]
+        t, (e, other) = paths[0].t, [np.array(task.q_d) - path.y[:, : model.n] for path in paths]
+        ends = np.max(np.abs([e[-1], other[-1]]), axis=0)
+        largest = np.max(np.abs(e), axis=0)
+        return cls(inside_from(t, e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
 
 
 def inside_from(t: Array, e: Array, delta: float) -> float | None:

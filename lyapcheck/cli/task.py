@@ -17,10 +17,9 @@ if TYPE_CHECKING:
     from lyapcheck._types import Progress
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.reference import Reference
     from lyapcheck.simulate.starts import Starts
     from lyapcheck.simulate.task import Task
-    from lyapcheck.tracking.reference import Reference
-    from lyapcheck.tracking.request import TrackingRequest
 
 MOST_DEGREES = 36_000.0
 """A hundred turns of a joint."""
@@ -148,6 +147,11 @@ def task_of(
     return wrong.result(_by_options(partial(task_for, model.n, q_d, q0, w0, seconds, eps0=eps0)))
 
 
+def band_of(band: float | None) -> float:
+    """The band of a tracking run in rad, from what the option says in degrees."""
+    return math.radians(BAND if band is None else band)
+
+
 def request_of(
     model: RobotModel,
     reference: Reference | None,
@@ -156,13 +160,13 @@ def request_of(
     time: float | None,
     eps0: Eps0,
     band: float | None,
-) -> TrackingRequest:
-    """The tracking request that the options ask for; without a reference only its problems are of interest.
+) -> Task:
+    """The task along a reference that the options ask for; without one only its problems count.
 
     Raises:
         InputError: every problem with it at once.
     """
-    from lyapcheck.tracking.request import request_for
+    from lyapcheck.simulate.tracking import request_for
 
     wrong = Complaints()
     if eps0.certified:
@@ -170,8 +174,7 @@ def request_of(
         rule = "is for tasks without --reference"
         wrong.problems.append(argument_problem("--eps0", CERTIFIED, rule, repair))
     q0, rates = _begin(wrong, model, start, velocity)
-    size = math.radians(BAND if band is None else band)
-    made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0.number, band=size)
+    made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0.number, band=band_of(band))
     return wrong.result(_by_options(made))
 
 

@@ -1,1 +1,1 @@
-"""The closed loop in motion: the reference simulation of (11), the bench experiment, performance indices."""
+"""Arms in motion: to set points, along references, at the bench, many at once; performance indices."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import casadi as ca
 import numpy as np
@@ -15,20 +14,21 @@ from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.robots import graph
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.breach import (
-    Breach,
-    Watched,
+    Monitor,
     bound_monitor,
     fall_monitor,
-    first_breach,
     joint_monitor,
     limit_monitor,
+    noise_of,
     rate_monitor,
 )
-from lyapcheck.simulate.integrate import MAX_STEPS, Compiled, Trajectory, integrate, with_extremes
-from lyapcheck.simulate.results import LEAST_ENERGY, Motion, noise_of, run_of
-from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
+from lyapcheck.simulate.course import Course, Loop
+from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
+from lyapcheck.simulate.results import imbalance, l2_of, motion_of, observe
+from lyapcheck.simulate.run import Run
 from lyapcheck.simulate.task import Gains, Setup, set_up
 
 if TYPE_CHECKING:
@@ -36,47 +36,11 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 
-# --- The closed loop (11) as one differentiable graph, and as compiled functions of it.
-
-
-@dataclass(frozen=True)
-class LoopDynamics:
-    """The state y = (q, w, D, S) of a run and its rate, with q_d as a parameter.
-
-    D is the energy that damping has taken, D' = wᵀBw + wᵀK_v h(w), and S' = ‖e‖²: both ride along so that
-    the energy balance and the L2 index are as accurate as the motion itself.
-    """
-
-    n: int
-    state: Any
-    """(2n + 2,) SX."""
-    goal: Any
-    """(n,) SX, q_d."""
-    rate: Any
-    """(2n + 2,) SX, ẏ along (11)."""
-    torque: Any
-    """(n,) SX, τ of (6)."""
-    energy: Any
-    """SX, E = ½wᵀMw + Σ k_pi U(e_i), so that E' = −D'."""
-
-    def compiled_rate(self) -> Compiled:
-        """(y, q_d) ↦ ẏ."""
-        return Compiled(ca.Function("rate", [self.state, self.goal], [ca.densify(self.rate)]))
-
-    def compiled_jacobian(self) -> Compiled:
-        """(y, q_d) ↦ ∂ẏ/∂y."""
-        jacobian = ca.densify(ca.jacobian(self.rate, self.state))
-        return Compiled(ca.Function("jacobian", [self.state, self.goal], [jacobian]))
-
-    def signals(self) -> Any:
-        """The CasADi function (y, q_d) ↦ (τ, E)."""
-        return ca.Function("signals", [self.state, self.goal], [self.torque, self.energy])
-
-
-def closed_loop(gains: Gains, model: RobotModel) -> LoopDynamics:
+def closed_loop(gains: Gains, model: RobotModel) -> Loop:
     """The graph of (11) for one controller on one arm, uncertain parameters at their nominal values.
 
-    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w, with e = q_d − q.
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w, with e = q_d − q. D is the energy that damping has taken,
+    D' = wᵀBw + wᵀK_v h(w), and E = ½wᵀMw + Σ k_pi U(e_i), so that E' = −D'.
 
     References: (6), (11) of ``reyes2019family``.
     """
@@ -86,11 +50,14 @@ def closed_loop(gains: Gains, model: RobotModel) -> LoopDynamics:
     e, gain = goal - q, (ca.DM(gains.kp), ca.DM(gains.kv))
     at = at_symbols(model, q, e, w, *gain, gains.family.casadi)
     rate = ca.vertcat(w, *at.acceleration(), at.damping(), ca.dot(e, e))
-    return LoopDynamics(n, state, goal, rate, ca.vertcat(*at.torque()), at.value(0.0))
+    return Loop(n, state, goal, rate, ca.vertcat(*at.torque()), at.value(0.0))
 
 
 TOLERANCE = 1e-11
 """Relative tolerance of the first integration; the one handed back is ten times tighter."""
+
+CREEP = 1e-3
+"""rad/s: dry friction is f tanh(w/creep), so that a joint that should stick creeps."""
 
 POINTS = 2001
 """Samples of a run: every 2.5 ms of the paper's five seconds."""
@@ -143,92 +110,60 @@ def simulate(
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
-    loop = closed_loop(setup.gains, model)
-    rough, fine = _twice(
-        loop, setup, points, tolerance, max_steps=max_steps, on_progress=on_progress or silent
-    )
-    failure = fine.failure or rough.failure
-    accuracy = math.nan if failure else _difference(rough, fine, model.n)
-    with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
-        every = with_extremes(fine, lambda path: _watched(loop, setup, path))
-        seen = _reference(loop, setup, every, accuracy)
-        breach = _broken(setup, seen)
-        if breach is not None and stop:
-            fine = fine.until(breach.t)
-            seen = _reference(loop, setup, every.until(breach.t), accuracy)
-        run = _reference(loop, setup, fine, accuracy)
-        run = replace(run, indices=seen.indices, promises=seen.promises, breach=breach)
-    if breach is not None and stop:
-        raise PromiseBroken(f"{setup.title}: {breach.sentence}", run, breach)
-    if failure is not None:
-        raise SimulationFailed(f"{setup.title}: {failure}", run)
-    return run
+    return SetPoint(setup, points).moved(tolerance, max_steps, stop, on_progress or silent)
 
 
-def _watched(loop: LoopDynamics, setup: Setup, path: Trajectory) -> Array:
-    """(N, 2n + 1) what has a limit or is an index: τ, ‖τ‖² and e; and dV/dt where V is not the energy."""
-    n, goal = loop.n, np.array(setup.task.q_d)
-    tau = np.array(loop.signals().map(path.t.size)(path.y.T, goal)[0]).T
-    q, w = path.y[:, :n], path.y[:, n : 2 * n]
-    columns = [tau, np.sum(tau * tau, axis=1, keepdims=True), goal - q]
-    if setup.eps0:
-        gains = setup.gains
-        certificate = LyapunovNumeric(setup.model, gains.family, gains.kp, gains.kv, setup.eps0)
-        columns.append(certificate.rate(q, goal - q, w)[:, None])
-    return np.hstack(columns)
+class SetPoint(Course[Run]):
+    """The way to a set point; ``dry``: against dry friction f tanh(w/creep) of so many N·m a joint."""
 
+    of_extremes = ("indices", "promises")
 
-def _broken(setup: Setup, run: Run) -> Breach | None:
-    """The first promise that the samples break."""
-    signals = (run.t, run.q, run.e, run.w, run.tau, run.V, run.dV)
-    watched = Watched(setup.controlled, setup.eps0, *signals, noise=noise_of(run.V))
-    bound = bound_monitor("the bound (9)", run.promises.torque_bound)
-    joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
-    return first_breach(
-        watched, (rate_monitor, fall_monitor, limit_monitor(setup.model.torque_limit), joints, bound)
-    )
+    def __init__(self, setup: Setup, points: int, dry: Sequence[float] = ()) -> None:
+        loop = closed_loop(setup.gains, setup.model)
+        if dry:
+            q, w = loop.state[: loop.n], loop.state[loop.n : 2 * loop.n]
+            slowed = graph.solve(graph.mass(setup.model, q), -ca.DM(list(dry)) * ca.tanh(w / CREEP))
+            loop = replace(loop, rate=loop.rate + ca.vertcat(ca.SX.zeros(loop.n), slowed, 0, 0))
+        self._still = np.array(setup.task.q_d)
+        super().__init__(setup, loop, [*setup.task.q0, *setup.task.w0], points)
 
+    def goal(self, t: Array) -> Array:
+        """See `Course.goal`."""
+        return np.tile(self._still, (t.size, 1))
 
-def _twice(
-    loop: LoopDynamics, setup: Setup, points: int, tolerance: float, *, max_steps: int, on_progress: Progress
-) -> tuple[Trajectory, Trajectory]:
-    rate, jacobian, task = loop.compiled_rate(), loop.compiled_jacobian(), setup.task
-    goal, t = np.array(task.q_d), np.linspace(0.0, task.T, points)
-    y0 = np.array([*task.q0, *task.w0, 0.0, 0.0])
+    def at(self, time: float) -> Array:
+        """See `Course.at`; asked for at every step, and always the same."""
+        return self._still
 
-    def once(tolerance: float, done: float) -> Trajectory:
-        return integrate(
-            lambda _, y: rate(y, goal),
-            lambda _, y: jacobian(y, goal),
-            y0,
-            t,
-            tolerance,
-            max_steps=max_steps,
-            on_time=lambda time: on_progress(done + 0.5 * time / task.T, ""),
+    def run(self, path: Trajectory, accuracy: float) -> Run:
+        """See `Course.run`."""
+        n, setup, t, y = self.loop.n, self.setup, path.t, path.y
+        tau, energy = self.signals(path)
+        L2, whole, q = l2_of(y[-1, -1], t[-1]), path.failure is None, y[:, :n]
+        fields = motion_of(setup, "reference", t, self.goal(t) - q, q, y[:, n:-2], tau, L2=L2, complete=whole)
+        V = fields["V"]
+        return Run(
+            **fields,
+            accuracy=accuracy,
+            promises=observe(t, V, tau, setup.gains, setup.model, noise=noise_of(V)),
+            energy_balance=imbalance(energy + y[:, -2] - energy[0], energy, y[:, -2]),
         )
 
-    return once(tolerance, 0.0), once(tolerance / 10, 0.5)
+    @staticmethod
+    def monitors(run: Run) -> Sequence[Monitor]:
+        """See `Course.monitors`."""
+        bound = bound_monitor("the bound (9)", run.promises.torque_bound)
+        joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
+        return rate_monitor, fall_monitor, limit_monitor, joints, bound
 
-
-def _difference(rough: Trajectory, fine: Trajectory, n: int) -> float:
-    """The largest change of q or w between two solutions."""
-    return float(np.max(np.abs(fine.y - rough.y)[:, : 2 * n]))
-
-
-def _reference(loop: LoopDynamics, setup: Setup, path: Trajectory, accuracy: float) -> Run:
-    n, y = loop.n, path.y
-    tau, energy = (np.array(x) for x in loop.signals().map(y.shape[0])(y.T, np.array(setup.task.q_d)))
-    return run_of(
-        setup,
-        Motion("reference", path.t, y[:, :n], y[:, n : 2 * n], tau.T),
-        accuracy=accuracy,
-        energy_balance=_imbalance(energy[0], y[:, 2 * n]),
-        L2=math.degrees(math.sqrt(max(y[-1, -1], 0.0) / path.t[-1])) if path.t[-1] > 0 else math.nan,
-        complete=path.failure is None,
-    )
-
-
-def _imbalance(energy: Array, dissipated: Array) -> float:
-    """The largest |E(t) + D(t) − E(0)|, relative to the largest energy of the run."""
-    scale = max(float(np.max(np.abs(energy))), float(np.max(np.abs(dissipated))), LEAST_ENERGY)
-    return float(np.max(np.abs(energy + dissipated - energy[0]))) / scale
+    def watched(self, path: Trajectory) -> Array:
+        """τ, ‖τ‖² and e; and dV/dt where V is not the energy."""
+        n, setup = self.loop.n, self.setup
+        tau, q, w = self.signals(path)[0], path.y[:, :n], path.y[:, n:-2]
+        e = self.goal(path.t) - q
+        columns = [tau, np.sum(tau * tau, axis=1, keepdims=True), e]
+        if setup.eps0:
+            gains = setup.gains
+            certificate = LyapunovNumeric(setup.model, gains.family, gains.kp, gains.kv, setup.eps0)
+            columns.append(certificate.rate(q, e, w)[:, None])
+        return np.hstack(columns)

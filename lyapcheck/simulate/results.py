@@ -1,17 +1,18 @@
-"""From the samples of a motion to a Run: indices, V along the way, promises."""
+"""From the samples of a motion to a `Motion`: indices, V along the way, promises."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.control.limits import kept_bounds
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.simulate.run import Indices, Promises, Run
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.simulate.breach import LEAST_ENERGY
+from lyapcheck.simulate.run import Indices, Promises
 from lyapcheck.simulate.task import Gains, Setup
 
 if TYPE_CHECKING:
@@ -91,6 +92,9 @@ def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
 SETTLING_BAND = 0.02
 """Settled means within 2 % of the step; the paper prints settling times but not its band."""
 
+BAND = math.radians(1.0)
+"""rad: close enough to a reference."""
+
 LEAST_STEP = 1e-9
 """rad: a smaller initial error is no step, and nothing is measured by it."""
 
@@ -104,8 +108,7 @@ def l2_index(t: Array, e: Array) -> float:
 
     References: (20) of ``reyes2019family``.
     """
-    squares = np.sum(e * e, axis=1)
-    return math.degrees(math.sqrt(float(np.trapezoid(squares, t)) / float(t[-1] - t[0])))
+    return l2_of(float(np.trapezoid(np.sum(e * e, axis=1), t)), float(t[-1] - t[0]))
 
 
 def settling_times(t: Array, e: Array, band: float | Array = SETTLING_BAND) -> Array:
@@ -152,88 +155,90 @@ def overshoots(e: Array) -> Array:
     return np.asarray(100.0 * share)
 
 
-def peak_torques(tau: Array) -> Array:
-    """Per joint the largest |τ_i| of the samples in N·m; ``tau`` is (N, n)."""
-    return np.asarray(np.max(np.abs(tau), axis=0))
+def energies(
+    gains: Gains, model: RobotModel, eps0: float, q: Array, e: Array, w: Array, speed: Array | None = None
+) -> tuple[Array, Array]:
+    """V of (12) or (13) and dV/dt along the motion at the samples, J and W.
 
-
-def final_errors(e: Array) -> Array:
-    """Per joint the position error at the end of the run in degrees; ``e`` is (N, n) in rad.
-
-    This is what the paper calls the error in steady state; it is one only if the run has come to rest.
+    For a goal that moves at ``speed`` C(q, q̇) = C(q, w) + C(q, q̇_d) in (11), and dV/dt is that of (11) plus
+    −ε (w − εh)ᵀ C(q, q̇_d) h.
     """
-    return np.asarray(np.degrees(e[-1]))
+    numeric = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, eps0)
+    V, rate = numeric.V(q, e, w), numeric.rate(q, e, w)
+    if speed is None:
+        return V, rate
+    h = gains.family.h(e)
+    eps = eps0 / (1.0 + np.linalg.norm(e, axis=1, keepdims=True))
+    turned = np.einsum("tij,tj->ti", NumericModel(model).coriolis(q, speed), h)
+    return V, rate - np.sum(eps * (w - eps * h) * turned, axis=1)
 
 
-V_NOISE = 1e-9
-"""How far V may rise between samples, relative to its largest value, before it counts as a rise."""
-
-LEAST_ENERGY = 1e-9
-"""J: below this, energies are the integrator's absolute tolerance and not the arm's."""
-
-
-@dataclass(frozen=True)
-class Motion:
-    """The bare samples of a run."""
-
-    kind: str
-    t: Array
-    q: Array
-    w: Array
-    tau: Array
-
-
-def run_of(
+def motion_of(
     setup: Setup,
-    motion: Motion,
+    kind: str,
+    t: Array,
+    e: Array,
+    q: Array,
+    w: Array,
+    tau: Array,
     *,
-    accuracy: float,
-    energy_balance: float,
     L2: float,
     complete: bool,
-    saturated: bool = False,
+    band: float = BAND,
+    speed: Array | None = None,
     notes: tuple[str, ...] = (),
-) -> Run:
-    """The run of a motion: everything that can be computed from its samples."""
+) -> dict[str, Any]:
+    """The fields of a `Motion` but its accuracy: what can be computed from its samples."""
     gains, model = setup.gains, setup.model
-    e = np.array(setup.task.q_d) - motion.q
-    certificate = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, setup.eps0)
-    V, dV = certificate.V(motion.q, e, motion.w), certificate.rate(motion.q, e, motion.w)
-    return Run(
-        gains=gains,
-        robot=model.name,
-        joints=model.joints,
-        kind=motion.kind,
-        task=setup.task,
-        eps0=setup.eps0,
-        t=motion.t,
-        q=motion.q,
-        w=motion.w,
-        e=e,
-        tau=motion.tau,
-        V=V,
-        dV=dV,
-        indices=_indices(motion, e, L2),
-        promises=observe(motion.t, V, motion.tau, gains, model, noise=noise_of(V), saturated=saturated),
-        accuracy=accuracy,
-        energy_balance=energy_balance,
-        torque_limit=torque_limits(model),
-        complete=complete,
-        notes=(*notes, *model.assumptions),
-        without_dry_friction=model.dry and motion.kind == "reference",
-    )
+    V, dV = energies(gains, model, setup.eps0, q, e, w, speed)
+    return {
+        "gains": gains,
+        "robot": model.name,
+        "joints": model.joints,
+        "kind": kind,
+        "task": setup.task,
+        "eps0": setup.eps0,
+        **{"t": t, "q": q, "e": e, "w": w, "tau": tau, "V": V, "dV": dV, "speed": speed},
+        "indices": _indices(t, e, tau, L2, band),
+        "torque_limit": torque_limits(model),
+        "complete": complete,
+        "notes": (*notes, *model.assumptions),
+        "without_dry_friction": model.dry and kind != "experiment",
+    }
 
 
-def noise_of(V: Array) -> float:
-    """J, how far V may rise between two samples before it counts as a rise."""
-    return V_NOISE * max(float(np.max(np.abs(V))), LEAST_ENERGY)
+def l2_of(squares: float, T: float) -> float:
+    """The L2 index in degrees from ∫ ‖e‖² dt in rad² s over T seconds; NaN of no time.
+
+    References: (20) of ``reyes2019family``.
+    """
+    return math.degrees(math.sqrt(max(squares, 0.0) / T)) if T > 0 else math.nan
 
 
-def _indices(motion: Motion, e: Array, L2: float) -> Indices:
+def _indices(t: Array, e: Array, tau: Array, L2: float, band: float) -> Indices:
+    size, T = np.abs(e), float(t[-1])
+    rms = np.sqrt(np.trapezoid(e * e, t, axis=0) / T) if T > 0 else np.full(e.shape[1], np.nan)
     return Indices(
         L2=L2,
-        settling=settling_times(motion.t, e),
+        settling=settling_times(t, e),
         overshoot=overshoots(e),
-        peak_torque=peak_torques(motion.tau),
-        final_error=final_errors(e),
+        rms=np.degrees(rms),
+        peak_error=np.degrees(size.max(axis=0)),
+        entered=np.array([_entered(t, column, band) for column in size.T]),
+        peak_torque=np.max(np.abs(tau), axis=0),
+        final_error=np.degrees(e[-1]),
     )
+
+
+def _entered(t: Array, size: Array, band: float) -> float:
+    """The first sample from which on the size stays within the band; NaN if it does not at the end."""
+    outside = np.flatnonzero(size > band)
+    if not outside.size:
+        return float(t[0])
+    last = int(outside[-1])
+    return float(t[last + 1]) if last + 1 < t.size else math.nan
+
+
+def imbalance(error: Array, *sizes: Array) -> float:
+    """The largest error of an account of energy, relative to the largest of what was counted."""
+    return float(np.max(np.abs(error))) / max(*(float(np.max(np.abs(x))) for x in sizes), LEAST_ENERGY)

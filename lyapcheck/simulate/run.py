@@ -2,11 +2,152 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.breach import Breach
+from lyapcheck.output.digits import at_least, at_most, shown
+from lyapcheck.simulate.confirm import Sample
 from lyapcheck.simulate.task import Gains, Task
+
+
+@dataclass(frozen=True)
+class Breach:
+    """A broken promise: which, when, at which state, by how much."""
+
+    promise: str
+    index: int
+    """Which of the states that were looked at broke it: samples, ends of steps and extremes."""
+    t: float
+    at: Sample
+    value: float
+    limit: float
+    unit: str
+    confirmed: bool
+    """Whether balls prove the promise broken at exactly this state; else it was seen in doubles only."""
+
+    @property
+    def sentence(self) -> str:
+        """The breach in one line."""
+        state = [f"q = {_row(self.at.q)} rad", f"e = {_row(self.at.e)} rad", f"w = {_row(self.at.w)} rad/s"]
+        if self.at.speed:
+            state.append(f"q̇_d = {_row(self.at.speed)} rad/s")
+        grade = (
+            "a simulated state; there it is confirmed in balls"
+            if self.confirmed
+            else "simulated, in floating point"
+        )
+        result = f"{at_least(self.value, 9)} {self.unit}, above {at_most(self.limit, 9)}"
+        return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The breach as plain data: the state in full precision, rad and rad/s."""
+        return {
+            "promise": self.promise,
+            "t": self.t,
+            "q": list(self.at.q),
+            "e": list(self.at.e),
+            "w": list(self.at.w),
+            "reference_rate": list(self.at.speed) or None,
+            "reference_acceleration": list(self.at.acceleration) or None,
+            "value": self.value,
+            "limit": self.limit,
+            "unit": self.unit,
+            "grade": "enclosure" if self.confirmed else "numeric",
+        }
+
+
+def _row(values: Sequence[float]) -> str:
+    return f"({', '.join(shown(x, '.6g') for x in values)})"
+
+
+@dataclass(frozen=True, eq=False)
+class Indices:
+    """Performance of a run, in the units of the paper's figures; NaN where a joint has no such number."""
+
+    L2: float
+    """degrees, (20)."""
+    settling: Array
+    """(n,) s, 2 % of the step."""
+    overshoot: Array
+    """(n,) per cent of the step."""
+    rms: Array
+    """(n,) degrees, of each joint by the trapezoidal rule."""
+    peak_error: Array
+    """(n,) degrees, the largest |e_i|."""
+    entered: Array
+    """(n,) s, from when on |e_i| stays in the band that was asked for."""
+    peak_torque: Array
+    """(n,) N·m."""
+    final_error: Array
+    """(n,) degrees at the end of the run."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Motion:
+    """One simulated motion of one gain set on one arm.
+
+    Signals are sampled at ``t`` (N,) in s: ``q`` (N, n) in rad, ``e`` = q_d − q in rad, ``w`` = q̇ − q̇_d in
+    rad/s, ``tau`` in N·m, ``V`` (N,) in J and ``dV`` = dV/dt along the motion in W, both for ``eps0``.
+    """
+
+    gains: Gains
+    robot: str
+    joints: tuple[str, ...]
+    kind: str
+    """``reference`` (the equations), ``experiment`` (the bench) or ``tracking``."""
+    task: Task
+    eps0: float
+    t: Array
+    q: Array
+    e: Array
+    w: Array
+    tau: Array
+    V: Array
+    dV: Array
+    speed: Array | None = None
+    """(N, n) rad/s, q̇_d; none for a goal at rest."""
+    acceleration: Array | None = None
+    """(N, n) rad/s², q̈_d."""
+    indices: Indices
+    accuracy: float
+    """The largest change of a position (rad) or rate (rad/s) at a tighter tolerance; NaN if cut short."""
+    torque_limit: tuple[float | None, ...]
+    """N·m, what the motors can give."""
+    complete: bool = True
+    notes: tuple[str, ...] = ()
+    """What the reader must know: assumptions and the settings of the bench."""
+    breach: Breach | None = None
+    """The first promise of theory that a run by the equations broke."""
+    without_dry_friction: bool = False
+    """Whether the arm file gives dry friction that the run leaves out."""
+
+    @property
+    def name(self) -> str:
+        """The name of the gain set."""
+        return self.gains.name
+
+    @property
+    def m(self) -> int | None:
+        """The member of the hyperbolic family; none for another family."""
+        return self.gains.family.m
+
+    def sample(self, i: int) -> Sample:
+        """The state of one sample."""
+        rows = (self.q, self.e, self.w, self.speed, self.acceleration)
+        return Sample(*(() if x is None else tuple(x[i].tolist()) for x in rows))
+
+    def broken(self, promise: str, i: int, value: float, limit: float, unit: str, sure: bool) -> Breach:
+        """What is said of a promise that broke at sample ``i``."""
+        return Breach(promise, i, float(self.t[i]), self.sample(i), float(value), float(limit), unit, sure)
+
+    def largest(self, signal: Array) -> float:
+        """The largest norm of a signal (N, n) of the samples."""
+        return float(np.max(np.linalg.norm(signal, axis=1)))
 
 
 @dataclass(frozen=True)
@@ -28,72 +169,16 @@ class Promises:
     """Per joint: |τ_i| stayed within the motor's limit; none where the arm has no limit."""
 
 
-@dataclass(frozen=True, eq=False)
-class Indices:
-    """Performance of a run, in the units of the paper's figures; NaN where a joint has no such number."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Run(Motion):
+    """A motion to a set point, where w = q̇."""
 
-    L2: float
-    """degrees, (20)."""
-    settling: Array
-    """(n,) s, 2 % of the step."""
-    overshoot: Array
-    """(n,) per cent of the step."""
-    peak_torque: Array
-    """(n,) N·m."""
-    final_error: Array
-    """(n,) degrees at the end of the run."""
-
-
-@dataclass(frozen=True, eq=False)
-class Run:
-    """One simulated motion of one gain set on one arm.
-
-    Signals are sampled at ``t`` (N,) in s: ``q`` (N, n) in rad, ``w`` = q̇ in rad/s, ``e`` = q_d − q in rad,
-    ``tau`` in N·m, ``V`` (N,) in J and ``dV`` = dV/dt along (11) in W, both for ``eps0``.
-    """
-
-    gains: Gains
-    robot: str
-    joints: tuple[str, ...]
-    kind: str
-    """``reference`` (the equations) or ``experiment`` (the bench)."""
-    task: Task
-    eps0: float
-    t: Array
-    q: Array
-    w: Array
-    e: Array
-    tau: Array
-    V: Array
-    dV: Array
-    indices: Indices
     promises: Promises
-    accuracy: float
-    """The largest change of q (rad) or w (rad/s) at a ten times tighter tolerance; NaN if cut short."""
     energy_balance: float
     """The largest |E(t) + dissipated(t) − E(0)| relative to the largest of these; NaN for an experiment.
 
     Energies below a nanojoule are compared with a nanojoule.
     """
-    torque_limit: tuple[float | None, ...]
-    """N·m, what the motors can give."""
-    complete: bool = True
-    notes: tuple[str, ...] = ()
-    """What the reader must know: assumptions and the settings of the bench."""
-    breach: Breach | None = None
-    """The first promise of theory that this reference run broke."""
-    without_dry_friction: bool = False
-    """Whether the arm file gives dry friction that the run leaves out."""
-
-    @property
-    def name(self) -> str:
-        """The name of the gain set."""
-        return self.gains.name
-
-    @property
-    def m(self) -> int | None:
-        """The member of the hyperbolic family; none for another family."""
-        return self.gains.family.m
 
     @property
     def L2(self) -> float:
@@ -119,15 +204,14 @@ class Run:
 class SimulationFailed(Exception):
     """A run that could not be finished; ``partial`` holds what was reached, marked as incomplete."""
 
-    def __init__(self, reason: str, partial: Run | None = None) -> None:
-        self.reason = reason
-        self.partial = partial
+    def __init__(self, reason: str, partial: Any) -> None:
+        self.reason, self.partial = reason, partial
         super().__init__(reason)
 
 
 class PromiseBroken(SimulationFailed):
     """A run that was stopped at the state that broke a promise; ``partial`` ends with that state."""
 
-    def __init__(self, reason: str, partial: Run, breach: Breach) -> None:
+    def __init__(self, reason: str, partial: Any, breach: Breach) -> None:
         self.breach = breach
         super().__init__(reason, partial)

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array, Progress
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.batch import Runs, simulate_many
-from lyapcheck.simulate.breach import Breach
+from lyapcheck.simulate.breach import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.results import LEAST_ENERGY, V_NOISE, torque_limits
+from lyapcheck.simulate.results import torque_limits
+from lyapcheck.simulate.run import Breach
 from lyapcheck.simulate.task import Gains, Task, gains_for
 
 if TYPE_CHECKING:
@@ -62,7 +63,6 @@ class Sweep:
     """(R,) whether V rose by more than the run's own error."""
     beyond: NDArray[np.bool_]
     """(R,) whether a torque left its motor's limit."""
-    torque_limit: tuple[float | None, ...]
     notes: tuple[str, ...]
     breach: Breach | None
     """What the first run that broke a promise says when it is run alone."""
@@ -121,7 +121,6 @@ def sweep(
         eps0=eps0,
         risen=runs.V_rise > V_NOISE * np.maximum(first, LEAST_ENERGY),
         beyond=np.any(runs.peak_torque > limits, axis=1),
-        torque_limit=torque_limits(model),
         notes=model.assumptions,
         breach=None,
         without_dry_friction=model.dry,

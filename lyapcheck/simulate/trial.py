@@ -16,8 +16,9 @@ from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.registry import arm_of
+from lyapcheck.simulate.breach import noise_of
 from lyapcheck.simulate.integrate import MAX_STEPS, Compiled, turns
-from lyapcheck.simulate.results import Motion, l2_index, overshoots, run_of, torque_limits
+from lyapcheck.simulate.results import l2_index, motion_of, observe, overshoots, torque_limits
 from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.task import Gains, Setup, set_up
 
@@ -243,9 +244,9 @@ def experiment(
         finer: tuple[float, float] = (TOLERANCE, TOLERANCE / 10)
     else:
         moved, finer = partial(_periods, setup, bench, periods), (substeps, 2 * substeps)
-    rough = _motion(bench, *moved(finer[0]))
+    rough = moved(finer[0])
     progress(1 / 3, "")
-    fine = _motion(bench, *moved(finer[1]))
+    fine = moved(finer[1])
     progress(1.0, "")
     return _run(setup, bench, rough, fine)
 
@@ -260,44 +261,35 @@ def _periods(setup: Setup, bench: Bench, periods: int, substeps: int) -> tuple[A
     return np.vstack((start, states))[:, : 2 * n], torques
 
 
-def _motion(bench: Bench, states: Array, torques: Array) -> Motion:
-    n, periods = torques.shape[1], len(torques)
-    t = np.linspace(0.0, bench.period * periods, periods + 1)
-    return Motion("experiment", t, states[:, :n], states[:, n:], np.vstack((torques, torques[-1:])))
-
-
-def _run(setup: Setup, bench: Bench, rough: Motion, fine: Motion) -> Run:
-    reached = min(_credible(rough), _credible(fine))
-    complete = reached == fine.t.size
-    kept = Motion(fine.kind, fine.t[:reached], fine.q[:reached], fine.w[:reached], fine.tau[:reached])
-    run = run_of(
-        setup,
-        kept,
-        accuracy=_difference(rough, fine) if complete else math.nan,
+def _run(setup: Setup, bench: Bench, rough: tuple[Array, Array], fine: tuple[Array, Array]) -> Run:
+    n, (states, held) = setup.model.n, fine
+    reached = min(_credible(*rough), _credible(*fine))
+    complete = reached == len(states)
+    t = np.linspace(0.0, bench.period * len(held), len(states))[:reached]
+    tau, goal = np.vstack((held, held[-1:]))[:reached], np.array(setup.task.q_d)
+    q, w = states[:reached, :n], states[:reached, n:]
+    L2 = l2_index(t, goal - q) if reached > 1 else math.nan
+    notes = _notes(setup, bench)
+    fields = motion_of(setup, "experiment", t, goal - q, q, w, tau, L2=L2, complete=complete, notes=notes)
+    V = fields["V"]
+    run = Run(
+        **fields,
+        accuracy=float(np.max(np.abs(states - rough[0]))) if complete else math.nan,
+        promises=observe(t, V, tau, setup.gains, setup.model, noise=noise_of(V), saturated=True),
         energy_balance=math.nan,
-        L2=l2_index(kept.t, np.array(setup.task.q_d) - kept.q) if reached > 1 else math.nan,
-        complete=complete,
-        saturated=True,
-        notes=_notes(setup, bench),
     )
-    if complete:
-        e = np.array(setup.task.q_d) - np.vstack((kept.q[:1], turns(kept.t, kept.q, kept.w)))
-        run = replace(run, indices=replace(run.indices, overshoot=overshoots(e)))
     if not complete:
-        raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {kept.t[-1]:.6g} s", run)
-    return run
+        raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {t[-1]:.6g} s", run)
+    e = goal - np.vstack((q[:1], turns(t, q, w)))
+    return replace(run, indices=replace(run.indices, overshoot=overshoots(e)))
 
 
-def _credible(motion: Motion) -> int:
+def _credible(states: Array, torques: Array) -> int:
     """How many samples from the start are finite and no faster than any arm could be."""
-    signals = np.hstack((motion.q, motion.w, motion.tau))
-    good = np.all(np.isfinite(signals), axis=1) & np.all(np.abs(motion.w) < RUNAWAY, axis=1)
+    n = torques.shape[1]
+    signals = np.hstack((states, np.vstack((torques, torques[-1:]))))
+    good = np.all(np.isfinite(signals), axis=1) & np.all(np.abs(states[:, n:]) < RUNAWAY, axis=1)
     return int(good.size if good.all() else max(1, int(np.argmin(good))))
-
-
-def _difference(rough: Motion, fine: Motion) -> float:
-    """The largest change of q or w between two motions."""
-    return float(max(np.max(np.abs(fine.q - rough.q)), np.max(np.abs(fine.w - rough.w))))
 
 
 def _notes(setup: Setup, bench: Bench) -> tuple[str, ...]:

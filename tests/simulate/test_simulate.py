@@ -14,9 +14,9 @@ from lyapcheck import robots
 from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.simulate.closed_loop import _imbalance, closed_loop, simulate
+from lyapcheck.simulate.closed_loop import closed_loop, simulate
 from lyapcheck.simulate.integrate import integrate
-from lyapcheck.simulate.results import observe
+from lyapcheck.simulate.results import imbalance, observe
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, gains_for
 from tests.helpers.shares import one_in
@@ -99,8 +99,8 @@ def test_every_arm_and_family_balances_its_energy(name, family):
 
 def test_a_wrong_energy_account_would_be_seen():
     energy = np.array([2.0, 1.5, 1.0])
-    assert _imbalance(energy, np.array([0.0, 0.5, 1.0])) == 0.0
-    assert _imbalance(energy, np.array([0.0, 0.505, 1.01])) == pytest.approx(0.005)
+    for lost, error in (([0.0, 0.5, 1.0], 0.0), ([0.0, 0.505, 1.01], 0.005)):
+        assert imbalance(energy + lost - energy[0], energy, np.array(lost)) == pytest.approx(error)
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ from lyapcheck import robots
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.integrate import turns
-from lyapcheck.simulate.results import final_errors, l2_index, overshoots, peak_torques, settling_times
+from lyapcheck.simulate.results import l2_index, overshoots, settling_times
 from lyapcheck.simulate.task import PAPER_TASK
 
 T = np.linspace(0.0, 5.0, 2001)
@@ -93,9 +93,12 @@ def test_no_overshoot_and_no_step():
 
 
 def test_peaks_and_final_errors():
-    tau = np.array([[1.0, -5.0], [-3.0, 2.0]])
-    assert peak_torques(tau).tolist() == [3.0, 5.0]
-    assert final_errors(np.array([[1.0, 1.0], [0.0, math.pi]])).tolist() == [0.0, 180.0]
+    gain_set = read_gain_file(paper_gain_file("table2")).gains[0]
+    run = simulate(gain_set, robots.load("buap3"), PAPER_TASK.q_d, T=0.5)
+    peaks = np.max(np.abs(run.tau), axis=0)
+    assert np.all(run.peak_torque >= peaks)
+    assert run.peak_torque == pytest.approx(peaks, rel=1e-4)
+    assert run.indices.final_error == pytest.approx(np.degrees(np.array(PAPER_TASK.q_d) - run.q[-1]))
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -19,11 +19,11 @@ from lyapcheck.output.answer import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.simulate.breach import Watched, bound_monitor, fall_monitor, first_breach
+from lyapcheck.simulate.breach import bound_monitor, fall_monitor, first_breach
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.confirm import Sample, torques
 from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, set_up
 from lyapcheck.verdicts import Exit
 from tests.helpers.shares import one_in
 
@@ -168,21 +168,21 @@ def test_torques_in_balls_are_those_of_the_run():
             np.testing.assert_allclose([float(x) for x in torques(controlled, at)], run.tau[i], rtol=1e-12)
 
 
-def watched(V, tau) -> Watched:
-    zeros, t = np.zeros((len(V), 3)), np.arange(len(V), dtype=float)
-    controlled = ControlledArm(TABLE2[0], robots.load("buap3"))
-    return Watched(controlled, 0.0, t, zeros, zeros, zeros, np.array(tau), np.array(V), -t, noise=1e-9)
+def breach_of(V, tau, monitors):
+    """The first breach of a run with other samples of V and τ."""
+    setup = set_up(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, None, None, T=0.1, eps0=None)
+    run = simulate(TABLE2[0], setup.model, PAPER_TASK.q_d, T=0.1, points=len(V))
+    return first_breach(setup, replace(run, V=np.array(V), tau=np.array(tau)), monitors)
 
 
 def test_the_earliest_breach_is_the_one_that_is_told():
     quiet, loud = [0.0, 0.0, 0.0], [0.0, 3.0, 4.0]
     monitors = (fall_monitor, bound_monitor("a bound", 4.9))
-    rising = watched([3.0, 2.0, 2.5], [quiet, quiet, quiet])
-    assert first_breach(rising, monitors).index == 2
-    both = first_breach(watched([3.0, 2.0, 2.5], [quiet, loud, quiet]), monitors)
+    assert breach_of([3.0, 2.0, 2.5], [quiet, quiet, quiet], monitors).index == 2
+    both = breach_of([3.0, 2.0, 2.5], [quiet, loud, quiet], monitors)
     assert (both.index, both.value, both.confirmed) == (1, 5.0, False)
-    assert first_breach(watched([3.0, 2.0, 2.0], [quiet, quiet, quiet]), monitors) is None
+    assert breach_of([3.0, 2.0, 2.0], [quiet, quiet, quiet], monitors) is None
 
 
 def test_rounding_is_no_rise():
-    assert first_breach(watched([3.0, 3.0 + 1e-10], [[0.0] * 3] * 2), (fall_monitor,)) is None
+    assert breach_of([3.0, 3.0 + 1e-10], [[0.0] * 3] * 2, (fall_monitor,)) is None

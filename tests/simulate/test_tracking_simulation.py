@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.answers.simulate.samples import tracking_csv
+from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
@@ -20,11 +20,13 @@ from lyapcheck.family import named
 from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.task import gains_for
-from lyapcheck.tracking.reference import MinimumJerk, Recorded, Sine
-from lyapcheck.tracking.run import TrackingFailed, TrackingMotion, TrackingRun, bound_of, broken, energies
-from lyapcheck.tracking.simulation import track
-from lyapcheck.tracking.torque import TrackingForm, torque_bounds, tracking_form
+from lyapcheck.simulate.breach import first_breach
+from lyapcheck.simulate.reference import MinimumJerk, Recorded, Sine
+from lyapcheck.simulate.results import energies
+from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
+from lyapcheck.simulate.task import gains_for, set_up
+from lyapcheck.simulate.torque import TrackingForm, torque_bounds, tracking_form
+from lyapcheck.simulate.tracking import Tracking, TrackingRun, bound_of, track
 from tests.helpers.shares import one_in
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains
@@ -80,8 +82,8 @@ def arm_under_21(gain_set: GainSet, model, reference, q0, t):
 )
 def test_the_arm_moves_as_the_error_system_says(gain_set, reference):
     run = run_of(gain_set, reference, T=1.0, points=101, stop=False)
-    truth = arm_under_21(gain_set, robots.load("buap3"), reference, START, run.motion.t)
-    np.testing.assert_allclose(run.motion.q, truth, atol=1e-7)
+    truth = arm_under_21(gain_set, robots.load("buap3"), reference, START, run.t)
+    np.testing.assert_allclose(run.q, truth, atol=1e-7)
     assert run.accuracy < 1e-7
     assert run.work_balance < 1e-6
 
@@ -94,8 +96,8 @@ def test_linear_gains_make_the_error_of_a_pendulum_a_damped_oscillator():
     run = track(gains(1, None, 10, 1, "linear"), pendulum, wave, [first[0] - 0.2], T=3.0, points=301)
     roots = np.roots([0.25, 1.5, 10.0]).astype(complex)
     weights = np.linalg.solve(np.array([[1, 1], roots]), np.array([0.2, first[1]]))
-    exact = np.real(np.exp(np.outer(run.motion.t, roots)) @ weights)
-    np.testing.assert_allclose(run.motion.e[:, 0], exact, atol=1e-8)
+    exact = np.real(np.exp(np.outer(run.t, roots)) @ weights)
+    np.testing.assert_allclose(run.e[:, 0], exact, atol=1e-8)
 
 
 @pytest.mark.parametrize("family", one_in(3, ["hyperbolic", "tanh", "arctan", "algebraic", "linear"]))
@@ -111,7 +113,7 @@ def test_every_family_keeps_its_promises_and_balances_its_energy(name, family):
 def test_an_arm_that_starts_on_the_reference_stays_on_it():
     first = WAVE.at(np.zeros(1))[0]
     run = run_of(q0=first[0], velocity=first[1])
-    assert np.max(np.abs(run.motion.e)) < 1e-10
+    assert np.max(np.abs(run.e)) < 1e-10
     assert run.indices.entered.tolist() == [0.0, 0.0, 0.0]
     assert run.V[-1] < 1e-15
 
@@ -123,8 +125,8 @@ def test_a_reference_at_rest_is_the_regulator():
     run = run_of(TABLE2[1], STILL, eps0=0.03)
     task = np.radians([45, 45, 90])
     known = simulate(TABLE2[1], robots.load("buap3"), task, START, T=2.0, eps0=0.03, points=401)
-    np.testing.assert_allclose(run.motion.q, known.q, atol=1e-8)
-    np.testing.assert_allclose(run.motion.tau, known.tau, atol=1e-6)
+    np.testing.assert_allclose(run.q, known.q, atol=1e-8)
+    np.testing.assert_allclose(run.tau, known.tau, atol=1e-6)
     np.testing.assert_allclose(run.dV, known.dV, atol=1e-6)
     assert pytest.approx(known.L2, rel=1e-8) == run.indices.L2
 
@@ -132,33 +134,29 @@ def test_a_reference_at_rest_is_the_regulator():
 def test_dV_is_the_derivative_of_V_along_the_motion():
     """By central differences of V over the samples."""
     run = run_of(T=0.5, points=2001, eps0=0.02)
-    h = run.motion.t[1]
+    h = run.t[1]
     slope = (run.V[:-4] - 8 * run.V[1:-3] + 8 * run.V[3:-1] - run.V[4:]) / (12 * h)
     np.testing.assert_allclose(run.dV[2:-2], slope, atol=1e-5 * np.max(np.abs(run.dV)))
 
 
-def random_motion(seed: int, speed: float, count: int = 4000) -> TrackingMotion:
-    """States of all sizes with ‖q̇_d‖ = speed."""
+def random_states(seed: int, speed: float, count: int = 4000):
+    """q, e, w and q̇_d: states of all sizes with ‖q̇_d‖ = speed."""
     rng = np.random.default_rng(seed)
     q, e, w, way = rng.standard_normal((4, count, 3))
     sizes = 10.0 ** rng.uniform(-2, 1.5, (2, count, 1))
-    fast = speed * way / np.linalg.norm(way, axis=1, keepdims=True)
-    zeros = np.zeros_like(q)
-    return TrackingMotion(
-        np.arange(float(count)), 3 * q, sizes[0] * e, sizes[1] * w, zeros, 3 * q, fast, zeros
-    )
+    return 3 * q, sizes[0] * e, sizes[1] * w, speed * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 
 @pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
 def test_the_form_bounds_dV_at_states_of_all_sizes(gain_set):
     """For any ε₀, admissible or not; and with a v_d that is too small it is broken."""
-    controlled, held = ControlledArm(gain_set, robots.load("buap3")), gains_for(gain_set, 3)
-    motion = random_motion(1, 1000.0)
+    model, held = robots.load("buap3"), gains_for(gain_set, 3)
+    controlled, (q, e, w, speed) = ControlledArm(gain_set, model), random_states(1, 1000.0)
     for eps0 in (0.01, 0.5):
-        _, dV = energies(controlled, held, eps0, motion)
-        bound = bound_of(tracking_form(controlled, Fraction(1000)), held, eps0, motion)
+        _, dV = energies(held, model, eps0, q, e, w, speed)
+        bound = bound_of(tracking_form(controlled, Fraction(1000)), held, eps0, e, w)
         assert np.all(dV <= bound + 1e-9 * np.abs(bound))
-        low = bound_of(tracking_form(controlled, Fraction(0)), held, eps0, motion)
+        low = bound_of(tracking_form(controlled, Fraction(0)), held, eps0, e, w)
         assert np.any(dV > low + 1e-6)
 
 
@@ -199,14 +197,14 @@ def test_without_friction_there_is_no_eps0():
 
 @pytest.mark.slow
 def test_an_eps0_that_is_too_large_stops_the_run_at_a_proved_state():
-    with pytest.raises(TrackingFailed, match="dV/dt ≤ 0") as stopped:
+    with pytest.raises(PromiseBroken, match="dV/dt ≤ 0") as stopped:
         run_of(eps0=50.0)
     partial = stopped.value.partial
     assert partial.breach.confirmed
-    assert partial.motion.t[-1] == partial.breach.t
+    assert partial.t[-1] == partial.breach.t
     assert not partial.complete
     assert not partial.promise.falls
-    assert ",no," in tracking_csv([partial])
+    assert ",no," in runs_csv([partial])
     whole = run_of(eps0=50.0, stop=False)
     assert whole.complete
     assert whole.breach == partial.breach
@@ -214,16 +212,20 @@ def test_an_eps0_that_is_too_large_stops_the_run_at_a_proved_state():
 
 def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     """The promise of v_d = 0 is planted on states at 1000 rad/s: the form is seen to break."""
-    controlled, held = ControlledArm(TABLE2[0], robots.load("buap3")), gains_for(TABLE2[0], 3)
-    motion, promise = random_motion(3, 1000.0, 500), run_of(T=0.1, points=11).promise
-    still = replace(promise, eps0=0.01, torque=None)
-    V, dV = energies(controlled, held, 0.01, motion)
-    low = bound_of(tracking_form(controlled, Fraction(0)), held, 0.01, motion)
-    high = bound_of(tracking_form(controlled, Fraction(1000)), held, 0.01, motion)
-    falling, limits = -np.arange(500.0), controlled.model.torque_limit
-    assert "Θ'" in broken(controlled, limits, still, motion, falling, np.minimum(dV, -1e-12), low).promise
-    assert broken(controlled, limits, still, motion, falling, np.minimum(dV, -1e-12), high) is None
-    assert V.shape == dV.shape
+    setup = set_up(TABLE2[0], robots.load("buap3"), [0.0] * 3, None, None, T=1.0, eps0=0.01)
+    q, e, w, speed = random_states(3, 1000.0, 500)
+    _, dV = energies(setup.gains, setup.model, 0.01, q, e, w, speed)
+    low, high = (
+        bound_of(tracking_form(setup.controlled, Fraction(v)), setup.gains, 0.01, e, w) for v in (0, 1000)
+    )
+    run = run_of(T=0.1, points=11)
+    none = np.zeros_like(q)
+    states = {"q": q, "e": e, "w": w, "tau": none, "speed": speed, "acceleration": none}
+    falling = {"t": np.arange(500.0), "V": -np.arange(500.0), "dV": np.minimum(dV, -1e-12)}
+    still = replace(run.promise, torque=None)
+    slow, fast = (replace(run, **states, **falling, promise=still, eps0=0.01, bound=x) for x in (low, high))
+    assert "Θ'" in first_breach(setup, slow, Tracking.monitors(slow)).promise
+    assert first_breach(setup, fast, Tracking.monitors(fast)) is None
 
 
 @pytest.mark.slow
@@ -233,7 +235,7 @@ def test_no_motion_leaves_the_bounds_of_the_torque(start, m):
     run = run_of(gains(3, m, 20, 2), q0=start[:3], velocity=start[3:], T=0.5, points=51, stop=False)
     most = np.array([float(x) for x in run.promise.torque.total])
     assert np.all(run.indices.peak_torque <= most)
-    assert np.linalg.norm(run.motion.w, axis=1).max() <= float(run.promise.torque.error_rate)
+    assert np.linalg.norm(run.w, axis=1).max() <= float(run.promise.torque.error_rate)
 
 
 def test_the_bound_of_the_torque_at_rest_is_the_rule_joint_by_joint():
@@ -254,7 +256,7 @@ def test_the_largest_torque_comes_near_its_bound():
 @pytest.mark.slow
 def test_a_motor_that_is_asked_for_too_much_stops_the_run():
     weak = replace(robots.load("buap3"), torque_limit=(None, Number(Fraction(15)), None))
-    with pytest.raises(TrackingFailed, match="shoulder within the motor's limit") as stopped:
+    with pytest.raises(PromiseBroken, match="shoulder within the motor's limit") as stopped:
         track(TABLE2[0], weak, WAVE, START)
     assert stopped.value.partial.breach.confirmed
 
@@ -262,30 +264,30 @@ def test_a_motor_that_is_asked_for_too_much_stops_the_run():
 @pytest.mark.slow
 def test_a_run_read_back_is_followed_again(tmp_path):
     """The CSV of a run is a recording; the arm that starts on it follows it to what the spline can do."""
-    from lyapcheck.tracking.reference import read_reference
+    from lyapcheck.simulate.reference import read_reference
 
     run = run_of(TABLE2[0], JERK)
-    (tmp_path / "run.csv").write_text(tracking_csv([run]), encoding="utf-8")
+    (tmp_path / "run.csv").write_text(runs_csv([run]), encoding="utf-8")
     (tmp_path / "again.toml").write_text('kind = "recorded"\nfile = "run.csv"\n', encoding="utf-8")
     again = read_reference(tmp_path / "again.toml", 3)
     second = track(TABLE2[0], robots.load("buap3"), again, START, points=401)
-    assert second.T == 2.0
-    assert np.max(np.abs(second.motion.e)) < 1e-4
-    np.testing.assert_allclose(second.motion.tau, run.motion.tau, atol=0.05)
+    assert second.task.T == 2.0
+    assert np.max(np.abs(second.e)) < 1e-4
+    np.testing.assert_allclose(second.tau, run.tau, atol=0.05)
 
 
 def test_a_spent_budget_keeps_what_was_reached():
-    with pytest.raises(TrackingFailed, match="steps were not enough") as stopped:
+    with pytest.raises(SimulationFailed, match="steps were not enough") as stopped:
         run_of(max_steps=30)
     partial = stopped.value.partial
     assert not partial.complete
-    assert 1 < partial.motion.t.size < 401
+    assert 1 < partial.t.size < 401
     assert math.isnan(partial.accuracy)
 
 
 @pytest.mark.slow
 def test_the_same_request_gives_the_same_bytes():
-    assert tracking_csv([run_of(T=0.5)]) == tracking_csv([run_of(T=0.5)])
+    assert runs_csv([run_of(T=0.5)]) == runs_csv([run_of(T=0.5)])
 
 
 BAD = [
@@ -312,7 +314,7 @@ def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
     from lyapcheck.simulate.confirm import Sample, exceeds, reference_term, rises, torques
 
     run, controlled = run_of(eps0=0.3, points=21, stop=False), ControlledArm(TABLE2[0], robots.load("buap3"))
-    m = run.motion
+    m = run
     for i in (0, 3, 11, 20):
         at = Sample(*(tuple(x[i].tolist()) for x in (m.q, m.e, m.w, m.speed, m.acceleration)))
         state = State(*(tuple(map(Fraction, part)) for part in (at.q, at.e, at.w)))

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.simulate.simulation import (
     BREACH,
     Simulation,
+    accuracy,
     degrees,
+    headline,
     lower,
     plain,
     plains,
@@ -127,23 +129,15 @@ class SetPointRuns(Simulation[Run]):
     def section(self, one: Run) -> Section:
         """A row a joint, and how far the run can be trusted."""
         blocks: tuple[Block, ...] = (self.by_joint(one), Bullets(_facts(one)))
-        return Section(f"{self.mark(one.name)} {_headline(one)}".strip(), blocks)
-
-
-def _headline(one: Run) -> str:
-    member = "" if one.m is None else f" (m = {one.m})"
-    start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
-    cut = "" if one.complete else f", CUT SHORT at {shown(one.t[-1], '.4g')} s"
-    return f"{one.name}{member}: {start}° to {goal}° in {one.task.T:g} s{cut}"
+        start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
+        return Section(f"{self.mark(one.name)} {headline(one, f'{start}° to {goal}°')}".strip(), blocks)
 
 
 def _facts(one: Run) -> tuple[str, ...]:
     rates = f"initial rates {row(math.degrees(x) for x in one.task.w0)} °/s" if any(one.task.w0) else ""
     beyond = "‖τ‖ went BEYOND the bound (9)" if one.promises.inside_bound is False else ""
     balance = "" if math.isnan(one.energy_balance) else f"; energy balance {sized(one.energy_balance)}"
-    checks = f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run{balance}"
-    if math.isnan(one.accuracy):
-        checks = "accuracy unknown: the run was cut short"
+    checks = accuracy(one) + ("" if math.isnan(one.accuracy) else balance)
     return tuple(filter(None, (rates, beyond, checks, _beside(one))))
 
 

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from lyapcheck.output.escapes import csv_text
 
 if TYPE_CHECKING:
-    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.run import Motion
     from lyapcheck.simulate.starts import Sweep
-    from lyapcheck.tracking.run import TrackingRun
 
-SIGNALS = (("q", "rad"), ("w", "rad/s"), ("e", "rad"), ("tau", "N.m"))
-"""Angles, rates, errors, torques of each joint."""
+TRACKING = "tracking"
+SIGNALS = (("q", "rad", "q"), ("w", "rad/s", "w"), ("e", "rad", "e"), ("tau", "N.m", "tau"))
+"""Angles, rates, errors, torques of each joint, by their names in a `Motion`."""
 TRACKING_SIGNALS = (
-    *(("q", "rad"), ("qd", "rad"), ("e", "rad")),
-    *(("v", "rad/s"), ("vd", "rad/s"), ("tau", "N.m")),
+    *(("q", "rad", "q"), ("qd", "rad", "goal"), ("e", "rad", "e")),
+    *(("v", "rad/s", "velocity"), ("vd", "rad/s", "speed"), ("tau", "N.m", "tau")),
 )
 """Angles, reference, errors, rates, rates of the reference, torques."""
 
@@ -66,32 +66,27 @@ def quantities(result: Sweep) -> list[Quantity]:
     ]
 
 
-def runs_csv(runs: Sequence[Run]) -> str:
+def runs_csv(runs: Sequence[Motion]) -> str:
     """The samples of runs on one arm: gain set, whether its run is complete, t, q, w, e, tau, V, dV.
 
+    Of tracking runs see `TRACKING_SIGNALS`; then also the bound that dV must not exceed, empty without one.
     Every number is the shortest decimal that reads back as the same double. A run that was cut short says
     ``no`` under ``complete`` and ends with the last sample it reached.
     """
-    head = _head(runs[0].q.shape[1] if runs else 0, SIGNALS)
-    tables = (np.column_stack((run.t, run.q, run.w, run.e, run.tau, run.V, run.dV)) for run in runs)
-    rows = zip(runs, tables, strict=True)
-    return _text(head, ([*_names(run), *map(repr, row)] for run, table in rows for row in table.tolist()))
-
-
-def tracking_csv(runs: Sequence[TrackingRun]) -> str:
-    """The same of tracking runs, see `TRACKING_SIGNALS`, then V, dV and the bound that dV must not exceed.
-
-    Without a bound its column is empty.
-    """
-    rows: list[list[object]] = []
+    tracking = any(run.kind == TRACKING for run in runs)
+    signals = TRACKING_SIGNALS if tracking else SIGNALS
+    n = len(runs[0].joints) if runs else 0
+    each = [f"{signal}{i} [{unit}]" for signal, unit, _ in signals for i in range(1, n + 1)]
+    head = ["gains", "complete", "t [s]", *each, "V [J]", "dV [W]", *(["bound [W]"] if tracking else [])]
+    rows: list[list[str]] = []
     for run in runs:
-        m = run.motion
-        table = np.column_stack((m.t, m.q, m.goal, m.e, m.velocity, m.speed, m.tau, run.V, run.dV))
-        bound = [""] * m.t.size if run.bound is None else [repr(x) for x in run.bound.tolist()]
-        rows += [
-            [*_names(run), *map(repr, row), last] for row, last in zip(table.tolist(), bound, strict=True)
-        ]
-    return _text([*_head(len(runs[0].joints) if runs else 0, TRACKING_SIGNALS), "bound [W]"], rows)
+        table = np.column_stack((run.t, *(getattr(run, name) for *_, name in signals), run.V, run.dV))
+        known = getattr(run, "bound", None)
+        bound = [""] * run.t.size if known is None else map(repr, known.tolist())
+        names = csv_text(run.name), "yes" if run.complete else "no"
+        for row, last in zip(table.tolist(), bound, strict=True):
+            rows.append([*names, *map(repr, row), *([last] if tracking else [])])
+    return _text(head, rows)
 
 
 def starts_csv(sweeps: Sequence[Sweep]) -> str:
@@ -106,15 +101,6 @@ def starts_csv(sweeps: Sequence[Sweep]) -> str:
         for number, (row, whole) in enumerate(zip(table, result.runs.complete, strict=True), start=1):
             rows.append([csv_text(result.name), number, "yes" if whole else "no", *map(repr, row)])
     return _text(["gains", "run", "complete", *starts, *indices], rows)
-
-
-def _head(n: int, signals: Sequence[tuple[str, str]]) -> list[str]:
-    each = [f"{signal}{i} [{unit}]" for signal, unit in signals for i in range(1, n + 1)]
-    return ["gains", "complete", "t [s]", *each, "V [J]", "dV [W]"]
-
-
-def _names(run: Run | TrackingRun) -> tuple[str, str]:
-    return csv_text(run.name), "yes" if run.complete else "no"
 
 
 def _text(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:

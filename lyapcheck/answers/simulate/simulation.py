@@ -18,10 +18,9 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.simulate.breach import Breach
-    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.run import Breach, Motion, Run
     from lyapcheck.simulate.starts import Sweep
-    from lyapcheck.tracking.run import TrackingRun
+    from lyapcheck.simulate.tracking import TrackingRun
 
 
 PROMISES, FINISHED = "promises", "finished"
@@ -213,6 +212,20 @@ def breach_record(breach: Breach | None) -> dict[str, Any]:
 
 def _unique(texts: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(texts))
+
+
+def headline(one: Motion, way: str) -> str:
+    """What was run, on which way, and how far it came."""
+    member = "" if one.m is None else f" (m = {one.m})"
+    cut = "" if one.complete else f", CUT SHORT at {shown(one.t[-1], '.4g')} s"
+    return f"{one.name}{member}: {way} in {one.task.T:g} s{cut}"
+
+
+def accuracy(one: Motion) -> str:
+    """How far the samples of a run can be trusted."""
+    if math.isnan(one.accuracy):
+        return "accuracy unknown: the run was cut short"
+    return f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run"
 
 
 def lower(value: float | Fraction | None) -> str:

@@ -11,7 +11,9 @@ import numpy as np
 from lyapcheck.answers.simulate.simulation import (
     BREACH,
     Simulation,
+    accuracy,
     degrees,
+    headline,
     lower,
     plain,
     plains,
@@ -23,7 +25,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section
 from lyapcheck.output.fields import Field, data, records
-from lyapcheck.tracking.run import TrackingRun
+from lyapcheck.simulate.tracking import TrackingRun
 
 ESTIMATED = (
     "Estimated: by theory at the arm's nominal numbers, for all times and all motions from this start, "
@@ -44,10 +46,6 @@ def above(value: Fraction) -> float:
 def all_above(values: Iterable[Fraction]) -> list[float]:
     """The same of each."""
     return list(map(above, values))
-
-
-def _error_rate(one: TrackingRun) -> float:
-    return float(np.max(np.linalg.norm(one.motion.w, axis=1)))
 
 
 def _inside(one: TrackingRun) -> list[str]:
@@ -71,14 +69,14 @@ def _yes(whether: bool) -> str:
 
 
 SEEN = (
-    Field("reference_speed", "seen_speed", to=plain),
-    Field("error_rate", lambda one: plain(_error_rate(one))),
+    Field("reference_speed", lambda one: plain(one.largest(one.speed))),
+    Field("error_rate", lambda one: plain(one.largest(one.w))),
     Field("tightness", "tightness", to=plain),
 )
 PROMISED = (
     Field("reference_speed", "promise.suprema.speed", to=above),
     Field("reference_acceleration", "promise.suprema.acceleration_norm", to=above),
-    Field("eps0", "promise.eps0"),
+    Field("eps0", "eps0"),
     Field("largest_eps0", "promise.largest", to=decimal_text),
     Field("V_falls", "promise.falls"),
     Field("reason", "promise.reason"),
@@ -87,15 +85,15 @@ PROMISED = (
 )
 FIELDS = (
     Field("name", "name", "gains", align="l"),
-    Field("m", "gains.family.m"),
+    Field("m", "m"),
     Field("robot", "robot"),
-    Field("kind", lambda one: "tracking"),
+    Field("kind", "kind"),
     Field("reference", "reference.sentence"),
     Field("complete", "complete"),
-    Field("time", "T"),
-    Field("reached", lambda one: plain(one.motion.t[-1])),
+    Field("time", "task.T"),
+    Field("reached", lambda one: plain(one.t[-1])),
     Field("joints", "joints", "joint", to=list, align="l", each=True, csv="joint"),
-    Field("start", lambda one: one.motion.q[0], to=degrees, each=True),
+    Field("start", lambda one: one.q[0], to=degrees, each=True),
     Field("rms", "indices.rms", "rms [°]", "z.4f", plains, each=True),
     Field("peak_error", "indices.peak_error", "peak error [°]", "z.3f", plains, each=True),
     Field("entered", "indices.entered", "within {band} from [s]", "z.3f", plains, each=True),
@@ -105,7 +103,7 @@ FIELDS = (
     Field("torque_limit", "torque_limit", "limit [N·m]", lower, list, each=True),
     Field("", _inside, "inside limit", align="l", each=True, csv=None),
     Field("L2", "indices.L2", "L2 [°]", ".4f", plain),
-    Field("", "promise.eps0", "ε₀", lower, csv=None),
+    Field("", "eps0", "ε₀", lower, csv=None),
     Field("", "promise.largest", "estimated Θ′ ≻ 0 up to", lower, csv=None),
     Field("", "promise.falls", "estimated to fall", _yes, align="l", csv=None),
     Field("band", lambda one: plain(math.degrees(one.band))),
@@ -145,25 +143,16 @@ class TrackingRuns(Simulation[TrackingRun]):
     def section(self, one: TrackingRun) -> Section:
         """A row a joint, and what is estimated beside what was seen."""
         table = self.by_joint(one, band=f"{math.degrees(one.band):g}°")
-        return Section(f"{self.mark(one.name)} {_headline(one)}".strip(), (table, Bullets(_facts(one))))
-
-
-def _headline(one: TrackingRun) -> str:
-    member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
-    start = row(np.round(np.degrees(one.motion.q[0]), 9))
-    cut = "" if one.complete else f", CUT SHORT at {one.motion.t[-1]:.4g} s"
-    return f"{one.name}{member}: from {start}° in {one.T:g} s{cut}"
+        head = headline(one, f"from {row(np.round(np.degrees(one.q[0]), 9))}°")
+        return Section(f"{self.mark(one.name)} {head}".strip(), (table, Bullets(_facts(one))))
 
 
 def _facts(one: TrackingRun) -> tuple[str, ...]:
     speed = up(one.promise.suprema.speed)
-    checks = f"accuracy {sized(one.accuracy)} (rad, rad/s) by a second, tighter run"
-    if math.isnan(one.accuracy):
-        checks = "accuracy unknown: the run was cut short"
     return (
-        f"estimated: ‖q̇_d‖ ≤ v_d = {speed} rad/s, seen {at_most(one.seen_speed)}",
+        f"estimated: ‖q̇_d‖ ≤ v_d = {speed} rad/s, seen {at_most(one.largest(one.speed))}",
         *_promised(one),
-        f"{checks}; work balance {sized(one.work_balance)}",
+        f"{accuracy(one)}; work balance {sized(one.work_balance)}",
     )
 
 
@@ -178,10 +167,8 @@ def _promised(one: TrackingRun) -> list[str]:
         else f"; up to {at_most(100 * one.tightness, 3)} % of the fall was estimated"
     )
     lines = [f"V need not fall: {promise.reason}"] if promise.reason else []
-    lines.append(
-        f"seen: dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.motion.t.size} samples{share}"
-    )
+    lines.append(f"seen: dV/dt ≤ −zᵀΘ'z {'at all' if kept else 'NOT at all'} {one.t.size} samples{share}")
     if promise.torque is not None:
-        most, seen = up(promise.torque.error_rate), _error_rate(one)
+        most, seen = up(promise.torque.error_rate), one.largest(one.w)
         lines.append(f"estimated: ‖q̇ − q̇_d‖ ≤ {most} rad/s, seen {at_most(seen)}")
     return lines

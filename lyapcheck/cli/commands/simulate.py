@@ -13,7 +13,16 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck._types import Progress
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
-from lyapcheck.cli.task import Eps0, check_options, check_places, eps0_of, request_of, starts_of, task_of
+from lyapcheck.cli.task import (
+    Eps0,
+    band_of,
+    check_options,
+    check_places,
+    eps0_of,
+    request_of,
+    starts_of,
+    task_of,
+)
 from lyapcheck.cli.values import (
     Complaints,
     add_certificates,
@@ -33,66 +42,44 @@ if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.reference import Reference
+    from lyapcheck.simulate.run import Motion, Run
     from lyapcheck.simulate.starts import Starts, Sweep
     from lyapcheck.simulate.task import Task
-    from lyapcheck.tracking.reference import Reference
-    from lyapcheck.tracking.request import TrackingRequest
-    from lyapcheck.tracking.run import TrackingRun
+    from lyapcheck.simulate.tracking import TrackingRun
 
 
-def plot_run(run: Run, number: int, place: Path) -> None:
-    """Errors, torques and V of one run, as in Figs. 3 to 10 of the paper; ``number`` counts from 1."""
+def plot_run(run: Motion, number: int, place: Path) -> None:
+    """Errors, torques and V of one run, as in Figs. 3 to 10 of the paper; ``number`` counts from 1.
+
+    Of a tracking run also the angles beside the reference.
+    """
     from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.report.figures import motion
-    from lyapcheck.report.figures.motion import draw_lyapunov
+    from lyapcheck.report.figures.style import png, svg
 
     stem = file_stem(run.name, number)
     write_whole(place / f"{stem}.csv", runs_csv([run]))
     if run.t.size < 2:
         return
     title = f"{run.name} on {run.robot}, {run.kind}"
+    goal, bound = (getattr(run, name, None) for name in ("goal", "bound"))
     figures = {
         "errors": motion.draw_errors(title, run.t, run.e, run.joints),
         "torques": motion.draw_torques(title, run.t, run.tau, run.joints, run.torque_limit),
-        "lyapunov": draw_lyapunov(title, run.t, run.V, run.dV),
+        "lyapunov": motion.draw_lyapunov(title, run.t, run.V, run.dV, bound),
     }
-    _write(figures, place, stem)
-
-
-def plot_tracking(run: TrackingRun, number: int, place: Path) -> None:
-    """Angles beside the reference, errors, torques and V of one tracking run."""
-    from lyapcheck.answers.simulate.samples import tracking_csv
-    from lyapcheck.report.figures import motion
-    from lyapcheck.report.figures.motion import draw_lyapunov
-
-    stem = file_stem(run.name, number)
-    write_whole(place / f"{stem}.csv", tracking_csv([run]))
-    m = run.motion
-    if m.t.size < 2:
-        return
-    title = f"{run.name} on {run.robot}, tracking"
-    figures = {
-        "angles": motion.draw_tracking(title, m.t, m.q, m.goal, run.joints),
-        "errors": motion.draw_errors(title, m.t, m.e, run.joints),
-        "torques": motion.draw_torques(title, m.t, m.tau, run.joints, run.torque_limit),
-        "lyapunov": draw_lyapunov(title, m.t, run.V, run.dV, run.bound),
-    }
-    _write(figures, place, stem)
+    if goal is not None:
+        figures["angles"] = motion.draw_tracking(title, run.t, run.q, goal, run.joints)
+    for name, figure in figures.items():
+        write_whole(place / f"{stem}-{name}.svg", svg(figure))
+        write_whole(place / f"{stem}-{name}.png", png(figure))
 
 
 def file_stem(name: str, number: int) -> str:
     """A gain set's name as part of a file name; two names never become one file."""
     stem = re.sub(r"[^\w.-]+", "_", name)
     return stem if stem == name else f"{stem}-{number}"
-
-
-def _write(figures: dict[str, Any], place: Path, stem: str) -> None:
-    from lyapcheck.report.figures.style import png, svg
-
-    for name, figure in figures.items():
-        write_whole(place / f"{stem}-{name}.svg", svg(figure))
-        write_whole(place / f"{stem}-{name}.png", png(figure))
 
 
 @dataclass(frozen=True)
@@ -103,6 +90,15 @@ class Output:
     plot: Path | None
     form: str
     certificates: Path | None = None
+
+    def write_runs(self, answer: Simulation[Any]) -> Exit:
+        """The same of single runs, each also drawn where that is asked for."""
+        from lyapcheck.answers.simulate.samples import runs_csv
+
+        if self.plot is not None:
+            for number, run in enumerate(answer.results, start=1):
+                plot_run(run, number, self.plot)
+        return self.write(answer, lambda: runs_csv(answer.results))
 
     def write(self, answer: Simulation[Any], samples: Callable[[], str]) -> Exit:
         """Samples to their file or to standard output, else the answer there; what went wrong to the other.
@@ -155,6 +151,17 @@ class Job:
 
         self.unfinished.append(Unfinished(gain_set.name, reason))
 
+    def moved(self, gain_set: GainSet, mover: Callable[[], Any]) -> Any:
+        """The run of a gain set, or as much of it as was reached."""
+        from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
+
+        try:
+            return mover()
+        except SimulationFailed as failure:
+            if not isinstance(failure, PromiseBroken):
+                self.fail(gain_set, failure.reason)
+            return failure.partial
+
     def watching(self, eps0: Eps0, gain_set: GainSet, progress: Progress) -> float:
         """The ε₀ to watch V with; 0 where none is certified, which is noted."""
         number = eps0.of(gain_set, self.model, progress)
@@ -171,10 +178,8 @@ def _share_of(advance: Progress, done: int, cases: int, name: str) -> Progress:
 def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
     """The set-point task, by the equations or on the bench."""
     from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
-    from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.files.fields import file_stem
     from lyapcheck.simulate.closed_loop import simulate
-    from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
     from lyapcheck.simulate.trial import experiment
 
     runs: list[Run] = []
@@ -184,46 +189,29 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
         told = _share_of(job.advance, done, len(job.cases), gain_set.name)
         number = job.watching(eps0, gain_set, told)
         way = (task.q_d, task.q0, task.w0, task.T)
-        try:
-            runs.append(mover(gain_set, arm, *way, eps0=number, on_progress=told))
-        except SimulationFailed as failure:
-            if not isinstance(failure, PromiseBroken):
-                job.fail(gain_set, failure.reason)
-            runs += [] if failure.partial is None else [failure.partial]
-        if job.output.certificates is not None and not bench and runs:
+        runs.append(job.moved(gain_set, partial(mover, gain_set, arm, *way, eps0=number, on_progress=told)))
+        if job.output.certificates is not None and not bench:
             certificate = breach_certificate(runs[-1], gain_set, arm)
             if certificate is not None and runs[-1].name == gain_set.name:
                 broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
-    if job.output.plot is not None:
-        for number, run in enumerate(runs, start=1):
-            plot_run(run, number, job.output.plot)
     if job.output.certificates is not None:
         write_certificates(job.output.certificates, broken)
-    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms)
-    return job.output.write(answer, lambda: runs_csv(runs))
+    return job.output.write_runs(SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms))
 
 
-def follow(job: Job, reference: Reference, request: TrackingRequest, *, stop: bool) -> Exit:
+def follow(
+    job: Job, reference: Reference, task: Task, *, eps0: float | None, band: float, stop: bool
+) -> Exit:
     """The tracking scheme (21) along a reference."""
-    from lyapcheck.answers.simulate.samples import tracking_csv
     from lyapcheck.answers.simulate.tracking import TrackingRuns
-    from lyapcheck.tracking.run import TrackingFailed
-    from lyapcheck.tracking.simulation import track_as_asked
+    from lyapcheck.simulate.tracking import track
 
     runs: list[TrackingRun] = []
+    mover = partial(track, eps0=eps0, band=band, stop=stop)
     for gain_set, told in job.each():
-        try:
-            run = track_as_asked(gain_set, job.model, reference, request, stop=stop, on_progress=told)
-        except TrackingFailed as failure:
-            run = failure.partial
-            if run.breach is None:
-                job.fail(gain_set, failure.reason)
-        runs.append(run)
-    if job.output.plot is not None:
-        for number, run in enumerate(runs, start=1):
-            plot_tracking(run, number, job.output.plot)
-    answer = TrackingRuns(tuple(runs), tuple(job.unfinished), job.file)
-    return job.output.write(answer, lambda: tracking_csv(runs))
+        way = (gain_set, job.model, reference, task.q0, task.w0, task.T)
+        runs.append(job.moved(gain_set, partial(mover, *way, on_progress=told)))
+    return job.output.write_runs(TrackingRuns(tuple(runs), tuple(job.unfinished), job.file))
 
 
 def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
@@ -319,7 +307,7 @@ def run(
     """
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners, corners_text, outside
-    from lyapcheck.tracking.reference import read_reference
+    from lyapcheck.simulate.reference import read_reference
 
     gain_file, name, model = gains_on_arm(file, robot)
     wrong = Complaints()
@@ -340,14 +328,14 @@ def run(
     wrong.reading(check_options, [name for name, value in given.items() if value is not None])
     wrong.reading(check_places, csv, plot)
     ranges = wrong.reading(varies, vary) or ()
-    starts = path = task = request = None
+    starts = path = task = None
     if runs is not None:
         starts = wrong.reading(starts_of, runs, spread, seed)
     if reference is None:
         task = wrong.reading(task_of, model, target, start, time, watched.number, velocity)
     else:
         path = wrong.reading(read_reference, reference, model.n)
-        request = wrong.reading(request_of, model, path, start, velocity, time, watched, band)
+        task = wrong.reading(request_of, model, path, start, velocity, time, watched, band)
     wrong.raise_all()
     ranged = load(name, vary=ranges) if ranges else model
     arms = tuple(corners(ranged, ranges)) if ranges else ()
@@ -357,8 +345,8 @@ def run(
     with progress("simulate") as advance:
         job = Job(gain_file, model, Output(csv, plot, format, folder), advance, varied=arms, arms=text)
         stop = not keep_going
-        if path is not None and request is not None:
-            code = follow(job, path, request, stop=stop)
+        if path is not None and task is not None:
+            code = follow(job, path, task, eps0=watched.number, band=band_of(band), stop=stop)
         elif task is not None and starts is not None:
             code = spread_out(job, task, starts, eps0=watched)
         elif task is not None:

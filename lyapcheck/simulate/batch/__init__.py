@@ -1,6 +1,5 @@
 """Thousands of runs of the closed loop at once, in steps of DOP853."""
 
-from lyapcheck.simulate.batch.simulate import simulate_many
-from lyapcheck.simulate.batch.task import Runs
+from lyapcheck.simulate.batch.simulate import Runs, simulate_many
 
 __all__ = ["Runs", "simulate_many"]

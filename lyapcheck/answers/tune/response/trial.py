@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +13,12 @@ import numpy as np
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.digits import at_most
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate import results as indices
-from lyapcheck.simulate.closed_loop import closed_loop
-from lyapcheck.simulate.integrate import Trajectory, integrate, with_extremes
+from lyapcheck.simulate.closed_loop import SetPoint
+from lyapcheck.simulate.integrate import with_extremes
 from lyapcheck.simulate.results import torque_limits
-from lyapcheck.simulate.task import gains_for
+from lyapcheck.simulate.task import Setup, gains_for
 
 if TYPE_CHECKING:
     from lyapcheck._types import Array
@@ -181,31 +182,22 @@ def _degrees_above(error: Fraction | None) -> float:
 def _one(
     gain_set: GainSet, model: RobotModel, task: Task, T: float, exact: bool, edge: float
 ) -> tuple[Any, ...]:
-    n, goal = model.n, np.array(task.q_d)
-    gains = gains_for(gain_set, n)
-    loop = closed_loop(gains, model)
-    rate, slope = loop.compiled_rate(), loop.compiled_jacobian()
-    y0 = np.array([*task.q0, *task.w0, 0.0, 0.0])
-    path = integrate(
-        lambda _, y: rate(y, goal), lambda _, y: slope(y, goal), y0, np.linspace(0.0, T, POINTS), TOLERANCE
-    )
-    signals = loop.signals()
-
-    def torques(some: Trajectory) -> Array:
-        return np.array(signals.map(some.t.size)(some.y.T, goal)[0]).T
-
+    n, goal, gains = model.n, np.array(task.q_d), gains_for(gain_set, model.n)
+    setup = Setup(gains, model, replace(task, T=T), 0.0, ControlledArm(gain_set, model))
+    course = SetPoint(setup, POINTS)
+    path = course.once(TOLERANCE)
     if exact:
-        path = with_extremes(path, lambda some: np.hstack((torques(some), some.y[:, :n])))
+        path = with_extremes(path, lambda some: np.hstack((course.signals(some)[0], some.y[:, :n])))
     else:
         path = path.at(np.unique(np.concatenate((path.t, path.steps))))
+    tau, energy = course.signals(path)
     e = goal - path.y[:, :n]
     settled = indices.settling_times(path.t, e) if path.failure is None else np.full(n, np.nan)
     still = np.abs(e[0]) < indices.LEAST_STEP
     settled[still] = 0.0
     late = np.max(np.abs(e[path.t >= 0.75 * path.t[-1]]), axis=0) / np.where(still, 1.0, np.abs(e[0]))
     limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
-    left = float(signals(path.y[-1], goal)[1])
-    kept = path.failure is None and left < np.min(
+    kept = path.failure is None and energy[-1] < np.min(
         gains.kp * gains.family.potential(indices.bands(e[0], edge))
     )
-    return indices.overshoots(e), settled, np.max(np.abs(torques(path)), axis=0) / limits, late, kept
+    return indices.overshoots(e), settled, np.max(np.abs(tau), axis=0) / limits, late, kept

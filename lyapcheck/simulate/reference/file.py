@@ -27,8 +27,8 @@ from lyapcheck.errors import InputError, near
 from lyapcheck.files.decimals import NotFinite
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.toml import open_document
-from lyapcheck.tracking.reference.base import MinimumJerk, Reference, Sine
-from lyapcheck.tracking.reference.recorded import DEGREES, Recorded, read_samples
+from lyapcheck.simulate.reference.base import MinimumJerk, Reference, Sine
+from lyapcheck.simulate.reference.recorded import DEGREES, Recorded, read_samples
 
 FARTHEST = Fraction(36_000)
 """Degrees: a hundred turns of a joint."""

@@ -19,7 +19,7 @@ from lyapcheck._types import Array
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.reader import SAMPLES, read_text
 from lyapcheck.output.escapes import printable
-from lyapcheck.tracking.reference.base import Reference, Suprema
+from lyapcheck.simulate.reference.base import Reference, Suprema
 
 DEGREES = {"cubic": 3, "quintic": 5}
 """Splines with two and with four continuous derivatives."""

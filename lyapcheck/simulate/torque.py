@@ -12,51 +12,44 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
+from flint import fmpq_mpoly
 
 from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ScalarForm
 from lyapcheck.check.loop.states import State, value
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.harmonics import harmonics
+from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.constants import robot_constants
 from lyapcheck.constants.arm import robot_bounds
-from lyapcheck.files.decimals import round_down
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import scalar_form
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.simulate.breach import Breach, Monitor, Watched
-from lyapcheck.simulate.disturbed import coriolis_squares, gravity_sizes, mass_sizes
-from lyapcheck.tracking.reference.base import BITS, above
+from lyapcheck.robots.trig import to_terms
+from lyapcheck.simulate.breach import Monitor
+from lyapcheck.simulate.reference.base import BITS, above
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm
-    from lyapcheck.tracking.reference import Suprema
+    from lyapcheck.simulate.reference import Suprema
+    from lyapcheck.simulate.run import Breach, Motion
+    from lyapcheck.simulate.task import Setup
 
 Row = tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
 class TorqueBounds:
-    """Bounds of |τ_i|, N·m, and their parts, each (n,) and exact."""
+    """What bounds the motions from one start, exact."""
 
-    feedback: Row
-    """γ (k_pi + k_vi)."""
-    inertia: Row
-    """M q̈_d."""
-    coriolis: Row
-    """C(q, q̇) q̇_d."""
-    gravity: Row
-    friction: Row
-    """B q̇_d."""
+    total: Row
+    """(n,) of each |τ_i|, N·m."""
     error_rate: Fraction
     """b̄ ≥ ‖q̇ − q̇_d‖ at all times, rad/s."""
-
-    @property
-    def total(self) -> Row:
-        """The bound of each |τ_i|."""
-        parts = (self.feedback, self.inertia, self.coriolis, self.gravity, self.friction)
-        return tuple(sum(column, Fraction(0)) for column in zip(*parts, strict=True))
 
 
 def torque_bounds(
@@ -79,27 +72,43 @@ def torque_bounds(
     with precision(BITS):
         stored = value(controlled.arm, controlled.controller, Fraction(0), start, BITS)
         spin = above((2 * stored / to_arb(least)).sqrt())
-    top = gamma.upper
+    top, fixed, n = gamma.upper, controlled.fixed, controlled.n
     product = (suprema.speed + spin) * suprema.speed
-    return TorqueBounds(
-        feedback=tuple(top * (p + v) for p, v in zip(controlled.gains.kp, controlled.gains.kv, strict=True)),
-        inertia=tuple(
-            sum((m * a for m, a in zip(row, suprema.acceleration, strict=True)), Fraction(0))
-            for row in mass_sizes(controlled.fixed)
-        ),
-        coriolis=tuple(k * product for k in _coriolis_rows(controlled, constants.k_c.upper)),
-        gravity=gravity_sizes(controlled.fixed),
-        friction=tuple(b * v for b, v in zip(controlled.arm.viscous, suprema.rate, strict=True)),
-        error_rate=spin,
+    parts = (
+        [top * (p + v) for p, v in zip(controlled.gains.kp, controlled.gains.kv, strict=True)],
+        [
+            sum((_size(x, n) * a for x, a in zip(row, suprema.acceleration, strict=True)), Fraction(0))
+            for row in fixed.mass
+        ],
+        [k * product for k in _coriolis_rows(controlled, constants.k_c.upper)],
+        [_size(entry, n) for entry in fixed.gravity],
+        map(mul, controlled.arm.viscous, suprema.rate),
     )
+    return TorqueBounds(tuple(sum(column, Fraction(0)) for column in zip(*parts, strict=True)), spin)
 
 
 def _coriolis_rows(controlled: ControlledArm, k_c: Fraction) -> Row:
-    """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²."""
-    if controlled.n > FEW_JOINTS:
-        return (k_c,) * controlled.n
+    """κ_i with |(C(q, x) y)_i| ≤ κ_i ‖x‖ ‖y‖ for all q, kg·m²: k_c or √(Σ_jk sup c_ijk²)."""
+    n = controlled.n
+    if n > FEW_JOINTS:
+        return (k_c,) * n
+    squares = [
+        sum((_size(entry, n) ** 2 for row in layer for entry in row), Fraction(0))
+        for layer in controlled.fixed.christoffel
+    ]
     with precision(BITS):
-        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in coriolis_squares(controlled.fixed))
+        return tuple(min(k_c, above(to_arb(square).sqrt())) for square in squares)
+
+
+def _size(poly: fmpq_mpoly, n: int) -> Fraction:
+    """At least how large an entry of M, g or C can be at any angles.
+
+    It is a sum of harmonics a cos(k·q) + b sin(k·q), and at most Σ (a² + b²)^½ in size.
+    """
+    pairs = harmonics(to_terms(poly), n).values()
+    return sum(
+        (max(abs(a), abs(b)) if not a or not b else root_above(a * a + b * b) for a, b in pairs), Fraction(0)
+    )
 
 
 # --- How fast V must fall under (21): dV/dt ≤ −[a b] Θ' [a b]ᵀ with a = ‖h(e)‖, b = ‖w‖ and v_d = sup ‖q̇_d‖.
@@ -143,7 +152,7 @@ class TrackingForm:
         for _ in range(HALVINGS):
             middle = (low + high) / 2
             low, high = (middle, high) if self.certifies(middle) else (low, middle)
-        short = _short(low) if low else low
+        short = significant_down(low, DIGITS) if low else low
         return short if self.certifies(short) else None
 
     def promised(self, eps0: float, r: Array, a: Array, b: Array) -> Array:
@@ -165,13 +174,6 @@ def tracking_form(controlled: ControlledArm, speed: Fraction) -> TrackingForm | 
     return None if still is None else TrackingForm(still, robot_constants(controlled.model).k_c.upper * speed)
 
 
-def _short(value: Fraction) -> Fraction:
-    places = DIGITS
-    while value * 10**places < 10 ** (DIGITS - 1):
-        places += 1
-    return round_down(value, places)
-
-
 # --- The promise of (21) along a run: dV/dt below its form.
 
 
@@ -182,7 +184,7 @@ ROUNDING = 1e-9
 def form_monitor(bound: Array | None) -> Monitor:
     """dV/dt ≤ −[a b] Θ' [a b]ᵀ at every sample; ``bound`` (N,) in W."""
 
-    def monitor(run: Watched) -> Breach | None:
+    def monitor(setup: Setup, run: Motion) -> Breach | None:
         if bound is None:
             return None
         scale = ROUNDING * max(float(np.max(np.abs(bound))), float(np.max(np.abs(run.dV))))
@@ -190,6 +192,6 @@ def form_monitor(bound: Array | None) -> Monitor:
         if not beyond.size:
             return None
         i = int(beyond[0])
-        return run.breach("dV/dt ≤ −zᵀΘ'z", i, run.dV[i], bound[i], "W", False)
+        return run.broken("dV/dt ≤ −zᵀΘ'z", i, run.dV[i], bound[i], "W", False)
 
     return monitor

@@ -1,0 +1,354 @@
+"""The simulation of the tracking scheme (21), with what theory promises of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import casadi as ca
+import numpy as np
+
+from lyapcheck._types import Array, Progress, silent
+from lyapcheck.control.gains import one_gain_set
+from lyapcheck.errors import InputError, Problem, argument_problem
+from lyapcheck.robots.registry import arm_of
+from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.simulate.breach import Monitor, fall_monitor, joint_monitor, limit_monitor, rate_monitor
+from lyapcheck.simulate.course import Course, Loop
+from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
+from lyapcheck.simulate.reference import Reference, Suprema
+from lyapcheck.simulate.reference.base import SECONDS
+from lyapcheck.simulate.results import BAND, imbalance, l2_of, motion_of
+from lyapcheck.simulate.run import Motion
+from lyapcheck.simulate.task import FASTEST, Setup, Task, gains_for, task_for
+from lyapcheck.simulate.torque import (
+    ROUNDING,
+    TorqueBounds,
+    TrackingForm,
+    form_monitor,
+    torque_bounds,
+    tracking_form,
+)
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.task import Gains
+
+
+POINTS = 2001
+"""Samples of a run."""
+
+
+@dataclass(frozen=True)
+class Promise:
+    """What theory says of a run before it begins, at nominal numbers, by bounds without certificates."""
+
+    suprema: Suprema
+    largest: Fraction | None
+    """The largest ε₀ for which Θ' is positive definite at v_d; none where there is none."""
+    falls: bool
+    """Whether Θ' is positive definite at the ε₀ watched, so that dV/dt < 0 away from e = ė = 0."""
+    torque: TorqueBounds | None
+    """Bounds of each |τ_i|; none for an unbounded controller."""
+    reason: str = ""
+    """Why there is no ε₀."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TrackingRun(Motion):
+    """A motion along a reference, where w = q̇ − q̇_d."""
+
+    reference: Reference
+    goal: Array
+    """(N, n) q_d, rad."""
+    speed: Array
+    acceleration: Array
+    bound: Array | None
+    """(N,) W, −[a b] Θ' [a b]ᵀ, which dV/dt must not exceed; none for an unbounded controller."""
+    promise: Promise
+    band: float
+    """rad, of ``indices.entered``."""
+    work_balance: float
+    """The largest difference of the arm's energy and the work done on it, relative to the larger of both."""
+
+    @property
+    def velocity(self) -> Array:
+        """q̇, rad/s."""
+        return self.speed + self.w
+
+    @property
+    def tightness(self) -> float:
+        """The largest share of the seen fall of V that was promised: 1 where the form is met exactly.
+
+        NaN where nothing falls, or nothing was promised.
+        """
+        if self.bound is None:
+            return float("nan")
+        inside = self.dV < -ROUNDING * np.max(np.abs(self.dV))
+        return float(np.max(self.bound[inside] / self.dV[inside])) if inside.any() else float("nan")
+
+
+# --- What a run is asked to do, once all of it is known to be possible.
+
+
+def request_for(
+    n: int,
+    reference: Reference | None,
+    q0: Sequence[float] | None,
+    velocity: Sequence[float] | None,
+    T: float | None,
+    *,
+    eps0: float | None,
+    band: float = BAND,
+    points: int = POINTS,
+) -> Task:
+    """The task of an arm of ``n`` joints; its goal is where the reference begins.
+
+    Without a reference, because it could not be read, the rest is looked at all the same.
+
+    Raises:
+        InputError: all that is wrong with it at once.
+    """
+    problems: list[Problem] = []
+    natural = SECONDS if reference is None else reference.duration
+    seconds = natural if T is None else T
+    try:
+        task = task_for(n, (0.0,) * n, q0, velocity, seconds, eps0=eps0, points=points)
+    except InputError as error:
+        problems += error.problems
+    if not 0.0 < band <= math.pi:
+        rule = "must be more than 0 and at most 180°"
+        problems.append(
+            argument_problem("band", f"{math.degrees(band):g}", rule, "give degrees, for instance 1")
+        )
+    if reference is not None:
+        problems += _reference_problems(n, reference, seconds)
+    if problems:
+        raise InputError(problems)
+    return task
+
+
+def _reference_problems(n: int, reference: Reference, T: float) -> Iterator[Problem]:
+    write = "write another reference file"
+    if reference.n != n:
+        rule = f"moves {reference.n} joints, but the arm has {n}"
+        yield argument_problem("reference", reference.kind, rule, write)
+    if reference.span is not None and reference.span < T:
+        rule = f"is longer than the recording, which ends at {reference.span:.6g} s"
+        yield argument_problem("T", f"{T:g}", rule, "give a shorter time")
+    speed = reference.suprema().speed
+    if speed > FASTEST:
+        rule = f"moves at {float(speed):.3g} rad/s, more than {FASTEST:g} rad/s"
+        yield argument_problem("reference", reference.kind, rule, write)
+
+
+# --- The loop that (21) closes as one differentiable graph, with the reference as its input.
+
+
+def tracking_loop(gains: Gains, model: RobotModel) -> Loop:
+    """The graph of the error system of (21) on one arm, uncertain parameters at their nominal values.
+
+    The state is e = q_d − q, w = q̇ − q̇_d = −ė, W and S; W' = q̇ᵀ(τ − B q̇) is the power that reaches the arm,
+    so that its energy ½ q̇ᵀM q̇ + P(q) must change by W: τ of (21) moves the arm (1) as the error system says.
+
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with q = q_d − e, q̇ = q̇_d + w, and
+    τ = K_p h(e) + K_v h(ė) + M(q) q̈_d + C(q, q̇) q̇_d + g(q) + B q̇_d.
+
+    References: (1), (21) of ``reyes2019family``.
+    """
+    from lyapcheck.robots import graph
+
+    n = model.n
+    state, reference = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("r", 3 * n)
+    e, w = state[:n], state[n : 2 * n]
+    goal, speed, desired_acceleration = reference[:n], reference[n : 2 * n], reference[2 * n :]
+    q, velocity = goal - e, speed + w
+    mass, coriolis = graph.mass(model, q), graph.coriolis(model, q, velocity)
+    friction, gravity = graph.viscous(model), graph.gravity(model, q)
+    feedback = ca.DM(gains.kp) * gains.family.casadi(e).h - ca.DM(gains.kv) * gains.family.casadi(w).h
+    acceleration = graph.solve(mass, feedback - friction @ w - coriolis @ w)
+    torque = feedback + mass @ desired_acceleration + coriolis @ speed + gravity + friction @ speed
+    power = ca.dot(velocity, torque - friction @ velocity)
+    rate = ca.vertcat(-w, acceleration, power, ca.dot(e, e))
+    energy = ca.dot(velocity, mass @ velocity) / 2 + graph.potential(model, q)
+    return Loop(n, state, reference, rate, torque, energy)
+
+
+# --- A tracking run: its start, its promises, and the run of its samples.
+
+
+SHARE = Fraction(1, 2)
+"""ε₀ as a share of the largest one for which Θ' is positive definite: there the form is singular."""
+
+
+UNBOUNDED = "h is unbounded, and Θ' needs its bound γ"
+NO_EPS0 = "no ε₀ > 0 makes Θ' positive definite; λmin(B) and λmin(K_p) must be positive"
+
+
+class Tracking(Course[TrackingRun]):
+    """The way along a reference.
+
+    Args:
+        gain_set: the controller.
+        model: the arm.
+        reference: q_d(t).
+        task: a task that is known to be possible.
+        eps0: as `track` has it.
+        band: rad.
+        points: samples of the run.
+    """
+
+    easier = 100.0  # only W feels the kinks of a recorded q̈_d, and it is no more than a check
+
+    def __init__(
+        self,
+        gain_set: GainSet,
+        model: RobotModel,
+        reference: Reference,
+        task: Task,
+        *,
+        eps0: float | None,
+        band: float,
+        points: int,
+    ) -> None:
+        gains, controlled = gains_for(gain_set, model.n), ControlledArm(gain_set, model)
+        self.reference, self.band, suprema = reference, band, reference.suprema()
+        self.form: TrackingForm | None = tracking_form(controlled, suprema.speed)
+        first = reference.at(np.zeros(1))[0]
+        start = (first[0] - np.array(task.q0)).tolist(), (np.array(task.w0) - first[1]).tolist()
+        largest = None if self.form is None else self.form.largest()
+        if eps0 is None:
+            eps0 = 0.0 if largest is None else float(largest * SHARE)
+        self.promise = Promise(
+            suprema,
+            largest,
+            falls=self.form is not None and self.form.certifies(Fraction(eps0)),
+            torque=torque_bounds(controlled, suprema, task.q0, *start),
+            reason=UNBOUNDED if self.form is None else NO_EPS0 if largest is None else "",
+        )
+        setup = Setup(gains, model, task, eps0, controlled)
+        super().__init__(setup, tracking_loop(gains, model), [*start[0], *start[1]], points)
+
+    def goal(self, t: Array) -> Array:
+        """See `Course.goal`."""
+        return self.reference.at(t).reshape(t.size, -1)
+
+    def watched(self, path: Trajectory) -> Array:
+        """τ and e."""
+        return np.hstack((self.signals(path)[0], path.y[:, : self.loop.n]))
+
+    def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
+        """See `Course.run`."""
+        n, t, y, setup = self.loop.n, path.t, path.y, self.setup
+        goal, speed, acceleration = np.split(self.goal(t), 3, axis=1)
+        tau, energy = self.signals(path)
+        e, w, change = y[:, :n], y[:, n:-2], energy - energy[0]
+        return TrackingRun(
+            **motion_of(
+                setup,
+                "tracking",
+                t,
+                e,
+                goal - e,
+                w,
+                tau,
+                L2=l2_of(float(y[-1, -1]), float(t[-1])),
+                complete=path.failure is None,
+                band=self.band,
+                speed=speed,
+            ),
+            acceleration=acceleration,
+            accuracy=accuracy,
+            reference=self.reference,
+            goal=goal,
+            bound=None if self.form is None else bound_of(self.form, setup.gains, setup.eps0, e, w),
+            promise=self.promise,
+            band=self.band,
+            work_balance=imbalance(change - y[:, -2], change, y[:, -2]),
+        )
+
+    @staticmethod
+    def monitors(run: TrackingRun) -> Sequence[Monitor]:
+        """See `Course.monitors`."""
+        torque = None if run.promise.torque is None else tuple(map(float, run.promise.torque.total))
+        joints = joint_monitor("its bound for (21)", torque)
+        return rate_monitor, fall_monitor, form_monitor(run.bound), joints, limit_monitor
+
+
+def bound_of(form: TrackingForm, gains: Gains, eps0: float, e: Array, w: Array) -> Array:
+    """−[a b] Θ' [a b]ᵀ at the samples, W."""
+    r, a, b = (np.linalg.norm(x, axis=1) for x in (e, gains.family.h(e), w))
+    return form.promised(eps0, r, a, b)
+
+
+TOLERANCE = 1e-10
+"""Relative tolerance of the first integration; the one handed back is ten times tighter."""
+
+
+def track(
+    gain_set: GainSet | str | Path,
+    model: RobotModel | str | Path,
+    reference: Reference,
+    q0: Sequence[float] | None = None,
+    velocity: Sequence[float] | None = None,
+    T: float | None = None,
+    *,
+    eps0: float | None = None,
+    band: float = BAND,
+    points: int = POINTS,
+    tolerance: float = TOLERANCE,
+    max_steps: int = MAX_STEPS,
+    stop: bool = True,
+    on_progress: Progress | None = None,
+) -> TrackingRun:
+    """Move an arm along a reference under (21).
+
+    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with e = q_d(t) − q and w = q̇ − q̇_d. The
+    integration is done twice, the second time ten times tighter; the second is handed back and their
+    difference is its ``accuracy``.
+
+    Args:
+        gain_set: the controller, of any family, or the path of a gain file with one gain set.
+        model: the arm, its name or its file; uncertain parameters are at their nominal values.
+        reference: q_d(t).
+        q0: (n,) start in rad; home if missing.
+        velocity: (n,) initial q̇ in rad/s; rest if missing.
+        T: seconds; what the reference asks for if missing.
+        eps0: the ε₀ of V; half of the largest for which Θ' is positive definite at v_d if missing.
+        band: rad, for the time from which on each |e_i| stays within it.
+        points: samples handed back, evenly spaced, both ends included.
+        tolerance: relative tolerance of the first integration.
+        max_steps: a budget for each integration.
+        stop: end the run at the first state that breaks a promise.
+        on_progress: receives the fraction done.
+
+    Raises:
+        InputError: a request the arm or the reference cannot meet.
+        SimulationFailed: the integrator gave up; carries what was reached.
+        PromiseBroken: a promise was broken; carries the run up to that state.
+
+    Examples:
+        >>> from fractions import Fraction as F
+        >>> from lyapcheck import paper_gain_file, read_gain_file
+        >>> from lyapcheck.robots import load
+        >>> from lyapcheck.simulate.reference import MinimumJerk
+        >>> way = MinimumJerk((F(0),) * 3, (F(45), F(45), F(90)), F(2))
+        >>> gain_set = read_gain_file(paper_gain_file("table2")).gains[0]
+        >>> run = track(gain_set, load("buap3"), way, [0.1, 0.0, 0.0], T=1.0)
+        >>> run.promise.falls, run.breach
+        (True, None)
+
+    Soundness: the motion is floating point: evidence, never a proof. ``promise`` is certified; that a run
+        keeps it is what is looked at.
+
+    References: (13), (20), (21) of ``reyes2019family``; ``proofs/tracking.py``.
+    """
+    gain_set, model = one_gain_set(gain_set), arm_of(model)
+    task = request_for(model.n, reference, q0, velocity, T, eps0=eps0, band=band, points=points)
+    course = Tracking(gain_set, model, reference, task, eps0=eps0, band=band, points=points)
+    return course.moved(tolerance, max_steps, stop, on_progress or silent)
