@@ -10,7 +10,7 @@ import pytest
 
 from lyapcheck.answers.check import ProofResult
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Code, Equation, Figure, Paragraph, Section, Table
 from lyapcheck.promise import GUARDED, promises_as_seen
 from tests.helpers.command import invoke
 
@@ -78,7 +78,7 @@ def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
         elif isinstance(block, Figure):
             yield block.caption
         else:
-            assert isinstance(block, Code)
+            assert isinstance(block, (Code, Equation))
 
 
 def values(data: Any) -> Iterator[str]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
+from lyapcheck.promise import told
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive.rows import Agreement, Formula
@@ -81,13 +82,13 @@ class Derivation(Answer):
     def data(self) -> dict[str, Any]:
         """``formulas`` by part, and ``results``: a row a derivation."""
         formulas = [{"part": title, **formula.data()} for title, several in self.parts for formula in several]
-        rows = [{**asdict(row), "agree": row.agree} for row in self.rows]
+        rows = [row.data() for row in self.rows]
         asked = {"m": list(self.ms), "n": self.n, "robot": self.robot or None}
         return {**asked, "agree": self.agreed, "formulas": formulas, "results": rows}
 
     def _judged(self, row: Agreement) -> str:
         beside = f", claim {row.claim}" if row.claim else f", {row.certified}" if row.certified else ""
-        return f"{row.verdict} [{row.grade}]{beside}"
+        return f"{told(row.promise, row.verdict)} [{row.grade}]{beside}"
 
 
 NEXT = "next: lyapcheck check published.py --only 8,12,14,15 --certificates DIR"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -18,17 +18,17 @@ from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.numbers.balls import hyperbolic_constants, precision
 from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
-from lyapcheck.check.verify import verify
 from lyapcheck.claims.arms import rate_of_mass
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.derive.arm import WrittenArm
 from lyapcheck.derive.family import Member, positive_roots
 from lyapcheck.derive.lyapunov import DEGREES, EPS0, derivation, matrices, terms_15, value_12, value_13
 from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Block, Equation, Paragraph
+from lyapcheck.promise import Promise, promised, told
 from lyapcheck.robots import RobotModel
 
 # --- Formulas that SymPy has derived, as text of several lines and in LaTeX.
@@ -81,7 +81,9 @@ def family(member: Member) -> Part:
     """U, h, h' and the polynomials of γ and ρ."""
     m = member.m
     known = hyperbolic_constants(m)
-    gamma, rho = (f"{correct_digits(one, SHOWN)} (certified)" for one in (known.gamma, known.rho))
+    gamma, rho = (
+        f"{correct_digits(one, SHOWN)} (enclosed by the checker)" for one in (known.gamma, known.rho)
+    )
     rising = f"0 at the place of γ = {gamma}, u = sinh²x:"
     steepest = f"0 where h′ is least or largest, ρ = {rho}:"
     if m == 1:
@@ -164,6 +166,7 @@ class Agreement:
         verdict: its verdict; ``undecided`` where it has no proof.
         grade: of that verdict.
         certified: the number that the checker encloses, as far as its digits are certain; empty where none.
+        promise: what lets its words be said; ``None`` where the statement is not proved.
     """
 
     what: str
@@ -174,6 +177,13 @@ class Agreement:
     verdict: str
     grade: str
     certified: str = ""
+    promise: Promise | None = None
+
+    def data(self) -> dict[str, Any]:
+        """The row as plain data; the checker's words as its promise has them."""
+        own = {one.name: getattr(self, one.name) for one in fields(self) if one.name != "promise"}
+        said = {name: told(self.promise, own[name]) for name in ("statement", "verdict")}
+        return {**own, **said, "agree": self.agree}
 
     @property
     def agree(self) -> bool:
@@ -211,14 +221,12 @@ def of_arm(model: RobotModel, arm: WrittenArm) -> list[Agreement]:
 def agreement(what: str, derived: str, holds: bool, claim: str, statement: Statement | Missing) -> Agreement:
     """The row of a statement, judged here and now."""
     proof = propose(statement).proof
-    if isinstance(statement, Missing) or proof is None:
-        said = statement.reason if isinstance(statement, Missing) else statement.text()
-        return Agreement(what, derived, holds, claim, said, "undecided", "numeric")
-    try:
-        accepted = verify(statement, proof)
-    except Refused:
-        return Agreement(what, derived, holds, claim, statement.text(), "undecided", "numeric")
-    return Agreement(what, derived, holds, claim, statement.text(), accepted.verdict, accepted.grade)
+    if isinstance(statement, Missing):
+        return Agreement(what, derived, holds, claim, statement.reason, "undecided", "numeric")
+    judged = judged_statement(statement, [] if proof is None else [proof])
+    promise, _ = promised(statement, judged)
+    grade = judged.grade or "numeric"
+    return Agreement(what, derived, holds, claim, statement.text(), judged.shown, grade, promise=promise)
 
 
 def largest(member: Member, name: str, function: str, form: Any, polynomial: Any) -> Agreement:
