@@ -14,6 +14,7 @@ ASKED = {
     "robot with ranges": ["robot", "buap3"],
     "table": ["table", "--m", "1:3", "--robot", "buap3", "--asymptotics"],
     "check": ["check", "scalar.py", "--m", "1"],
+    "derive": ["derive", "--m", "1,2", "--n", "2"],
 }
 
 
