@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.output.digits import at_least, at_most, shown
+from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.simulate.confirm import Sample
 from lyapcheck.simulate.task import Gains, Task
 
@@ -40,7 +41,8 @@ class Breach:
             if self.confirmed
             else "simulated, in floating point"
         )
-        result = f"{at_least(self.value, 9)} {self.unit}, above {at_most(self.limit, 9)}"
+        value, limit = _rounded(at_least, self.value), _rounded(at_most, self.limit)
+        result = f"{value} {self.unit}, above {limit}"
         return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
 
     @property
@@ -59,6 +61,11 @@ class Breach:
             "unit": self.unit,
             "grade": "enclosure" if self.confirmed else "numeric",
         }
+
+
+def _rounded(towards: Callable[[float, int], str], value: float) -> str:
+    """To nine digits on the safe side; a dash for what is no number."""
+    return NONE if math.isnan(value) else towards(value, 9)
 
 
 def _row(values: Sequence[float]) -> str:

@@ -29,7 +29,7 @@ def more_of_the_file(arm: Arm, conditions: tuple[str, ...], keyed: bool, stated:
     return f"{key}[bounds]\ngravity = [{bounds}]\n" if stated and arm.printed else key
 
 
-@drawn(5, 100)
+@drawn(5, 35)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, CONDITIONS, shares, st.booleans(), st.booleans())
 def test_accepted_over_ranges_is_accepted_at_a_member(
     arm: Arm,
