@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.verdicts import Exit
-
 FOLDER = Path(__file__).parent
 RECORD = FOLDER.parents[1] / "reports" / "promises.md"
 HEAD = """# Promises, asked again at members of their ranges
@@ -44,7 +42,8 @@ def main() -> int:
 
 def record(failed: Counter[str]) -> str:
     """The table."""
-    from tests.promises.draws import ASKED  # which pytest has to import first
+    from lyapcheck.verdicts import Exit  # pytest has to import both first
+    from tests.promises.draws import ASKED
 
     codes = (Exit.PROVED, Exit.REFUTED, Exit.USAGE, Exit.UNDECIDED)
     lines = ["| test | command | runs | 0 | 1 | 2 | 3 |", "|---|---|---|---|---|---|---|"]
