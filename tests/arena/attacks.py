@@ -2,8 +2,8 @@
 
     python -m tests.arena.attacks ext.resting attack.rest-m-zero "no h_0 is known" statement/m=0
 
-writes ``bad/attack.rest-m-zero.json`` from ``good/ext.resting.json``, which must be refused for the reason that
-stands between. Values are JSON. What is expected follows from the change, never from a checker.
+writes ``bad/attack.rest-m-zero.json`` from ``good/ext.resting.json``, which must be refused for that reason.
+Values are JSON. What is expected follows from the change, never from a checker.
 """
 
 from __future__ import annotations
