@@ -31,26 +31,6 @@ def test_json_goes_to_stdout_and_progress_to_stderr(tmp_path):
     assert "seconds" not in data["claims"][0]
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("check", "nowhere.py"),
-        ("check", "published.py", "--m", "0"),
-        ("check", "published.py", "--n", "0"),
-        ("check", "published.py", "--n", "2", "--robot", "buap3"),
-        ("check", "published.py", "--robot", "nobody"),
-        ("check", "published.py", "--gains", "nowhere.toml"),
-        ("check", "published.py", "--only", "7z"),
-        ("explain", "7z"),
-    ],
-)
-def test_bad_input_is_one_message_and_exit_code_2(arguments, tmp_path):
-    run = lyapcheck(*arguments, folder=tmp_path)
-    assert run.returncode == 2, run.stderr
-    assert "Traceback" not in run.stderr
-    assert run.stdout == ""
-
-
 SET = '[[gains]]\nname = "{}"\nm = {}\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
 
 

@@ -20,7 +20,7 @@ from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.output.answer import Level
-from lyapcheck.output.formats import Format, JudgedFormat
+from lyapcheck.output.formats import Format
 from lyapcheck.promise import Promise
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, corners
@@ -68,15 +68,6 @@ def test_a_planted_certificate_raises_the_alarm(case: tuple[GainSet, EpsilonResu
         require_consistent(controlled, result.witness, {"certified": result.falsified * 2})
     with pytest.raises(Contradiction, match="scalar"):
         require_consistent(controlled, result.witness, {"scalar": result.falsified})
-
-
-@pytest.mark.parametrize("name", JudgedFormat)
-def test_formats_are_pure(case: tuple[GainSet, EpsilonResult], name: str) -> None:
-    _, result = case
-    first = EpsilonResults((result,)).written(name)
-    assert first == EpsilonResults((result,)).written(name) == result.written(name)
-    assert (r"tau\_" if name == "latex" else "tau_") in first
-    assert "seconds" not in first
 
 
 @pytest.mark.parametrize("name", Format)
@@ -185,25 +176,6 @@ def run(*arguments: str) -> tuple[int, str]:
     if isinstance(result.exception, InputError):
         return 2, str(result.exception)
     return result.exit_code, result.stdout
-
-
-@pytest.mark.slow
-def test_command_prints_the_same_bytes_twice() -> None:
-    arguments = (
-        str(paper_gain_file("table2_shoulder_elbow")),
-        "--m",
-        "2",
-        "--starts",
-        "1",
-        "--max-boxes",
-        "100",
-        "--format",
-        "json",
-    )
-    first, second = run(*arguments), run(*arguments)
-    assert first == second
-    assert first[0] == 0
-    assert [row["m"] for row in json.loads(first[1])["results"]] == [2]
 
 
 def test_gains_for_another_arm_are_refused_with_a_repair() -> None:

@@ -237,15 +237,6 @@ def test_panda_with_its_hand() -> None:
 
 
 @pytest.mark.slow
-def test_formats_say_the_same_twice() -> None:
-    for form in ("text", "json", "markdown"):
-        first, second = (run("pelican2", "--format", form, "--max-boxes", "20") for _ in range(2))
-        assert first == second
-        assert "shoulder" in first[1]
-        assert ("| λmin(M) |" in first[1]) == (form == "markdown")
-
-
-@pytest.mark.slow
 def test_what_was_not_proved_is_seen_first_and_fails_at_its_file() -> None:
     file = str(ARMS / "ur5.urdf")
     model = robots.load(file)
@@ -319,21 +310,3 @@ def test_each_row_says_for_which_arms_it_is_proved(
         assert all(part.parameters == bounds for part in parts)
     shown = next(one for one in report.document().blocks if getattr(one, "title", "") == "Properties")
     assert {row[0]: row[2] for row in shown.blocks[0].rows} == told
-
-
-@pytest.mark.parametrize(
-    ("arguments", "rule"),
-    [
-        (("nobody",), "neither a built-in arm nor a file"),
-        (("buap3", "--tip", "x"), "buap3 is no URDF file"),
-        (("no.urdf",), "cannot be read"),
-        (
-            (str(ARMS / "ur5.urdf"), "--tip", "tool"),
-            "tip = tool: is no link of this file; name one, for instance tool0",
-        ),
-    ],
-)
-def test_unusable_input(arguments: tuple[str, ...], rule: str) -> None:
-    with pytest.raises(InputError) as caught:
-        run(*arguments)
-    assert rule in str(caught.value)

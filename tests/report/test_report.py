@@ -47,7 +47,6 @@ from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
 from lyapcheck.report.plain import read
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
-from tests.helpers.command import invoke
 
 VOID = {"meta", "link", "img", "br", "input"}
 
@@ -365,30 +364,6 @@ def test_a_refusal_in_another_process_comes_back_whole() -> None:
     assert isinstance(again, InputError)
     assert again.problems == refused.problems
     assert str(again) == str(refused)
-
-
-BROKEN = [
-    (["--m", "0"], "at least 1"),
-    (["--m", "x"], "whole number"),
-    (["--m", "1:40"], "at most 20"),
-    (["--m", "1", "2", "-3"], "--m = -3: m must be at least 1"),
-    (["--m", "1", "--members", "2"], "--members: is not an option here"),
-    (["--format", "docx"], "is not a format"),
-    (["--compare", "nowhere"], "cannot be read"),
-    (["--robot", "nobody"], "nobody"),
-    (["--robot", "reyes-kelly2"], "3 joints"),
-    (["--gains", "missing.toml"], "missing.toml"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "expected"), BROKEN)
-def test_bad_arguments_write_nothing(arguments: list[str], expected: str, tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    result = invoke("report", "--out", str(out), *arguments)
-    said = str(result.exception) if isinstance(result.exception, InputError) else result.output
-    assert expected in said
-    assert result.exit_code != 0
-    assert not out.exists()
 
 
 def test_claims_stand_right_of_what_they_use() -> None:

@@ -1,4 +1,4 @@
-"""SymPy, CasADi and NumPy forms of a model: all from the same polynomials, and all the same numbers."""
+"""CasADi and NumPy forms of a model: all from the same polynomials, and all the same numbers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import math
 import casadi as ca
 import numpy as np
 import pytest
-import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
@@ -15,7 +14,6 @@ from lyapcheck.robots import graph
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import RobotModel
 from tests.helpers.robot_cases import BUILT_IN
-from tests.robots import symbolic
 
 
 @pytest.fixture(params=BUILT_IN)
@@ -65,14 +63,6 @@ def test_casadi_agrees_with_numpy(arm: RobotModel) -> None:
         assert float(potential.item()) == pytest.approx(float(fast.potential(state)), abs=1e-12)
 
 
-def test_casadi_gradient_of_the_potential_is_gravity(arm: RobotModel) -> None:
-    q = ca.SX.sym("q", arm.n)
-    function = ca.Function("slope", [q], [ca.gradient(graph.potential(arm, q), q), graph.gravity(arm, q)])
-    for state in states(arm.n, 5)[0]:
-        slope, gravity = function(state)
-        np.testing.assert_allclose(np.array(slope), np.array(gravity), rtol=1e-12, atol=1e-12)
-
-
 def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm: RobotModel) -> None:
     """(3) by automatic differentiation, apart from the polynomial derivative."""
     q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
@@ -83,19 +73,10 @@ def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm: RobotM
         np.testing.assert_allclose(np.array(function(state, speed)), 0, atol=1e-12)
 
 
-def test_sympy_and_casadi_take_parameters() -> None:
-    arm, base = robots.load("buap3"), sp.Symbol("J")
-    assert base in symbolic.mass(arm, sp.symbols("q1:4"), {"base_inertia": base})[0, 0].free_symbols
-    symbol = ca.SX.sym("J")
-    function = ca.Function("m11", [symbol], [graph.mass(arm, ca.SX.zeros(3), {"base_inertia": symbol})[0, 0]])
-    assert float(function(1.25)) == pytest.approx(1.25, rel=1e-14)
-
-
 def test_viscous_friction_is_the_same_everywhere(arm: RobotModel) -> None:
     expected = np.diag([float(number.value) for number in arm.viscous])
     np.testing.assert_array_equal(np.diag(NumericModel(arm).viscous), expected)
     np.testing.assert_array_equal(np.array(graph.viscous(arm)), expected)
-    assert symbolic.viscous(arm)[0, 0] == sp.Rational(str(arm.viscous[0].value))
 
 
 def test_free_motion_conserves_energy(arm: RobotModel) -> None:

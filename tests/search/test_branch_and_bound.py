@@ -23,7 +23,7 @@ from lyapcheck.search import certified, schur
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome, cover
+from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome
 from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.scalar_program import norm_epsilon
 from lyapcheck.search.schur import SchurProblem
@@ -234,12 +234,6 @@ def test_boxes_that_the_checker_refuses_are_no_certificate(monkeypatch: pytest.M
     assert "refused by the checker" in result.reason or "K_p is too small" in result.reason
 
 
-def test_shares_rise_to_just_below_the_falsified() -> None:
-    shares = (*certified.SHARES, *certified.HOPED)
-    assert list(shares) == sorted(set(shares))
-    assert shares[-1] < 1
-
-
 @pytest.mark.slow
 def test_where_nearly_all_is_too_much_smaller_shares_are_tried() -> None:
     """What the ceiling is too high for by a quarter, four fifths of it may be."""
@@ -291,61 +285,6 @@ def test_where_boxes_end_far_below_bounds_along_the_links_are_tried(tmp_path: Pa
 # Covers, with properties of which everything is known
 
 
-def longest(boxes: Array) -> NDArray[np.intp]:
-    return np.asarray(np.argmax(boxes[:, 1] - boxes[:, 0], axis=1))
-
-
-START = np.array([[[-1.0, -1.0], [1.0, 2.0]]])
-
-
-def away_from_circle(boxes: Array) -> NDArray[np.bool_]:
-    """Whether x² + y² stays below 1 or above 1 on a box: nobody can prove that where the circle passes."""
-    low = np.where((boxes[:, 0] <= 0) & (boxes[:, 1] >= 0), 0.0, np.min(np.abs(boxes), axis=1))
-    high = np.max(np.abs(boxes), axis=1)
-    return np.asarray((np.sum(low**2, axis=1) > 1) | (np.sum(high**2, axis=1) < 1))
-
-
 def small(boxes: Array) -> NDArray[np.bool_]:
     """True of points and of boxes with sides below 0.1."""
     return np.asarray(np.max(boxes[:, 1] - boxes[:, 0], axis=1) < 0.1)
-
-
-def test_the_leaves_of_a_cover_fill_the_start() -> None:
-    progress: list[float] = []
-    outcome = cover(START, small, longest, 10_000, lambda share, note: progress.append(share))
-    assert outcome.proved
-    side = [(-1.0, 1.0), (-1.0, 2.0)]
-    boxes = np.array([np.array(leaf).T for leaf in leaves(tuple(side), outcome.tree)])
-    assert small(boxes).all()
-    assert np.sum(np.prod(boxes[:, 1] - boxes[:, 0], axis=1)) == 6.0
-    points = np.random.default_rng(1).uniform(START[0, 0], START[0, 1], (300, 2))
-    inside = np.all((boxes[None, :, 0] <= points[:, None]) & (points[:, None] <= boxes[None, :, 1]), axis=2)
-    assert inside.any(axis=1).all()
-    assert progress == sorted(progress)
-    assert progress[-1] == pytest.approx(1.0)
-
-
-def test_what_is_false_somewhere_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("lyapcheck.search.cover.SMALLEST", 1e-4)
-    outcome = cover(START, away_from_circle, longest, 10**6)
-    assert not outcome.proved
-    assert outcome.tree == ""
-    assert outcome.reason == RESISTS
-    assert outcome.point is not None
-    assert np.sum(outcome.point**2) == pytest.approx(1.0, abs=1e-3)
-
-
-@pytest.mark.parametrize("budget", [0, 1, 2, 10, 1000])
-def test_a_budget_ends_in_not_proved(budget: int) -> None:
-    sizes: list[int] = []
-
-    def prove(boxes: Array) -> NDArray[np.bool_]:
-        # points are probes, not boxes of the cover
-        sizes.append(int(np.sum(np.any(boxes[:, 0] != boxes[:, 1], axis=1))))
-        return small(boxes * 100.0)
-
-    outcome = cover(START, prove, longest, budget)
-    assert sum(sizes) <= budget
-    assert not outcome.proved
-    assert outcome.reason == EXHAUSTED
-    assert outcome.tree == ""

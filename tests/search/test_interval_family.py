@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from flint import arb
 from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import Family, hyperbolic, named, names
 from lyapcheck.intervals import Interval
-from lyapcheck.intervals.arm import ArmIntervals, coriolis, dh_range, h_range
-from lyapcheck.robots import load
-from lyapcheck.robots.trig import to_terms
-from tests.helpers.robot_cases import BUILT_IN
+from lyapcheck.intervals.arm import dh_range, h_range
 from tests.helpers.shares import one_in
 
-F = Fraction
 Array = NDArray[np.float64]
 BITS = 200
 
@@ -92,49 +85,3 @@ def test_ranges_are_those_of_a_dense_grid(family: Family, form: str) -> None:
 
 
 # Arms
-
-
-def arm_box(generator: np.random.Generator, n: int) -> list[tuple[float, float]]:
-    width = generator.choice([0.0, 1e-12, 1e-3, 0.3, 4.0], n)
-    middle = generator.uniform(-4, 4, n) * generator.choice([0.0, 1.0, 1.0], n)
-    return [(float(a - b), float(a + b)) for a, b in zip(middle, width, strict=True)]
-
-
-def intervals_of(name: str) -> ArmIntervals:
-    model = load(name).fixed()
-    return ArmIntervals([[by_parameters(to_terms(entry), model.n) for entry in row] for row in model.mass])
-
-
-def exact_entries(name: str, q: list[float], x: list[F]) -> tuple[list[list[arb]], list[list[arb]]]:
-    """M(q) and C(q, x) by the model's own evaluation of its polynomials, in balls."""
-    model = load(name).fixed()
-    sines, cosines = [arb(a).sin() for a in q], [arb(a).cos() for a in q]
-
-    def lift(value: Fraction) -> arb:
-        return arb(value.numerator) / value.denominator
-
-    return model.mass_at(sines, cosines, lift), model.coriolis_at(sines, cosines, list(map(lift, x)), lift)
-
-
-@pytest.mark.parametrize("name", one_in(3, BUILT_IN))
-def test_mass_and_coriolis_matrices_hold_balls(name: str) -> None:
-    arm, generator = intervals_of(name), np.random.default_rng(11)
-    for _ in range(60):
-        box = arm_box(generator, arm.n)
-        x = [F(float(value)) for value in generator.normal(size=arm.n)]
-        over_box = arm.at([Interval(np.asarray(a), np.asarray(b)) for a, b in box])
-        result = over_box.mass(), coriolis(over_box.symbols(), [Interval.of(value) for value in x])
-        for _ in range(3):
-            point = [float(generator.choice([a, b, generator.uniform(a, b)])) for a, b in box]
-            # what the arm says does not matter may be anything
-            point = [a if i in arm.angles else 9.0 for i, a in enumerate(point)]
-            with precision(BITS):
-                for matrix, exact in zip(result, exact_entries(name, point, x), strict=True):
-                    for row, exact_row in zip(matrix, exact, strict=True):
-                        for entry, value in zip(row, exact_row, strict=True):
-                            low, high = (
-                                (float(entry.lo), float(entry.hi)) if isinstance(entry, Interval) else (0, 0)
-                            )
-                            known = Enclosure.from_arb(value)
-                            assert low <= known.upper
-                            assert known.lower <= high

@@ -46,17 +46,6 @@ def early(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shared, "WORTH", 16)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("budget", [450, 600])
-def test_subtrees_of_others_change_nothing(early: None, budget: int) -> None:
-    alone = certified(budget)
-    pool = Here()
-    with shared.boxes_shared(3, pool):
-        assert certified(budget) == alone
-    assert len(pool.hands) >= 3 * shared.HANDS
-    assert len(set(pool.hands)) > 1
-
-
 ENDS = [
     (Fraction(85, 100), 20_000, cover.RESISTS),
     (Fraction(8, 10), 20_000, ""),
@@ -82,9 +71,3 @@ def test_a_search_ends_where_that_of_one_process_does(
     assert outcomes[1:] == outcomes[:1] * 2
     assert rounds[0] == 0
     assert rounds[2] >= 3 * shared.HANDS
-
-
-@pytest.mark.slow
-def test_processes_change_nothing(early: None) -> None:
-    alone = certified(600)
-    assert certified(600, jobs=2) == alone
