@@ -63,20 +63,14 @@ def _tuples(tree: Any) -> Any:
     return tuple(map(_tuples, tree)) if isinstance(tree, list) else tree
 
 
-@pytest.mark.parametrize(
-    ("name", "change", "words"), CASES, ids=[f"{k}-{words}" for k, (_, _, words) in enumerate(CASES)]
-)
-def test_what_is_changed_is_refused_for_what_was_changed(name, change, words):
-    assert words in reason(name, change)
+def test_what_is_changed_is_refused_for_what_was_changed():
+    said = [(name, words, reason(name, change)) for name, change, words in CASES]
+    assert [row for row in said if row[1] not in row[2]] == []
 
 
-@pytest.mark.parametrize(
-    ("name", "change", "words"), BORDERS, ids=[f"{k}-{words}" for k, (_, _, words) in enumerate(BORDERS)]
-)
-def test_beside_a_border_what_holds_is_accepted_and_nothing_else(name, change, words):
-    said = reason(name, change)
-    assert words in said
-    assert bool(words) == bool(said)
+def test_beside_a_border_what_holds_is_accepted_and_nothing_else():
+    said = [(name, words, reason(name, change)) for name, change, words in BORDERS]
+    assert [row for row in said if row[1] not in row[2] or bool(row[1]) != bool(row[2])] == []
 
 
 def test_what_no_file_brings_about_is_refused_too():

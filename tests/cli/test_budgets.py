@@ -50,8 +50,8 @@ def test_the_time_of_a_process_that_is_gone_is_not_known() -> None:
 
 
 def test_a_program_that_waits_is_let_go_on(tmp_path: Path) -> None:
-    wait = [sys.executable, "-c", "import time; time.sleep(1.5); print('done')"]
-    done = run_within(wait, 1.0, tmp_path)
+    wait = [sys.executable, "-c", "import time; time.sleep(0.8); print('done')"]
+    done = run_within(wait, 0.5, tmp_path)
     assert (done.returncode, done.stdout) == (0, "done\n")
 
 

@@ -22,6 +22,8 @@ from tests.helpers import command
 from tests.helpers.command import Done
 
 FAMILIES = ("m = 1", "m = 2", "m = 3", 'family = "tanh"', 'family = "arctan"', 'family = "algebraic"')
+MOST_JOINTS = 2 if settings.get_current_profile_name() == "fast" else 3
+"""M ≻ 0 over ranges of three masses takes seconds, which the fast set has not."""
 MOTOR = ("viscous", "coulomb", "torque_limit")
 """Numbers of a joint that neither form of an arm keeps in the file of its links."""
 
@@ -197,8 +199,8 @@ def ranged(draw: st.DrawFn, low: str, high: str) -> Ranged:
 
 
 @st.composite
-def arms(draw: st.DrawFn, most: int = 3) -> Arm:
-    """An arm of one to three joints."""
+def arms(draw: st.DrawFn, most: int = MOST_JOINTS) -> Arm:
+    """An arm of one to so many joints."""
     n = draw(st.integers(1, most))
     none = Ranged(*[Fraction(0)] * 3)
     joints = tuple(
