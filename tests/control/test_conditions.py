@@ -135,16 +135,6 @@ def test_the_conditions_agree_with_an_independent_computation(
             assert not on_border or check.margin == 0
 
 
-def test_table_2_by_hand(gammas: dict[int, mpf]) -> None:
-    """(19) for the paper's arm: 0.406/√3 = 0.23440421…, over γ_2 = 1.05356… and γ_3 = 1.11419…"""
-    limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
-    for m, kv, verdict in ((1, "0.233", "accepted"), (2, "0.223", "rejected"), (3, "0.223", "rejected")):
-        check = check_19(gains_of(["1"] * 3, [kv] * 3, m), limits, gamma_of(gains_of(["1"], ["1"], m)))[0]
-        assert check.verdict == verdict
-        assert check.limit is not None
-        assert float(check.limit.lower) == pytest.approx(0.406 / 3**0.5 / float(gammas[m]), rel=1e-15)
-
-
 # --- on the border ---------------------------------------------------------------------------------
 
 

@@ -12,10 +12,8 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
-from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from tests.helpers.committed import ROOT
 from tests.helpers.robot_cases import BUILT_IN
 from tests.helpers.shares import but, one_in
 
@@ -30,32 +28,6 @@ def angles(n: int, count: int = 20_000) -> Array:
 
 
 QUICK = [name for name in BUILT_IN if not name.startswith("buap3")]
-
-
-@pytest.mark.parametrize("name", but(QUICK, BUILT_IN))
-def test_no_sampled_state_lies_outside(name: str) -> None:
-    result, model = robot_constants(load(name)), NumericModel(load(name))
-    q = angles(model.n)
-    eigenvalues = np.linalg.eigvalsh(model.mass(q))
-    assert eigenvalues.min() >= result.lambda_min.lower * (1 - F(1, 10**12))
-    assert eigenvalues.max() <= result.lambda_max.upper * (1 + F(1, 10**12))
-    x = np.random.default_rng(0).normal(size=q.shape)
-    x /= np.linalg.norm(x, axis=1)[:, None]
-    norms = np.linalg.norm(model.coriolis(q, x), ord=2, axis=(1, 2))
-    assert norms.max() <= result.k_c.upper + F(1, 10**12)
-    # and the bounds are not merely safe
-    assert eigenvalues.min() < result.lambda_min.upper * F(11, 10)
-    assert eigenvalues.max() > result.lambda_max.lower * F(9, 10)
-    assert norms.max() >= result.k_c.lower * F(8, 10)
-
-
-@pytest.mark.parametrize("name", but(QUICK, BUILT_IN))
-def test_the_states_handed_back_show_the_inside_bounds(name: str) -> None:
-    result, model = robot_constants(load(name)), NumericModel(load(name))
-    least = np.linalg.eigvalsh(model.mass(np.array(result.lambda_min_at)))[0]
-    largest = np.linalg.eigvalsh(model.mass(np.array(result.lambda_max_at)))[-1]
-    assert least == pytest.approx(float(result.lambda_min.upper), rel=1e-9)
-    assert largest == pytest.approx(float(result.lambda_max.lower), rel=1e-9)
 
 
 @pytest.mark.parametrize("name", but(QUICK, BUILT_IN))
@@ -108,20 +80,6 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
     assert (bounds.viscous_min, bounds.viscous_max) == (F("0.175"), F("2.288"))
 
 
-@pytest.mark.slow
-def test_k_c_of_many_joints_is_the_certified_one() -> None:
-    model = load(str(ROOT / "examples" / "px100.toml"))
-    chain = model.fixed().chain
-    assert chain is not None
-    shown = storage_proof(chain, "k_c")
-    assert shown is not None
-    assert robot_bounds(model).k_c == shown.bound
-    q, x = np.random.default_rng(1).normal(size=(2, 2000, 4))
-    x /= np.linalg.norm(x, axis=1, keepdims=True)
-    torques = np.einsum("cij,cj->ci", NumericModel(model.fixed()).coriolis(q, x), x)
-    assert 0.3 * float(shown.bound) < np.max(np.linalg.norm(torques, axis=1)) < float(shown.bound)
-
-
 @pytest.mark.parametrize("budget", one_in(3, [0, 1, 40, 300]))
 @pytest.mark.parametrize("name", one_in(2, ["reyes-kelly2", "buap3"]))
 def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name: str, budget: int) -> None:
@@ -150,19 +108,3 @@ def test_an_indefinite_inertia_is_not_called_positive() -> None:
     result = robot_constants(wrong)
     assert result.lambda_min.upper < 0
     assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= result.lambda_min.lower
-
-
-# Bounds on single boxes -----
-
-
-@pytest.mark.slow
-def test_k_c_of_four_joints() -> None:
-    """Within six tenths of what is reached, and above a sample of ‖C(q, x)x‖ that comes near."""
-    model = load("px100")
-    (k_c,) = arm_constants(model, 200_000 // model.n**2, names=("k_c",))
-    rng = np.random.default_rng(3)
-    q, x = rng.uniform(-np.pi, np.pi, (200_000, 4)), rng.standard_normal((200_000, 4))
-    x /= np.linalg.norm(x, axis=1, keepdims=True)
-    sampled = np.linalg.norm(np.einsum("bij,bj->bi", NumericModel(model).coriolis(q, x), x), axis=1).max()
-    assert k_c.enclosure.upper < F(8, 5) * k_c.enclosure.lower
-    assert 0.8 * float(k_c.enclosure.lower) < sampled < float(k_c.enclosure.upper)

@@ -58,24 +58,6 @@ def assert_same(one: Runs, other: Runs) -> None:
             assert a == b, entry.name
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
-def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
-    model, task = robots.load("buap3"), PAPER_TASK
-    single = simulate(gain_set, model, task.q_d, T=task.T)
-    many = simulate_many(gain_set, model, task.q_d, task.q0, task.T, points=2001, motions=True)
-    assert many.engine == ENGINE
-    for name in ("q", "w", "V"):
-        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=0, atol=1e-8)
-    np.testing.assert_allclose(many.L2[0], single.L2, rtol=1e-7)
-    for name in ("overshoot", "peak_torque"):
-        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-8)
-    np.testing.assert_allclose(many.settling[0], single.settling, rtol=1e-4)  # straight between points there
-    np.testing.assert_allclose(many.final_error[0], single.indices.final_error, rtol=0, atol=1e-7)
-    assert many.energy_balance[0] < 1e-9
-    assert many.complete.all()
-
-
 COSTLY = [(3, "hyperbolic"), (None, "tanh")]
 FAMILIES = [(m, "hyperbolic") for m in (1, 3)] + [
     (None, h) for h in ("tanh", "arctan", "algebraic", "linear")
@@ -93,17 +75,6 @@ def test_every_family_moves_as_it_does_alone(m, family):
     np.testing.assert_allclose(many.q[0], single.q, rtol=0, atol=1e-8)
     np.testing.assert_allclose(many.w[0], single.w, rtol=0, atol=1e-8)
     np.testing.assert_allclose(many.settling[0], single.settling, rtol=1e-2)
-
-
-@pytest.mark.parametrize("kv", [1, 5])
-def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
-    """M ë + (k_v + b) ė + k_p e = 0 with M = 1/4, b = 1/2, solved by hand."""
-    model, first = robots.load("pendulum1"), np.linspace(-3, 3, 40)[:, None]
-    runs = simulate_many(gains(1, None, "linear", kv=kv), model, [1.0], first, 3.0, motions=True)
-    roots = np.roots([0.25, kv + 0.5, 10.0]).astype(complex)
-    weights = np.linalg.solve(np.array([[1, 1], roots]), np.array([1.0, 0.0]))
-    shape = np.real(np.exp(np.outer(runs.t, roots)) @ weights)
-    np.testing.assert_allclose(runs.q[:, :, 0], 1.0 - (1.0 - first) * shape, rtol=0, atol=1e-8)
 
 
 @pytest.mark.slow
@@ -160,15 +131,6 @@ def test_both_engines_find_the_same_motions(request):
     for name in ("q", "w", "V", "L2", "peak_torque", "settling", "overshoot"):
         np.testing.assert_allclose(getattr(runs, name), getattr(by_numpy, name), rtol=1e-8, atol=1e-8)
     np.testing.assert_allclose(runs.steps, by_numpy.steps, atol=12)
-
-
-@pytest.mark.slow
-def test_large_members_run_beside_small_ones():
-    model = robots.load("pendulum1")
-    mixed = [gains(1, 200), gains(1, 2)]
-    runs = simulate_many(mixed, model, [0.5], starts(1, 2), 0.5)
-    assert runs.engine == ENGINE
-    assert runs.complete.all()
 
 
 def test_a_run_does_not_depend_on_its_company(monkeypatch):
@@ -245,14 +207,6 @@ def test_a_run_that_fails_is_marked_and_stops_no_other(engine, request):
     assert np.isnan(runs.peak_torque[1]).all()
     assert np.isnan(runs.settling[1]).all()
     assert np.all(runs.L2[[0, 2]] < 1e-6)
-
-
-def test_at_the_goal_nothing_moves():
-    runs = simulate_many(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, PAPER_TASK.q_d, 2.0, motions=True)
-    assert np.array_equal(runs.q[0], np.tile(PAPER_TASK.q_d, (501, 1)))
-    assert runs.L2[0] == 0
-    assert np.array_equal(runs.settling[0], np.zeros(3))
-    assert np.isnan(runs.overshoot[0]).all()
 
 
 @pytest.mark.parametrize(

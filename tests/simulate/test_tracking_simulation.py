@@ -17,7 +17,6 @@ from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named
-from lyapcheck.robots import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import first_breach
@@ -25,7 +24,7 @@ from lyapcheck.simulate.reference import MinimumJerk, Recorded, Sine
 from lyapcheck.simulate.results import energies
 from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
 from lyapcheck.simulate.task import gains_for, set_up
-from lyapcheck.simulate.torque import TrackingForm, torque_bounds, tracking_form
+from lyapcheck.simulate.torque import torque_bounds, tracking_form
 from lyapcheck.simulate.tracking import Tracking, TrackingRun, bound_of, track
 from tests.helpers.shares import one_in
 
@@ -183,18 +182,6 @@ def test_the_largest_eps0_is_where_the_form_ceases_to_be_definite(speed):
         assert not certifies(form.still, largest * Fraction(10001, 10000))
 
 
-def test_faster_references_admit_less():
-    controlled = ControlledArm(TABLE2[0], robots.load("buap3"))
-    result = [tracking_form(controlled, Fraction(speed)).largest() for speed in (0, 1, 5, 100)]
-    assert result == sorted(result, reverse=True)
-    assert result[-1] > 0
-
-
-def test_without_friction_there_is_no_eps0():
-    form = tracking_form(ControlledArm(TABLE2[0], robots.load("buap3")), Fraction(1))
-    assert TrackingForm(replace(form.still, friction=Fraction(0)), form.turn).largest() is None
-
-
 @pytest.mark.slow
 def test_an_eps0_that_is_too_large_stops_the_run_at_a_proved_state():
     with pytest.raises(PromiseBroken, match="dV/dt ≤ 0") as stopped:
@@ -254,14 +241,6 @@ def test_the_largest_torque_comes_near_its_bound():
 
 
 @pytest.mark.slow
-def test_a_motor_that_is_asked_for_too_much_stops_the_run():
-    weak = replace(robots.load("buap3"), torque_limit=(None, Number(Fraction(15)), None))
-    with pytest.raises(PromiseBroken, match="shoulder within the motor's limit") as stopped:
-        track(TABLE2[0], weak, WAVE, START)
-    assert stopped.value.partial.breach.confirmed
-
-
-@pytest.mark.slow
 def test_a_run_read_back_is_followed_again(tmp_path):
     """The CSV of a run is a recording; the arm that starts on it follows it to what the spline can do."""
     from lyapcheck.simulate.reference import read_reference
@@ -283,11 +262,6 @@ def test_a_spent_budget_keeps_what_was_reached():
     assert not partial.complete
     assert 1 < partial.t.size < 401
     assert math.isnan(partial.accuracy)
-
-
-@pytest.mark.slow
-def test_the_same_request_gives_the_same_bytes():
-    assert runs_csv([run_of(T=0.5)]) == runs_csv([run_of(T=0.5)])
 
 
 BAD = [
