@@ -67,62 +67,6 @@ def test_mass_is_positive_definite(data: st.DataObject) -> None:
     assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
 
 
-@costly
-@given(plain_links(), st.data())
-def test_chain_agrees_with_jacobians(links: list[dict], data: st.DataObject) -> None:
-    """M = Σ m JvᵀJv + Jωᵀ R I Rᵀ Jω and U = −Σ m gᵀp in the base frame, in exact arithmetic at a state."""
-    gravity = tuple(data.draw(rates(3)))
-    model = model_of(links, gravity)
-    sin, cos = zip(*data.draw(angles(model.n)), strict=True)
-    mass, potential = by_jacobians(links, gravity, sin, cos)
-    assert model.mass_at(sin, cos, Fraction) == mass
-    assert model.potential_at(sin, cos, Fraction) == potential
-
-
-def by_jacobians(links: list[dict], gravity: tuple, sin: tuple, cos: tuple) -> tuple[list, Fraction]:
-    n = len(links)
-    turn = [[Fraction(i == k) for k in range(3)] for i in range(3)]
-    place = [Fraction(0)] * 3
-    joints: list[tuple[list, list]] = []
-    mass = [[Fraction(0)] * n for _ in range(n)]
-    potential = Fraction(0)
-    for k, link in enumerate(links):
-        place = [p + x for p, x in zip(place, apply(turn, link["origin"]), strict=True)]
-        turn = times(turn, rodrigues(link["axis"], sin[k], cos[k]))
-        joints.append((apply(turn, link["axis"]), place))
-        com = [p + x for p, x in zip(place, apply(turn, link["com"]), strict=True)]
-        spin = times(times(turn, link["inertia"]), [list(column) for column in zip(*turn, strict=True)])
-        speed = [cross(axis, [c - p for c, p in zip(com, origin, strict=True)]) for axis, origin in joints]
-        for i, j in product(range(k + 1), repeat=2):
-            mass[i][j] += link["mass"] * dot(speed[i], speed[j]) + dot(
-                joints[i][0], apply(spin, joints[j][0])
-            )
-        potential -= link["mass"] * dot(gravity, com)
-    return mass, potential
-
-
-def rodrigues(a: tuple, s: Fraction, c: Fraction) -> list:
-    skew = [[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]]
-    squared = times(skew, skew)
-    return [[Fraction(i == k) + s * skew[i][k] + (1 - c) * squared[i][k] for k in range(3)] for i in range(3)]
-
-
-def dot(a: object, b: object) -> Fraction:
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
-
-
-def cross(a: object, b: object) -> list:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def apply(a: list, x: object) -> list:
-    return [dot(row, x) for row in a]
-
-
-def times(a: list, b: list) -> list:
-    return [[dot(row, column) for column in zip(*b, strict=True)] for row in a]
-
-
 def test_a_wrong_coriolis_matrix_would_be_noticed(arm: RobotModel) -> None:
     """Negative control: lumping the velocity products into one column keeps the torque and breaks (3)."""
     if all(c == 0 for table in arm.christoffel for row in table for c in row):
