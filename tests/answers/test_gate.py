@@ -1,16 +1,13 @@
 """The gate: the verdicts on the paper's gains, the exit codes, and what the command loads."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.gate import GateResult, gate
+from lyapcheck.answers.gate import gate
 from lyapcheck.answers.gate.words import margin_text
 from lyapcheck.check.refusal import Refused
 from lyapcheck.cli import main as cli
@@ -21,12 +18,12 @@ from tests.helpers.shares import one_in
 HEAVY = ("casadi", "clarabel", "cvxpy", "jinja2", "matplotlib", "mpmath", "numpy", "rich", "scipy", "sympy")
 
 
-def table2(**options: object) -> dict[str, GateResult]:
+def table2(**options):
     outcome = gate(read_gain_file(paper_gain_file("table2")), **options)  # type: ignore[arg-type]
     return {result.name: result for result in outcome}
 
 
-def command(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
+def command(monkeypatch, *words):
     monkeypatch.setattr(sys, "argv", ["lyapcheck", "gate", *words])
     with pytest.raises(SystemExit) as left:
         cli.main()
@@ -35,14 +32,12 @@ def command(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
 
 
 @pytest.fixture
-def one(tmp_path: Path) -> Path:
+def one(tmp_path):
     """Gains that every condition admits."""
     return gain_file(tmp_path / "one.toml", "robot = 'buap3'")
 
 
-def gain_file(
-    path: Path, top: str, kp: str = "[1, 1, 1]", kv: str = "[0.1, 0.1, 0.1]", end: str = ""
-) -> Path:
+def gain_file(path, top, kp="[1, 1, 1]", kv="[0.1, 0.1, 0.1]", end=""):
     path.write_text(f"{top}\n[[gains]]\nname = 'a'\nm = 2\nkp = {kp}\nkv = {kv}\n{end}")
     return path
 
@@ -50,7 +45,7 @@ def gain_file(
 # --- what a row says ---------------------------------------------------------------------------------
 
 
-def test_a_margin_of_nothing_is_0(tmp_path: Path) -> None:
+def test_a_margin_of_nothing_is_0(tmp_path):
     file = tmp_path / "edge.toml"
     gains = "[[gains]]\nname = 'a'\nfamily = 'tanh'\nkp = [9]\nkv = [1]\n"
     file.write_text(f"{gains}[bounds]\nviscous_min = 2\ntorque = [10]\ngravity = [0]\n")
@@ -59,7 +54,7 @@ def test_a_margin_of_nothing_is_0(tmp_path: Path) -> None:
     assert (row.verdict, row.margin, margin_text(row)) == ("accepted", 0, "0")
 
 
-def test_a_row_promises_nothing_about_another_value() -> None:
+def test_a_row_promises_nothing_about_another_value():
     row = next(check for check in table2()["tau_m1"].checks if check.verdict == "accepted")
     assert row.own_promise.says("accepted") == "accepted"
     with pytest.raises(Refused, match="has no directions"):
@@ -69,7 +64,7 @@ def test_a_row_promises_nothing_about_another_value() -> None:
 # --- the paper's gains -------------------------------------------------------------------------------
 
 
-def test_table_2_with_the_true_gamma() -> None:
+def test_table_2_with_the_true_gamma():
     """(19) lets k_v = 0.233 pass for m = 1, and k_v = 0.223 for neither m = 2 nor m = 3."""
     results = table2()
     assert {name: result.verdict for name, result in results.items()} == {
@@ -86,19 +81,19 @@ def test_table_2_with_the_true_gamma() -> None:
     assert results["tau_m1"].failures == ()
 
 
-def test_table_2_with_the_printed_gamma() -> None:
+def test_table_2_with_the_printed_gamma():
     """0.406/(√3 · 1.05) = 0.22324… admits 0.223, which the true γ_2 does not; 1.11 does not save m = 3."""
     verdicts = {name: result.verdict for name, result in table2(gamma="printed").items()}
     assert verdicts == {"tau_m1": "accepted", "tau_m2": "accepted", "tau_m3": "rejected"}
 
 
 @pytest.mark.parametrize("gamma", ["true", "printed"])
-def test_table_2_keeps_every_torque_within_its_limit(gamma: str) -> None:
+def test_table_2_keeps_every_torque_within_its_limit(gamma):
     for result in table2(gamma=gamma, deciding=("10", "10p")).values():
         assert result.verdict == "accepted"
 
 
-def test_what_table_2_would_have_to_be() -> None:
+def test_what_table_2_would_have_to_be():
     """The largest three-digit k_v: below 0.406/(√3 γ_m) = 0.234404…, 0.222485…, 0.210377…"""
     largest = {
         name: {check.largest_admissible for check in result.checks if check.id == "19"}
@@ -111,13 +106,13 @@ def test_what_table_2_would_have_to_be() -> None:
     }
 
 
-def test_pd_keeps_no_torque_within_a_limit_for_every_state() -> None:
+def test_pd_keeps_no_torque_within_a_limit_for_every_state():
     (result,) = gate(read_gain_file(paper_gain_file("table2_pd")))
     assert result.verdict == "rejected"
     assert all("unbounded" in check.reason for check in result.failures)
 
 
-def test_the_conditions_that_decide_can_be_chosen() -> None:
+def test_the_conditions_that_decide_can_be_chosen():
     """Of (10), (10p) and (19) only the last refuses tau_m2; none at all decides nothing."""
     verdicts = {
         deciding: table2(deciding=deciding)["tau_m2"].verdict
@@ -133,17 +128,17 @@ def test_the_conditions_that_decide_can_be_chosen() -> None:
     ]
 
 
-def test_what_the_verdict_rests_on_is_said() -> None:
+def test_what_the_verdict_rests_on_is_said():
     assert any("friction" in text for text in table2()["tau_m1"].limits.assumptions)
 
 
-def test_no_assumption_is_said_where_the_file_gives_the_number(tmp_path: Path) -> None:
+def test_no_assumption_is_said_where_the_file_gives_the_number(tmp_path):
     path = gain_file(tmp_path / "g.toml", "robot = 'buap3'", end="[bounds]\nviscous_min = 0.406\n")
     (result,) = gate(read_gain_file(path))
     assert not any("friction" in text for text in result.limits.assumptions)
 
 
-def test_another_arm_can_replace_the_one_of_the_file(one: Path) -> None:
+def test_another_arm_can_replace_the_one_of_the_file(one):
     (result,) = gate(read_gain_file(one), "buap3-small")
     assert result.limits.torque == (15, 50, 4)
 
@@ -151,9 +146,7 @@ def test_another_arm_can_replace_the_one_of_the_file(one: Path) -> None:
 # --- exit codes --------------------------------------------------------------------------------------
 
 
-def test_the_command_leaves_with_the_exit_code(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, one: Path
-) -> None:
+def test_the_command_leaves_with_the_exit_code(monkeypatch, capsys, tmp_path, one):
     paper = str(paper_gain_file("table2"))
     undecided = str(gain_file(tmp_path / "u.toml", "robot = 'pelican2'", "[1, 1]", "[0.001, 0.001]"))
     assert command(monkeypatch, str(one)) == 0
@@ -169,9 +162,7 @@ def test_the_command_leaves_with_the_exit_code(
     assert command(monkeypatch) == 2
 
 
-def test_one_bad_file_does_not_hide_the_others(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, one: Path
-) -> None:
+def test_one_bad_file_does_not_hide_the_others(monkeypatch, capsys, tmp_path, one):
     bad = gain_file(tmp_path / "bad.toml", "robot = 'buap3'", "[0, 1, 1]")
     assert command(monkeypatch, str(bad), str(one), str(tmp_path / "none.toml")) == 2
     out, err = capsys.readouterr()
@@ -180,14 +171,14 @@ def test_one_bad_file_does_not_hide_the_others(
     assert "none.toml" in err
 
 
-def test_the_printed_gamma_of_another_m_is_a_mistake(tmp_path: Path) -> None:
+def test_the_printed_gamma_of_another_m_is_a_mistake(tmp_path):
     path = gain_file(tmp_path / "g.toml", "robot = 'buap3'")
     path.write_text(path.read_text().replace("m = 2", "m = 7"))
     with pytest.raises(InputError, match="prints no γ"):
         gate(read_gain_file(path), gamma="printed")
 
 
-def test_a_thousand_sets_are_judged(tmp_path: Path) -> None:
+def test_a_thousand_sets_are_judged(tmp_path):
     sets = (
         f"[[gains]]\nname = 's{i}'\nm = {i % 9 + 1}\nkp = [1, 1, 1]\nkv = [0.10{i:03}, 0.1, 0.1]\n"
         for i in range(1000)
@@ -203,7 +194,7 @@ def test_a_thousand_sets_are_judged(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("format_name", one_in(3, ["text", "json", "junit", "sarif", "github", "markdown"]))
-def test_the_gate_loads_no_heavy_package(format_name: str) -> None:
+def test_the_gate_loads_no_heavy_package(format_name):
     code = (
         "import sys\n"
         "from lyapcheck.cli.main import main\n"

@@ -1,10 +1,6 @@
 """SARIF against the published schema of version 2.1.0 (the copy of schemastore.org, rtm.5)."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
-from typing import Any
 
 import pytest
 from fastjsonschema import JsonSchemaException
@@ -16,8 +12,8 @@ from tests.helpers.json_schema import follows
 SARIF = "sarif-2.1.0-rtm.5"
 
 
-def log(path: Path, **options: Any) -> dict[str, Any]:
-    result: dict[str, Any] = json.loads(gate(read_gain_file(path), **options).written("sarif"))
+def log(path, **options):
+    result = json.loads(gate(read_gain_file(path), **options).written("sarif"))
     return result
 
 
@@ -25,11 +21,11 @@ def log(path: Path, **options: Any) -> dict[str, Any]:
     "options", [{}, {"deciding": ("10",)}, {"robot": "buap3-small"}, {"deciding": ("19",), "strict": True}]
 )
 @pytest.mark.parametrize("name", ["table2", "table2_pd"])
-def test_a_log_follows_the_schema(name: str, options: dict[str, Any]) -> None:
+def test_a_log_follows_the_schema(name, options):
     follows(log(paper_gain_file(name), **options), SARIF)
 
 
-def test_a_log_of_nasty_names_follows_the_schema(tmp_path: Path) -> None:
+def test_a_log_of_nasty_names_follows_the_schema(tmp_path):
     path = tmp_path / "a b#?:\u00fc.toml"
     path.write_text(
         "robot = 'pelican2'\n[[gains]]\nname = '<b>\"%\\n λ'\nm = 2\nkp = [1, 1]\nkv = [1, 0.001]\n",
@@ -44,17 +40,17 @@ def test_a_log_of_nasty_names_follows_the_schema(tmp_path: Path) -> None:
     assert levels == ["error"]
 
 
-def test_the_schema_refuses_another_log() -> None:
+def test_the_schema_refuses_another_log():
     document = log(paper_gain_file())
     document["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["region"]["startLine"] = 0
     with pytest.raises(JsonSchemaException):
         follows(document, SARIF)
 
 
-def test_a_fingerprint_tells_gains_apart_and_nothing_else(tmp_path: Path) -> None:
+def test_a_fingerprint_tells_gains_apart_and_nothing_else(tmp_path):
     """The same set keeps it when its line or gains change; another set has its own."""
 
-    def prints(**options: Any) -> list[str]:
+    def prints(**options):
         results = log(path, **options)["runs"][0]["results"]
         return [result["partialFingerprints"]["case/v1"] for result in results if result["level"] != "note"]
 

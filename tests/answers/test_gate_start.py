@@ -1,7 +1,5 @@
 """The gate as a process: what it imports, what it leaves behind, and the summary of a job."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -14,7 +12,7 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.cli import main as cli
 from lyapcheck.cli.show import show
 from lyapcheck.control import limits
-from lyapcheck.control.gains import GainFile, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.errors import InputError
 
@@ -22,9 +20,7 @@ RUN = "from lyapcheck.cli.main import main; main()"
 ARMS = Path(limits.__file__).parents[1] / "robots" / "arms"
 
 
-def test_an_arm_is_read_once_for_many_files(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_arm_is_read_once_for_many_files(monkeypatch, tmp_path, capsys):
     """And only for one call: an arm file that has changed since is read again."""
     arm = tmp_path / "arm.toml"
     shutil.copy(ARMS / "pendulum1.toml", arm)
@@ -32,11 +28,11 @@ def test_an_arm_is_read_once_for_many_files(
     files = [tmp_path / f"g{i}.toml" for i in range(3)]
     for file in files:
         file.write_text(text)
-    reads: list[str] = []
+    reads = []
     monkeypatch.setattr(limits, "arm_limits", lambda name: (reads.append(name), arm_limits(name))[1])
     monkeypatch.setattr(sys, "argv", ["lyapcheck", "gate", *map(str, files)])
 
-    def code() -> object:
+    def code():
         with pytest.raises(SystemExit) as left:
             cli.main()
         return left.value.code
@@ -47,7 +43,7 @@ def test_an_arm_is_read_once_for_many_files(
     assert code() == 1
 
 
-def test_a_reader_that_goes_away_gets_no_traceback() -> None:
+def test_a_reader_that_goes_away_gets_no_traceback():
     reader, writer = os.pipe()
     os.close(reader)
     words = [sys.executable, "-c", RUN, "gate", str(paper_gain_file())]
@@ -56,10 +52,8 @@ def test_a_reader_that_goes_away_gets_no_traceback() -> None:
     assert (done.returncode, done.stderr) == (cli.CLOSED_PIPE, b"")
 
 
-def test_an_interrupted_gate_says_nothing(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def interrupt(path: str) -> GainFile:
+def test_an_interrupted_gate_says_nothing(monkeypatch, capsys):
+    def interrupt(path):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("lyapcheck.control.gains.read_gain_file", interrupt)
@@ -73,7 +67,7 @@ def test_an_interrupted_gate_says_nothing(
 # --- the summary of a job ----------------------------------------------------------------------------
 
 
-def test_the_summary_of_a_job_is_added_to(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_the_summary_of_a_job_is_added_to(monkeypatch, tmp_path):
     path = tmp_path / "summary.md"
     path.write_text("before\n")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(path))
@@ -90,9 +84,7 @@ def test_the_summary_of_a_job_is_added_to(monkeypatch: pytest.MonkeyPatch, tmp_p
 
 
 @pytest.mark.slow
-def test_a_summary_of_many_sets_keeps_to_the_size_that_is_shown(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_summary_of_many_sets_keeps_to_the_size_that_is_shown(monkeypatch, tmp_path):
     sets = (
         f'[[gains]]\nname = "s{i}"\nm = 1\nkp = [1, 1, 1]\nkv = [{0.1 if i % 2 else 0.3}, 0.1, 0.1]\n'
         for i in range(3000)

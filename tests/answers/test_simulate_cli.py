@@ -6,7 +6,6 @@ import json
 import os
 import sys
 import xml.etree.ElementTree as ET
-from pathlib import Path
 from typing import NamedTuple
 
 import pytest
@@ -32,7 +31,7 @@ class Done(NamedTuple):
 def lyapcheck(monkeypatch, capsys):
     """Runs the command in this process, which saves a second of imports each time."""
 
-    def run(*arguments: str) -> Done:
+    def run(*arguments):
         monkeypatch.setattr(sys, "argv", ["lyapcheck", "simulate", *arguments])
         with pytest.raises(SystemExit) as left:
             main()
@@ -162,9 +161,7 @@ IDEAL = "without the dry friction of the file"
     "coulomb", ["", "coulomb = 0", "coulomb = 0.1", "coulomb = {value = 0, low = 0, high = 1}"]
 )
 @pytest.mark.parametrize("way", [(), ("--experiment",), ("--runs", "3")])
-def test_the_first_line_says_that_dry_friction_is_left_out(
-    tmp_path: Path, coulomb: str, way: tuple[str, ...]
-) -> None:
+def test_the_first_line_says_that_dry_friction_is_left_out(tmp_path, coulomb, way):
     """Runs of (11) leave it out, the bench does not."""
     (tmp_path / "arm.toml").write_text(DRY + coulomb)
     gains = tmp_path / "gains.toml"
@@ -177,7 +174,7 @@ def test_the_first_line_says_that_dry_friction_is_left_out(
     assert not told or first.startswith("! ")
 
 
-def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path: Path) -> None:
+def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path):
     (tmp_path / "arm.toml").write_text(DRY)
     gains = tmp_path / "gains.toml"
     gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')

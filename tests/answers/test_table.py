@@ -1,7 +1,5 @@
 """The table command, from its argument to its five formats."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

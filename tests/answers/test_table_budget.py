@@ -1,7 +1,5 @@
 """What the table says for one arm, and for m → ∞."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

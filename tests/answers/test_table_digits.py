@@ -1,7 +1,5 @@
 """A thousand members to 50 digits: fast, and every digit right by ways that share no code with the table."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -31,7 +29,7 @@ def rows():
 @pytest.fixture(scope="module")
 def shown():
     """The cells of the text: {m: [γ, ρ, L, x of γ, x of ρ, x of L]}."""
-    result: dict[int, list[str]] = {}
+    result = {}
     for line in build_table(range(1, 1001), DIGITS).written("text").splitlines():
         first, *cells = line.split() or [""]
         if first.isdecimal():

@@ -1,7 +1,5 @@
 """What the table shows beside the constants: leading terms, slopes, plots, HTML for notebooks."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

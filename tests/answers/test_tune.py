@@ -1,7 +1,5 @@
 """Tuned gains: accepted by the gate, the largest of their kind, and a reason where there are none."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys
@@ -17,7 +15,7 @@ from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.gain_file import gain_file_text
-from lyapcheck.answers.tune.largest import GainRange, best_units, binding, damping_of, propose
+from lyapcheck.answers.tune.largest import best_units, binding, damping_of, propose
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms, tune
 from lyapcheck.control.gains import Bounds, paper_gain_file, read_gain_file
@@ -232,7 +230,7 @@ def test_a_wrong_proposal_changes_nothing(start):
 
 
 def test_smaller_gains_are_found_out():
-    gain_range: GainRange = gain_ranges()[0]
+    gain_range = gain_ranges()[0]
     kp, kv = best_units(gain_range)
     binding(gain_range, kp, kv)
     for worse in ((kp - 1, kv), (kp - 1, kv - 1)):

@@ -1,7 +1,5 @@
 """What a user sees of tuned gains: every complaint at once, shares in percent, notebooks, other arms."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import replace

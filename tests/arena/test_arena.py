@@ -72,9 +72,9 @@ def rules_in(value: Any) -> Iterator[str]:
         yield from rules_in(part)
 
 
-def kind_of(document: Any, key: str, name: str) -> Any:
+def kind_of(document: Any, key: str, name: str) -> str:
     result = document.get(key)
-    return result.get(name) if isinstance(result, dict) else None
+    return str(result.get(name)) if isinstance(result, dict) else ""
 
 
 def test_every_kind_by_every_rule_has_good_files_and_bad_ones():

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import pytest
 
 from lyapcheck.claims import (
-    Expr,
     ForAll,
     atan,
     cos,
@@ -51,17 +50,17 @@ HARRISON_END = "0.010831"
 TANG = expr("23/27") / 2**33
 
 
-def right_of_0(relation: object) -> ForAll:
+def right_of_0(relation):
     """For every x > 0."""
     return for_all(relation, 0, open_low=True)
 
 
-def up_to(high: str, relation: object) -> ForAll:
+def up_to(high, relation):
     """For every x with 0 < x <= high."""
     return for_all(relation, 0, high, open_low=True)
 
 
-def tan(of: Expr) -> Expr:
+def tan(of):
     """The tangent."""
     return sin(of) / cos(of)
 
@@ -148,18 +147,18 @@ TABLE = [*HYPERBOLIC, *LOGARITHM, *EXPONENTIAL, *ARC_TANGENT, *CIRCULAR]
 
 
 @pytest.mark.parametrize("row", one_in(3, TABLE), ids=lambda row: row.name)
-def test_a_published_inequality_is_proved(row: Row) -> None:
+def test_a_published_inequality_is_proved(row):
     decision = propose(row.holds)
     assert decision.verdict is Verdict.PROVED, decision
     assert decision.grade in (Grade.ENCLOSURE, Grade.EXACT)
 
 
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: row.name)
-def test_its_false_neighbour_is_refuted(row: Row) -> None:
+def test_its_false_neighbour_is_refuted(row):
     assert propose(row.fails).verdict is Verdict.REFUTED
 
 
-def test_every_inequality_is_cited() -> None:
+def test_every_inequality_is_cited():
     known = BIBLIOGRAPHY.read_text(encoding="utf-8")
     assert [row.name for row in TABLE if f"{{{row.key}," not in known] == []
     assert len({row.name for row in TABLE}) == len(TABLE) >= 9

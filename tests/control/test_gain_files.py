@@ -1,14 +1,11 @@
 """Reading gain files: what is read is exact, and what is wrong is told, all of it and where."""
 
-from __future__ import annotations
-
 import copy
 import os
 import pickle
 import subprocess
 import sys
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +15,7 @@ from hypothesis import strategies as st
 from lyapcheck import load_robot, run_simulation
 from lyapcheck.control.gains import GainFile, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import limits_for
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.errors import InputError
 from lyapcheck.family.registry import names as families
 from lyapcheck.files.decimals import Written, decimal_text, places_of, round_down, written
 from lyapcheck.output.escapes import printable
@@ -38,11 +35,11 @@ LINES = {key: number for number, line in enumerate(GOOD.splitlines(), 1) for key
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> Path:
+def file(tmp_path):
     return tmp_path / "gains.toml"
 
 
-def problems(file: Path, text: str | bytes) -> list[Problem]:
+def problems(file, text):
     file.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(InputError) as caught:
         read_gain_file(file)
@@ -52,7 +49,7 @@ def problems(file: Path, text: str | bytes) -> list[Problem]:
 # --- what is right -----------------------------------------------------------------------------------------
 
 
-def test_a_file_is_read_whole(file: Path) -> None:
+def test_a_file_is_read_whole(file):
     file.write_text(
         GOOD + "[bounds]\nviscous_min = 0.406\ntorque = [50, 150, 15]\ngravity = [0, 40.28, 1.81]\n"
     )
@@ -81,9 +78,7 @@ def test_a_file_is_read_whole(file: Path) -> None:
         ("0x1F", Fraction(31), 0),
     ],
 )
-def test_decimals_are_exact_and_keep_their_digits(
-    file: Path, text: str, value: Fraction, places: int
-) -> None:
+def test_decimals_are_exact_and_keep_their_digits(file, text, value, places):
     file.write_text(GOOD.replace("1.5", text))
     result = read_gain_file(file).gains[0].kp[0]
     assert result == value
@@ -91,14 +86,14 @@ def test_decimals_are_exact_and_keep_their_digits(
 
 
 @given(st.integers(0, 10**40), st.integers(0, 60), st.integers(-15, 15))
-def test_every_decimal_is_its_own_exact_value(digits: int, places: int, exponent: int) -> None:
+def test_every_decimal_is_its_own_exact_value(digits, places, exponent):
     text = f"{str(digits).rjust(places + 1, '0')}"
     text = f"{text[:-places]}.{text[-places:]}e{exponent}" if places else f"{text}e{exponent}"
     assert written(text) == Fraction(digits) * Fraction(10) ** (exponent - places)
 
 
 @given(st.fractions(), st.integers(0, 30))
-def test_rounding_down_is_the_largest_decimal_not_above(value: Fraction, places: int) -> None:
+def test_rounding_down_is_the_largest_decimal_not_above(value, places):
     rounded, unit = round_down(value, places), Fraction(1, 10**places)
     assert rounded <= value < rounded + unit
     assert (rounded / unit).denominator == 1
@@ -106,13 +101,13 @@ def test_rounding_down_is_the_largest_decimal_not_above(value: Fraction, places:
 
 
 @given(st.fractions(), st.integers(0, 30))
-def test_decimal_text_says_the_exact_value(value: Fraction, places: int) -> None:
+def test_decimal_text_says_the_exact_value(value, places):
     text = decimal_text(value, places)
     assert Fraction(text) == value
     assert "/" in text or len(text.partition(".")[2]) >= places
 
 
-def test_a_written_decimal_survives_copies(file: Path) -> None:
+def test_a_written_decimal_survives_copies(file):
     file.write_text(GOOD)
     gains = read_gain_file(file).gains[0]
     for other in (copy.copy(gains), copy.deepcopy(gains), pickle.loads(pickle.dumps(gains))):
@@ -122,7 +117,7 @@ def test_a_written_decimal_survives_copies(file: Path) -> None:
         assert repr(other.kv[1]) == "0.20"
 
 
-def test_every_gain_knows_its_line_and_column(file: Path) -> None:
+def test_every_gain_knows_its_line_and_column(file):
     file.write_text(GOOD)
     result = read_gain_file(file)
     gains = result.gains[0]
@@ -145,7 +140,7 @@ def test_every_gain_knows_its_line_and_column(file: Path) -> None:
     ],
     ids=["inline", "byte-order mark", "CRLF", "quoted keys", "multi-line text", "odd but right"],
 )
-def test_every_way_to_write_toml_is_read(file: Path, text: str) -> None:
+def test_every_way_to_write_toml_is_read(file, text):
     file.write_bytes(text.encode())
     result = read_gain_file(file)
     last = result.place(result.gains[-1], "kv", 0)
@@ -154,13 +149,13 @@ def test_every_way_to_write_toml_is_read(file: Path, text: str) -> None:
 
 
 @pytest.mark.parametrize("family", [f for f in families() if f != "hyperbolic"])
-def test_other_families_need_no_m(file: Path, family: str) -> None:
+def test_other_families_need_no_m(file, family):
     file.write_text(GOOD.replace("m = 2", f'family = "{family}"'))
     gains = read_gain_file(file).gains[0]
     assert (gains.family, gains.m) == (family, None)
 
 
-def test_the_gains_of_the_paper_travel_with_lyapcheck() -> None:
+def test_the_gains_of_the_paper_travel_with_lyapcheck():
     """Table 2 of the paper."""
     sets = {gains.name: gains for gains in read_gain_file(paper_gain_file("table2")).gains}
     assert [sets[f"tau_m{m}"].kp for m in (1, 2, 3)] == [(28, 60, 5), (27, 50, 5), (25, 50, 5)]
@@ -179,7 +174,7 @@ def test_the_gains_of_the_paper_travel_with_lyapcheck() -> None:
         paper_gain_file("table3")
 
 
-def test_a_robot_file_is_looked_for_beside_the_gain_file(file: Path) -> None:
+def test_a_robot_file_is_looked_for_beside_the_gain_file(file):
     file.write_text(GOOD.replace("buap3", "arms/mine.toml"))
     assert read_gain_file(file).robot == str(file.parent / "arms" / "mine.toml")
 
@@ -187,14 +182,14 @@ def test_a_robot_file_is_looked_for_beside_the_gain_file(file: Path) -> None:
 # --- what is wrong -----------------------------------------------------------------------------------------
 
 
-def changed(old: str, new: str) -> str:
+def changed(old, new):
     assert old in GOOD
     return GOOD.replace(old, new)
 
 
 BOUNDS = GOOD + "[bounds]\n"
 HUGE = "9" * 6000
-BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
+BROKEN = {
     # name: (file, line, key, part of the rule, part of the repair)
     "no value": (changed("m = 2", "m ="), 5, "TOML", "Invalid value", "syntax"),
     "a key twice": (changed("m = 2", "m = 2\nm = 3"), 6, "TOML", "overwrite", "syntax"),
@@ -323,7 +318,7 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
 }
 
 
-def test_a_broken_file_is_told_where_and_how_and_the_command_leaves_with_2(file: Path) -> None:
+def test_a_broken_file_is_told_where_and_how_and_the_command_leaves_with_2(file):
     for name, (text, line, key, rule, repair) in BROKEN.items():
         found = problems(file, text)
         about = [problem for problem in found if problem.key == key]
@@ -341,7 +336,7 @@ def test_a_broken_file_is_told_where_and_how_and_the_command_leaves_with_2(file:
         assert any(row.startswith(f"error: {place}: {key}") and repair in row for row in rows), name
 
 
-def test_all_that_is_wrong_is_told_at_once(file: Path) -> None:
+def test_all_that_is_wrong_is_told_at_once(file):
     text = """\
 robot = 3
 colour = "red"
@@ -378,7 +373,7 @@ viscous_min = -1
     }
 
 
-def test_problems_come_in_the_order_of_the_file(file: Path) -> None:
+def test_problems_come_in_the_order_of_the_file(file):
     result = problems(file, changed("m = 2", "m = 0").replace("1.5", "-1").replace("robot", "robo"))
     assert [problem.line for problem in result] == [1, 5, 6]
 
@@ -392,7 +387,7 @@ def test_problems_come_in_the_order_of_the_file(file: Path) -> None:
     ],
     ids=["a folder", "no file", "a link to itself"],
 )
-def test_what_is_no_file(file: Path, make: object, rule: str) -> None:
+def test_what_is_no_file(file, make, rule):
     make(file)  # type: ignore[operator]
     with pytest.raises(InputError) as caught:
         read_gain_file(file)
@@ -401,7 +396,7 @@ def test_what_is_no_file(file: Path, make: object, rule: str) -> None:
     assert rule in problem.rule
 
 
-def test_an_unknown_arm_is_a_mistake_on_its_line(file: Path) -> None:
+def test_an_unknown_arm_is_a_mistake_on_its_line(file):
     file.write_text("# first\n" + changed('"buap3"', '"buap4"'))
     with pytest.raises(InputError) as caught:
         limits_for(read_gain_file(file))
@@ -411,18 +406,18 @@ def test_an_unknown_arm_is_a_mistake_on_its_line(file: Path) -> None:
     assert str(problem).isprintable()
 
 
-def test_an_arm_that_replaces_the_unknown_one_is_used(file: Path) -> None:
+def test_an_arm_that_replaces_the_unknown_one_is_used(file):
     file.write_text(changed("buap3", "nope"))
     assert limits_for(read_gain_file(file), "buap3").n == 3
 
 
-def test_gains_for_another_arm_are_refused(file: Path) -> None:
+def test_gains_for_another_arm_are_refused(file):
     file.write_text(changed("buap3", "pelican2"))
     with pytest.raises(InputError, match=r"gains\.toml:6: .*3 joints, but the arm pelican2 has 2"):
         limits_for(read_gain_file(file))
 
 
-def test_without_an_arm_the_bounds_must_say_everything(file: Path) -> None:
+def test_without_an_arm_the_bounds_must_say_everything(file):
     bounds = "[bounds]\ntorque = [9, 9, 9]\ngravity = [0, 1, 2]\n"
     file.write_text(changed('robot = "buap3"', "") + bounds)
     with pytest.raises(InputError, match="robot: is missing"):
@@ -432,7 +427,7 @@ def test_without_an_arm_the_bounds_must_say_everything(file: Path) -> None:
     assert (limits.torque, limits.gravity, limits.viscous_min) == ((9, 9, 9), (0, 1, 2), Fraction(1, 2))
 
 
-def test_bounds_of_the_file_come_before_those_of_the_arm(file: Path) -> None:
+def test_bounds_of_the_file_come_before_those_of_the_arm(file):
     file.write_text(GOOD + "[bounds]\ntorque = [7, 8, 9]\n")
     limits = limits_for(read_gain_file(file))
     assert limits.torque == (7, 8, 9)
@@ -440,7 +435,7 @@ def test_bounds_of_the_file_come_before_those_of_the_arm(file: Path) -> None:
     assert limits.gravity == (0, Fraction("40.28"), Fraction("1.81"))
 
 
-def test_a_file_name_of_any_bytes_can_be_said(tmp_path: Path) -> None:
+def test_a_file_name_of_any_bytes_can_be_said(tmp_path):
     name = os.fsencode(tmp_path) + b"/g\xff\n.toml"
     with open(name, "wb") as stream:
         stream.write(GOOD.encode())
@@ -497,7 +492,7 @@ SPLICED = st.builds(
 )
 
 
-def refusal(path: Path) -> InputError | None:
+def refusal(path):
     try:
         result = read_gain_file(path)
     except InputError as error:
@@ -510,7 +505,7 @@ def refusal(path: Path) -> InputError | None:
     return None
 
 
-def read_or_refuse(path: Path, content: bytes) -> None:
+def read_or_refuse(path, content):
     path.write_bytes(content)
     error = refusal(path)
     if error is not None:
@@ -520,23 +515,23 @@ def read_or_refuse(path: Path, content: bytes) -> None:
 
 
 @given(st.one_of(SHUFFLED, SPLICED).map(lambda text: text.encode("utf-8", "surrogatepass")))
-def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
+def test_any_text_is_read_or_refused(tmp_path_factory, content):
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
 
 
 @given(st.binary(max_size=200))
-def test_any_bytes_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
+def test_any_bytes_are_read_or_refused(tmp_path_factory, content):
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
 
 
 @given(letters())
-def test_printable_text_is_one_line(text: str) -> None:
+def test_printable_text_is_one_line(text):
     shown = printable(text)
     assert shown.isprintable()
     assert printable(shown) == shown
 
 
-def test_python_functions_take_paths(tmp_path: Path) -> None:
+def test_python_functions_take_paths(tmp_path):
     path = tmp_path / "one.toml"
     path.write_text('robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [10]\nkv = [1]\n')
     by_path = run_simulation(path, "pendulum1", [0.5], T=0.1)
@@ -556,23 +551,21 @@ def test_python_functions_take_paths(tmp_path: Path) -> None:
     ],
 )
 @pytest.mark.parametrize("command", ["gate", "epsilon", "bounds", "simulate"])
-def test_an_arm_that_is_none_is_told_at_the_line_that_names_it(
-    command: str, robot: str, rule: str, file: Path
-) -> None:
+def test_an_arm_that_is_none_is_told_at_the_line_that_names_it(command, robot, rule, file):
     file.write_text(GOOD.replace("buap3", robot))
     (problem,) = refused_by(command, str(file)).problems
     assert (problem.file, problem.line, problem.key, problem.value) == (str(file), 1, "robot", robot)
     assert rule in problem.rule
 
 
-def test_an_arm_of_the_command_line_is_not_told_at_the_gain_file(file: Path) -> None:
+def test_an_arm_of_the_command_line_is_not_told_at_the_gain_file(file):
     file.write_text(GOOD)
     assert [problem.file for problem in refused_by("gate", str(file), "--robot", "no.tml").problems] == [
         "no.tml"
     ]
 
 
-def refused_by(*words: str) -> InputError:
+def refused_by(*words):
     done = invoke(*words)
     assert done.exception is not None
     return done.exception

@@ -1,17 +1,14 @@
 """dV/dt four ways: AD along (11), the terms of (15), NumPy, and balls at exact states; and its parts."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import cache
 
-import casadi as ca
 import numpy as np
 import pytest
 
 from lyapcheck import family, robots
 from lyapcheck.check.loop import states
-from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
+from lyapcheck.lyapunov.graph import lyapunov_graph
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 
@@ -20,33 +17,33 @@ KP, KV, EPS0 = (25.0, 50.0, 5.0), (0.25, 0.5, 0.125), 0.375
 
 
 @cache
-def graph_of(arm: str, m: int) -> LyapunovGraph:
+def graph_of(arm, m):
     return lyapunov_graph(robots.load(arm), family.hyperbolic(m))
 
 
-def numeric_of(arm: str, m: int) -> LyapunovNumeric:
+def numeric_of(arm, m):
     model = robots.load(arm)
     return LyapunovNumeric(model, family.hyperbolic(m), KP[: model.n], KV[: model.n], EPS0)
 
 
-def random_states(n: int, count: int, seed: int = 3) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def random_states(n, count, seed=3):
     random = np.random.default_rng(seed)
     return random.uniform(-4, 4, (count, n)), random.normal(0, 2, (count, n)), random.normal(0, 4, (count, n))
 
 
-def evaluated(function: ca.Function, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:
+def evaluated(function, q, e, w):
     n = q.shape[1]
     gains = [np.tile(np.array(k[:n])[:, None], len(q)) for k in (KP, KV)]
     return np.array(function(q.T, e.T, w.T, *gains, np.full((1, len(q)), EPS0))).ravel()
 
 
-def scale_of(w: np.ndarray) -> np.ndarray:
+def scale_of(w):
     """Terms of this size are summed, so this is what rounding is relative to."""
     return 100 * (1 + np.sum(w * w, axis=1))
 
 
 @pytest.mark.parametrize("arm", ARMS)
-def test_all_ways_agree_at_zero_error_and_at_rest(arm: str) -> None:
+def test_all_ways_agree_at_zero_error_and_at_rest(arm):
     numeric, graph, n = numeric_of(arm, 2), graph_of(arm, 2), robots.load(arm).n
     q, e, w = random_states(n, 3)
     e[0], w[1], e[2], w[2] = 0, 0, 0, 0
@@ -58,7 +55,7 @@ def test_all_ways_agree_at_zero_error_and_at_rest(arm: str) -> None:
 
 
 @pytest.mark.parametrize("arm", ["reyes-kelly2", "buap3"])
-def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
+def test_agrees_with_the_trusted_evaluation_in_balls(arm):
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
 
@@ -74,7 +71,7 @@ def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
 
 
 @pytest.mark.parametrize("arm", ARMS)
-def test_parts_are_those_of_the_quadratic_form_without_velocities(arm: str) -> None:
+def test_parts_are_those_of_the_quadratic_form_without_velocities(arm):
     """−a₀ + a₁ε₀ + a₂ε₀² by S = C(q,h) + (Mh)êᵀ/(1+r) − MH', worked out by hand at each state."""
     numeric, model = numeric_of(arm, 2), robots.load(arm)
     plain, shape = NumericModel(model), numeric.family
@@ -99,7 +96,7 @@ def test_parts_are_those_of_the_quadratic_form_without_velocities(arm: str) -> N
         )
 
 
-def test_fast_matrix_decides_the_sign_for_fast_states() -> None:
+def test_fast_matrix_decides_the_sign_for_fast_states():
     numeric, graph = numeric_of("reyes-kelly2", 2), graph_of("reyes-kelly2", 2)
     q, e, _ = random_states(2, 20)
     rows = numeric.at_columns(q, e, np.zeros_like(e)).fast()

@@ -1,7 +1,5 @@
 """Compiled V and dV/dt: as accurate as the arrays, on every state, and far faster than CasADi."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path
@@ -32,17 +30,17 @@ FAMILIES = [family.hyperbolic(m) for m in (1, 2, 3, 7, 64)] + [
 ]
 
 
-def lyapunov(arm: str, shape: family.Family) -> LyapunovNumeric:
+def lyapunov(arm, shape):
     model = robots.load(arm)
     return LyapunovNumeric(model, shape, KP[: model.n], KV[: model.n], EPS0)
 
 
-def states(n: int, count: int, size: float = 1.0, seed: int = 5) -> list[np.ndarray]:
+def states(n, count, size=1.0, seed=5):
     random = np.random.default_rng(seed)
     return [scale * size * random.standard_normal((count, n)) for scale in (3, 2, 4)]
 
 
-def extreme_states(n: int, count: int) -> list[np.ndarray]:
+def extreme_states(n, count):
     """Sizes from the smallest doubles to 1e3, zeros among them."""
     random = np.random.default_rng(6)
     sizes = [
@@ -66,14 +64,14 @@ def extreme_states(n: int, count: int) -> list[np.ndarray]:
     return [columns[0] * 90, *columns[1:]]
 
 
-def by_arrays(kept: LyapunovNumeric, name: str, *columns: np.ndarray) -> np.ndarray:
+def by_arrays(kept, name, *columns):
     """The NumPy form, whatever the size of the batch."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(numeric_module, "LARGE", 10**9)
         return getattr(kept, name)(*columns)
 
 
-def term_sizes(kept: LyapunovNumeric, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> tuple:
+def term_sizes(kept, q, e, w):
     """The sums of the absolute terms of V and of dV/dt."""
     model, shape = NumericModel(kept.model), kept.family
     r = np.linalg.norm(e, axis=1, keepdims=True)
@@ -211,9 +209,9 @@ def test_written_code_shares_and_has_no_powers():
     assert text.count("const double") == len(code.lines)
 
 
-def imported(folder: Path) -> set[str]:
+def imported(folder):
     """What the libraries of a folder ask of others."""
-    names: set[str] = set()
+    names = set()
     for path in folder.glob("*.so"):
         whole = path.with_suffix(".plain")
         whole.write_bytes(path.read_bytes()[:-32])  # without the digest behind it
@@ -265,9 +263,9 @@ def test_a_loop_takes_arrays_of_any_strides(n):
 @pytest.mark.parametrize("workers", [1, 2, 5])
 def test_shares_cover_everything_once(count, unit, workers, monkeypatch):
     monkeypatch.setattr(threads, "processors", lambda: workers)
-    seen: list[int] = []
+    seen = []
 
-    def work(start: int, stop: int) -> int:
+    def work(start, stop):
         assert start % unit == 0
         seen.extend(range(start, stop))
         return stop - start

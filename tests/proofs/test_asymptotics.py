@@ -1,7 +1,5 @@
 """How γ_m, ρ_m and L_m grow with m: the proof script, and the same bounds straight from the constants."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

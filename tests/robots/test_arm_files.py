@@ -1,10 +1,7 @@
 """Arm files: what is read, and how every way of getting one wrong is told."""
 
-from __future__ import annotations
-
 import textwrap
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -62,19 +59,19 @@ viscous = 0.175
 """
 
 
-def load(folder: Path, text: str, name: str = "arm.toml") -> robots.RobotModel:
+def load(folder, text, name="arm.toml"):
     file = folder / name
     file.write_text(text, encoding="utf-8")
     return robots.load(file)
 
 
-def problems(folder: Path, text: str) -> list[str]:
+def problems(folder, text):
     with pytest.raises(InputError) as caught:
         load(folder, text)
     return [str(problem).removeprefix(f"{folder}/") for problem in caught.value.problems]
 
 
-def test_a_chain_is_read_exactly(tmp_path: Path) -> None:
+def test_a_chain_is_read_exactly(tmp_path):
     arm = load(tmp_path, CHAIN)
     assert (arm.name, arm.joints, arm.encoder) == ("arm", ("base", "arm"), (None, 4096))
     assert arm.numbers["arm_mass"].value == Fraction(3, 2)
@@ -85,24 +82,24 @@ def test_a_chain_is_read_exactly(tmp_path: Path) -> None:
     assert arm.gravity_at(sin, cos, Fraction) == [0, -Fraction("1.5") * Fraction("9.81") * Fraction("0.3")]
 
 
-def test_a_printed_model_is_read_exactly(tmp_path: Path) -> None:
+def test_a_printed_model_is_read_exactly(tmp_path):
     arm, built_in = load(tmp_path, PRINTED), robots.load("reyes-kelly2")
     assert (arm.mass, arm.potential) == (built_in.mass, built_in.potential)
 
 
-def test_sines_of_sums_and_powers(tmp_path: Path) -> None:
+def test_sines_of_sums_and_powers(tmp_path):
     """s12 = sin(q1 + q2), and a power of it."""
     arm = load(tmp_path, PRINTED.replace('[1, "b c2"]', '[1, "b s12^2"], [1, "b c12^2"]'))
     assert str(arm.mass[0][1]) == "93/500"
 
 
-def test_gravity_is_not_told_to_be_in_a_potential_that_is_not_there(tmp_path: Path) -> None:
+def test_gravity_is_not_told_to_be_in_a_potential_that_is_not_there(tmp_path):
     told = problems(tmp_path, CHAIN.replace("[[links]]", "[[joint]]"))
     assert any("links: is missing" in one for one in told)
     assert not any("gravity" in one for one in told)
 
 
-def test_ranges_become_parameters(tmp_path: Path) -> None:
+def test_ranges_become_parameters(tmp_path):
     arm = load(tmp_path, CHAIN.replace("mass = 1.5", "mass = { value = 1.5, low = 1, high = 2 }"))
     assert list(arm.parameters) == ["arm_mass"]
     sin, cos = [Fraction(0)] * 2, [Fraction(1)] * 2
@@ -110,13 +107,13 @@ def test_ranges_become_parameters(tmp_path: Path) -> None:
     assert heavy[1][1] == Fraction("0.1") + 2 * Fraction("0.09")
 
 
-def test_a_range_of_friction_is_no_parameter_of_the_inertia(tmp_path: Path) -> None:
+def test_a_range_of_friction_is_no_parameter_of_the_inertia(tmp_path):
     arm = load(tmp_path, CHAIN.replace("viscous = 0.25", "viscous = { value = 0.25, low = 0.2, high = 0.3 }"))
     assert not arm.parameters
     assert arm.viscous[1].bounds == (Fraction("0.2"), Fraction("0.3"))
 
 
-def test_an_assumption_is_told_in_a_sentence(tmp_path: Path) -> None:
+def test_an_assumption_is_told_in_a_sentence(tmp_path):
     assumed = 'viscous = { value = 0.25, assumed = true, low = 0.2, high = 0.3, note = "a guess" }'
     arm = load(tmp_path, CHAIN.replace("viscous = 0.25", assumed))
     assert arm.assumptions == (
@@ -124,7 +121,7 @@ def test_an_assumption_is_told_in_a_sentence(tmp_path: Path) -> None:
     )
 
 
-def test_the_documented_examples_are_arm_files(tmp_path: Path) -> None:
+def test_the_documented_examples_are_arm_files(tmp_path):
     blocks = [block.split("\n\nA ")[0] for block in (armfile.__doc__ or "").split("::\n\n")[1:]]
     number, chain, printed, _ = (textwrap.dedent(block.split("\n\nAn assumed")[0]) for block in blocks)
     assert load(tmp_path, chain).n == 1
@@ -168,14 +165,14 @@ BROKEN = [
 ]
 
 
-def test_a_broken_file_is_told_what_is_wrong(tmp_path: Path) -> None:
+def test_a_broken_file_is_told_what_is_wrong(tmp_path):
     for text, old, new, expected in BROKEN:
         assert old in text
         printed = "\n".join(problems(tmp_path, text.replace(old, new)))
         assert all(part in printed for part in expected), (new, printed)
 
 
-def test_all_problems_at_once(tmp_path: Path) -> None:
+def test_all_problems_at_once(tmp_path):
     broken = (
         CHAIN.replace("mass = 1.5", "mass = -1")
         .replace("mass = 2", "mass = nan")
@@ -184,11 +181,11 @@ def test_all_problems_at_once(tmp_path: Path) -> None:
     assert len(problems(tmp_path, broken)) == 3
 
 
-def test_one_mistake_is_told_once(tmp_path: Path) -> None:
+def test_one_mistake_is_told_once(tmp_path):
     assert len(problems(tmp_path, CHAIN.replace("axis = [0, 1, 0]", "axis = [0, 2, 0]"))) == 1
 
 
-def test_more_joints_than_are_understood(tmp_path: Path) -> None:
+def test_more_joints_than_are_understood(tmp_path):
     head, link = CHAIN.split("[[links]]")[:2]
     links = "".join(f"[[links]]{link}".replace('"base"', f'"j{i}"') for i in range(13))
     assert "has more than 12 joints" in "\n".join(problems(tmp_path, head + links))
@@ -206,14 +203,14 @@ def test_more_joints_than_are_understood(tmp_path: Path) -> None:
         ("arm.toml", b"", "title: is missing"),
     ],
 )
-def test_what_is_no_arm_file_at_all(tmp_path: Path, name: str, content: bytes, rule: str) -> None:
+def test_what_is_no_arm_file_at_all(tmp_path, name, content, rule):
     file = tmp_path / name
     file.write_bytes(content)
     with pytest.raises(InputError, match=rule):
         robots.load(file)
 
 
-def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
+def test_a_missing_file_and_a_folder(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         robots.load(tmp_path / "nothing.toml")
     with pytest.raises(InputError, match="is a folder"):

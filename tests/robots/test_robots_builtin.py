@@ -1,12 +1,9 @@
 """The built-in arms against what their sources print."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -38,20 +35,20 @@ viscous = 0.175
 """
 
 
-def at_rest(n: int) -> tuple[list[Fraction], list[Fraction]]:
+def at_rest(n):
     return [F(0)] * n, [F(1)] * n
 
 
-def test_the_built_in_arms() -> None:
+def test_the_built_in_arms():
     assert {"buap3", "reyes-kelly2", "pelican2", "buap3-small", "pendulum1"} <= set(robots.names())
 
 
-def test_the_built_in_arms_can_be() -> None:
+def test_the_built_in_arms_can_be():
     """They are read without this look for slips."""
     assert not any(impossible_state(robots.load(name)) for name in robots.names())
 
 
-def test_small_arm_gravity_is_the_print() -> None:
+def test_small_arm_gravity_is_the_print():
     """g = (0, 14.28 sin q2 + 1.14 sin(q2+q3), 1.14 sin(q2+q3)), limits 15, 50, 4 N·m."""
     arm = robots.load("buap3-small")
     assert arm.gravity_at([F(0), F(1), F(0)], [F(1), F(0), F(1)], Fraction) == [0, F("15.42"), F("1.14")]
@@ -59,7 +56,7 @@ def test_small_arm_gravity_is_the_print() -> None:
     assert all(key.split("_", 1)[1] == "inertia" for key in arm.parameters)
 
 
-def test_every_assumption_about_the_inertia_has_a_range() -> None:
+def test_every_assumption_about_the_inertia_has_a_range():
     for name in BUILT_IN:
         arm = robots.load(name)
         assumed = [key for key, number in arm.numbers.items() if number.assumed and "torque" not in key]
@@ -67,7 +64,7 @@ def test_every_assumption_about_the_inertia_has_a_range() -> None:
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_every_assumed_number_has_a_reason_and_is_listed(name: str) -> None:
+def test_every_assumed_number_has_a_reason_and_is_listed(name):
     arm = robots.load(name)
     assumed = {key: number for key, number in arm.numbers.items() if number.assumed}
     assert all(number.note or number.source for number in assumed.values())
@@ -75,12 +72,12 @@ def test_every_assumed_number_has_a_reason_and_is_listed(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_every_other_number_has_a_source(name: str) -> None:
+def test_every_other_number_has_a_source(name):
     arm = robots.load(name)
     assert all(number.source for number in arm.numbers.values() if not number.assumed)
 
 
-def test_paper_arm_limits_and_encoders() -> None:
+def test_paper_arm_limits_and_encoders():
     """Table 1 of the paper."""
     arm = robots.load("buap3")
     assert arm.joints == ("base", "shoulder", "elbow")
@@ -89,7 +86,7 @@ def test_paper_arm_limits_and_encoders() -> None:
     assert not any(limit.assumed for limit in arm.torque_limit)
 
 
-def test_paper_arm_gravity_reaches_the_printed_bounds() -> None:
+def test_paper_arm_gravity_reaches_the_printed_bounds():
     """k_g = (0, 40.28, 1.81), attained with the arm stretched out horizontally."""
     arm = robots.load("buap3")
     sin, cos = [F(0), F(1), F(0)], [F(1), F(0), F(1)]
@@ -98,20 +95,20 @@ def test_paper_arm_gravity_reaches_the_printed_bounds() -> None:
     assert arm.gravity_at(sin, cos, Fraction) == printed
 
 
-def test_paper_arm_hangs_down_at_home() -> None:
+def test_paper_arm_hangs_down_at_home():
     arm = robots.load("buap3")
     assert arm.gravity_at(*at_rest(3), Fraction) == [0, 0, 0]
     upside_down = [F(1), F(-1), F(1)]
     assert arm.potential_at(*at_rest(3), Fraction) < arm.potential_at([F(0)] * 3, upside_down, Fraction)
 
 
-def test_paper_arm_friction_is_at_least_the_printed_minimum() -> None:
+def test_paper_arm_friction_is_at_least_the_printed_minimum():
     arm = robots.load("buap3")
     assert min(friction.value for friction in arm.viscous) == F("0.406")
     assert all(friction.bounds[0] >= F("0.406") for friction in arm.viscous)
 
 
-def test_two_joint_arm_is_the_print() -> None:
+def test_two_joint_arm_is_the_print():
     """M11 = 2.351 + 0.168 cos q2 and so on, and the printed C and g."""
     arm = robots.load("reyes-kelly2")
     sin, cos, w = [F(3, 5), F(5, 13)], [F(4, 5), F(12, 13)], [F(2), F(-3)]
@@ -125,7 +122,7 @@ def test_two_joint_arm_is_the_print() -> None:
     assert arm.gravity_at(sin, cos, Fraction) == [g1 * s1 + g2 * s12, g2 * s12]
 
 
-def test_the_printed_coriolis_matrix_has_the_torque_but_not_the_rate() -> None:
+def test_the_printed_coriolis_matrix_has_the_torque_but_not_the_rate():
     """The source prints C = [[−0.168 s2 w2, −0.084 s2 w2], [0.084 s2 w1, 0]]: right torque, and (3) fails.
 
     The model therefore takes C from M and never from the print.
@@ -143,7 +140,7 @@ def test_the_printed_coriolis_matrix_has_the_torque_but_not_the_rate() -> None:
     assert [[printed[i][j] + printed[j][i] for j in range(2)] for i in range(2)] != mass_rate
 
 
-def test_two_joint_print_agrees_with_its_links(tmp_path: Path) -> None:
+def test_two_joint_print_agrees_with_its_links(tmp_path):
     """Each printed coefficient is the one of the links to less than one unit of its last digit."""
     file = tmp_path / "links.toml"
     file.write_text(LINKS)
@@ -157,7 +154,7 @@ def test_two_joint_print_agrees_with_its_links(tmp_path: Path) -> None:
     assert derived.mass != printed.mass
 
 
-def test_pelican_is_the_print() -> None:
+def test_pelican_is_the_print():
     """M and g of two links in a plane, by hand from Table 5.1."""
     arm, ((s1, c1), (s2, c2)) = robots.load("pelican2"), ((F(3, 5), F(4, 5)), (F(5, 13), F(12, 13)))
     m1, m2, lc1, lc2, l1 = map(F, ("6.5225", "2.0458", "0.0983", "0.0229", "0.26"))
@@ -169,7 +166,7 @@ def test_pelican_is_the_print() -> None:
     assert arm.gravity_at([s1, s2], [c1, c2], Fraction) == [F("9.81") * (m1 * lc1 + m2 * l1) * s1 + g2, g2]
 
 
-def test_paper_arm_inertia_is_a_chain_of_slender_links(tmp_path: Path) -> None:
+def test_paper_arm_inertia_is_a_chain_of_slender_links(tmp_path):
     """The printed-form M of the file is the one that its links give, as polynomials."""
     file = tmp_path / "slender.toml"
     file.write_text(SLENDER)
@@ -206,19 +203,19 @@ viscous = 1
 """
 
 
-def test_pendulum_swings_at_the_textbook_period() -> None:
+def test_pendulum_swings_at_the_textbook_period():
     arm = robots.load("pendulum1")
     stiffness = arm.gravity_at([F(1)], [F(0)], Fraction)[0]
     omega = math.sqrt(stiffness / arm.mass_at([F(1)], [F(0)], Fraction)[0][0])
     assert 2 * math.pi / omega == pytest.approx(2 * math.pi * math.sqrt(0.5 / 9.81), rel=1e-12)
 
 
-def test_a_misspelt_arm_gets_a_suggestion() -> None:
+def test_a_misspelt_arm_gets_a_suggestion():
     with pytest.raises(InputError, match=r"reyes_kelly2.*did you mean reyes-kelly2\?"):
         robots.load("reyes_kelly2")
 
 
-def test_loading_is_light() -> None:
+def test_loading_is_light():
     heavy = "{'numpy', 'sympy', 'casadi', 'scipy', 'cvxpy'}"
     code = f"import sys, lyapcheck.robots as r; r.load('buap3'); print(sorted({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

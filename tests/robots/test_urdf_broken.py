@@ -16,6 +16,7 @@ from tests.helpers.urdf_texts import ARMS, TWO
 from tests.robots.test_arm_files import CHAIN, PRINTED
 
 DOCTYPE = '<!DOCTYPE robot [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;">]>\n<robot'
+OUTSIDE = '<!DOCTYPE robot [<!ENTITY f SYSTEM "file:///etc/passwd">]>\n<robot'
 MASS = '<mass value="1.5"/>'
 INERTIA = '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/>'
 LIMIT = '<limit lower="-1" upper="1" effort="20" velocity="2"/>'
@@ -28,7 +29,12 @@ BROKEN = [
     # XML
     ("</robot>", "", "arm.urdf:45: file: is not XML"),
     ('<link name="base"/>', '<link name="base">', "is not XML: mismatched tag"),
+    ('<link name="base"/>', "<link name=base/>", "arm.urdf:3: file: is not XML"),
+    ('<link name="base"/>', '<link name="base" name="b"/>', "is not XML: duplicate attribute"),
     ("<robot", DOCTYPE, "arm.urdf:2: file: declares a document type or an entity"),
+    ("<robot", OUTSIDE, "declares a document type or an entity"),
+    ('<link name="base"/>', "&a;", "is not XML: undefined entity"),
+    ("</robot>", "</robot><robot/>", "is not XML: junk after document element"),
     ('<link name="base"/>', "<a>" * 45 + "</a>" * 45, "is nested more than 40 deep"),
     (
         '<link name="base"/>',
@@ -36,7 +42,13 @@ BROKEN = [
         "attribute of more than 10000 characters",
     ),
     ('<link name="base"/>', "<a/>" * 100_001, "has more than 100000 elements"),
+    ("<robot name", "<model name", "is not XML"),
     # the robot
+    (
+        '<robot name="two">',
+        '<robot name="two"><xacro:include filename="x"/>',
+        "is a xacro file; run xacro on it",
+    ),
     ('<link name="base"/>', "", "joint shoulder: parent = base: is no link of this file"),
     (
         '<link name="base"/>',
@@ -49,11 +61,17 @@ BROKEN = [
     ('<link name="base"/>', f'<link name="{"b" * 65}"/>', "must be at most 64 printable characters"),
     (MASS, "", "link lower: mass: is missing; add <mass …/>"),
     (MASS, MASS * 2, "link lower: mass: is given more than once"),
+    (MASS, "<mass/>", "link lower: mass: value: is missing"),
     (MASS, '<mass value="-1.5"/>', "link lower: mass = -1.5: must not be negative"),
+    (MASS, '<mass value="nan"/>', "link lower: mass: value = nan: must be a finite decimal number"),
     (MASS, '<mass value="1e400"/>', "value = 1e400: must be at most 1000000000000 in size"),
+    (MASS, '<mass value="1e9999999"/>', "value = 1e9999999: must be a finite decimal number"),
     (MASS, '<mass value="1,5"/>', "value = 1,5: must be a finite decimal number"),
+    (MASS, '<mass value="٣"/>', "value = ٣: must be a finite decimal number"),
     (MASS, '<mass value="${m}"/>', "value = ${m}: must be a finite decimal number; run xacro"),
+    (MASS, f'<mass value="{"1" * 61}"/>', "must be a finite decimal number"),
     (INERTIA, "", "inertia: is missing"),
+    (INERTIA, INERTIA * 2, "inertia: is given more than once"),
     (INERTIA, INERTIA.replace(' izz="0.02"', ""), "inertia: izz: is missing"),
     (INERTIA, INERTIA.replace('ixx="0.01"', 'ixx="-0.01"'), "inertia: must be positive semidefinite"),
     (
@@ -61,6 +79,12 @@ BROKEN = [
         '<origin xyz="0.2 0"/>',
         "link lower: origin: xyz = 0.2 0: must be three numbers",
     ),
+    (
+        '<origin xyz="0.2 0 0"/>',
+        '<origin xyz="0.2 0 x"/>',
+        "origin: xyz = x: must be a finite decimal number",
+    ),
+    ('<origin xyz="0.2 0 0"/>', '<origin xyz=""/>', "origin: xyz: is missing"),
     ('<origin xyz="0.2 0 0"/>', '<origin/><origin xyz="0 0 0"/>', "origin: is given more than once"),
     # joints
     (ELBOW, '<joint type="continuous">', "joint: name: is missing"),
@@ -71,6 +95,11 @@ BROKEN = [
         '<joint name="elbow" type="prismatic">',
         "arm.urdf:32: joint elbow: is prismatic, and the paper assumes",
     ),
+    (
+        ELBOW,
+        '<joint name="elbow" type="floating">',
+        "joint elbow: is floating, and the paper assumes revolute",
+    ),
     (ELBOW, '<joint name="shoulder" type="continuous">', "joint name = shoulder: is used by another joint"),
     (
         ELBOW,
@@ -79,6 +108,7 @@ BROKEN = [
     ),
     (ELBOW, f'{ELBOW}<mimic joint="shoulder"/>', 'end the chain before it: write tip = "upper"'),
     ('<child link="lower"/>', "", "joint elbow: child: is missing"),
+    ('<child link="lower"/>', "<child/>", "joint elbow: child: link: is missing"),
     (
         '<child link="lower"/>',
         '<child link="lowr"/>',
@@ -93,7 +123,10 @@ BROKEN = [
     ('<parent link="base"/>', '<parent link="tool"/>', "has joints in a circle"),
     (AXIS, '<axis xyz="0 0 0"/>', "axis = 0 0 0: must not be zero"),
     (AXIS, "<axis/>", "joint shoulder: axis: xyz: is missing"),
+    (AXIS, AXIS * 2, "axis: is given more than once"),
     (LIMIT, "", "joint shoulder: limit: is missing"),
+    (LIMIT, LIMIT * 2, "limit: is given more than once"),
+    (LIMIT, '<limit velocity="2"/>', "joint shoulder: limit: effort: is missing"),
     (LIMIT, LIMIT.replace('"20"', '"-20"'), "joint shoulder: effort = -20: must not be negative"),
     (LIMIT, LIMIT.replace('"-1"', '"2"'), "limit = 2 > 1: lower is above upper"),
     (DYNAMICS, DYNAMICS.replace('"0.5"', '"-0.5"'), "joint shoulder: damping = -0.5: must not be negative"),
@@ -103,13 +136,16 @@ BROKEN = [
         DYNAMICS.replace("damping", "dampng"),
         "joint shoulder: dampng: means nothing in URDF; did you",
     ),
+    (AXIS, AXIS.replace("axis", "axes"), "joint shoulder: axes: means nothing in URDF; did you mean axis?"),
+    (MASS, MASS.replace("mass", "Mass"), "link lower: Mass: means nothing in URDF; did you mean mass?"),
+    (DYNAMICS, DYNAMICS * 2, "dynamics: is given more than once"),
 ]
 
 
-def test_a_broken_file_is_told_what_is_wrong(tmp_path: Path) -> None:
-    for old, new, expected in BROKEN:
-        assert old in TWO
-        assert expected in printed(tmp_path, TWO.replace(old, new)), new
+@pytest.mark.parametrize(("old", "new", "expected"), BROKEN)
+def test_a_broken_file_is_told_what_is_wrong(tmp_path: Path, old: str, new: str, expected: str) -> None:
+    assert old in TWO
+    assert expected in printed(tmp_path, TWO.replace(old, new))
 
 
 def printed(folder: Path, text: str) -> str:

@@ -1,7 +1,5 @@
 """Sampled and optimised worst states: they agree with the balls, and they reach what is known by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 
@@ -22,11 +20,11 @@ F = Fraction
 FEW = {"starts": 6, "samples": 2000}
 
 
-def gains(m: int | None, kp: str, kv: str, **other: str) -> GainSet:
+def gains(m, kp, kv, **other):
     return GainSet("set", m, tuple(map(F, kp.split())), tuple(map(F, kv.split())), **other)
 
 
-def two_joints(m: int) -> ControlledArm:
+def two_joints(m):
     return ControlledArm(gains(m, "60 5", "0.233 0.233"), load("reyes-kelly2"))
 
 
@@ -41,12 +39,12 @@ SETTINGS = [
 ]
 
 
-def exact_state(states: States, k: int) -> State:
+def exact_state(states, k):
     return State(*(tuple(F(float(x)) for x in part[k]) for part in (states.q, states.e, states.w)))
 
 
 @pytest.mark.parametrize("controlled", SETTINGS)
-def test_quadratic_in_eps0_agrees_with_the_balls(controlled: ControlledArm) -> None:
+def test_quadratic_in_eps0_agrees_with_the_balls(controlled):
     states = sample(controlled, 40, 1)
     for eps0 in (0.0, 0.3, 2.0):
         result = quadratic(controlled, states).at(eps0)
@@ -57,7 +55,7 @@ def test_quadratic_in_eps0_agrees_with_the_balls(controlled: ControlledArm) -> N
 
 
 @pytest.mark.parametrize("controlled", SETTINGS)
-def test_fast_states_approach_their_limit(controlled: ControlledArm) -> None:
+def test_fast_states_approach_their_limit(controlled):
     states = sample(controlled, 200, 3)
     limit, directions = fastest_directions(controlled, states.q, states.e)
     reached = quadratic(controlled, States(states.q, states.e, directions * 1e9)).reciprocal()
@@ -65,7 +63,7 @@ def test_fast_states_approach_their_limit(controlled: ControlledArm) -> None:
 
 
 @pytest.mark.slow
-def test_two_joints_at_zero_error_by_hand() -> None:
+def test_two_joints_at_zero_error_by_hand():
     """m = 1: 1/ε₀ = λmax(B^(−½)M(0)B^(−½)), because M is largest with the arm stretched."""
     scale = np.diag(1 / np.sqrt([2.288, 0.175]))
     largest = np.linalg.eigvalsh(scale @ np.array([[2.519, 0.186], [0.186, 0.102]]) @ scale)[-1]
@@ -76,7 +74,7 @@ def test_two_joints_at_zero_error_by_hand() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("controlled", one_in(4, SETTINGS))
-def test_witness_replays_and_a_tampered_one_does_not(controlled: ControlledArm) -> None:
+def test_witness_replays_and_a_tampered_one_does_not(controlled):
     witness = falsify(controlled, **FEW)
     assert witness is not None
     replay = controlled.arm, controlled.controller, witness.eps0
@@ -90,7 +88,7 @@ def test_witness_replays_and_a_tampered_one_does_not(controlled: ControlledArm) 
 
 
 @pytest.mark.parametrize("m", [1, 2, 3])
-def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
+def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m):
     controlled = two_joints(m)
     states = sample(controlled, 2000, 5)
     speed, directions = fastest_directions(controlled, states.q, states.e)
@@ -108,14 +106,14 @@ def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
 
 
 @pytest.mark.slow
-def test_falsify_repeats_itself() -> None:
+def test_falsify_repeats_itself():
     first, again = (falsify(two_joints(3), **FEW) for _ in range(2))
     assert isinstance(first, RisingState)
     assert first == again
 
 
 @pytest.mark.slow
-def test_other_valleys_are_found() -> None:
+def test_other_valleys_are_found():
     """m = 3: the worst state has both joints at the peak of h', the best sampled ones have only one there."""
     witness = falsify(two_joints(3))
     assert witness is not None
@@ -132,5 +130,5 @@ def test_other_valleys_are_found() -> None:
         ("0.00100000001", 3, "0.00101"),
     ],
 )
-def test_significant_up(value: str, digits: int, expected: str) -> None:
+def test_significant_up(value, digits, expected):
     assert significant_up(F(value), digits) == F(expected)

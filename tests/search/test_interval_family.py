@@ -1,7 +1,5 @@
 """h, h' and the polynomials of an arm over boxes, against 200-bit balls and exact rationals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from flint import arb
@@ -9,7 +7,7 @@ from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family import Family, hyperbolic, named, names
+from lyapcheck.family import hyperbolic, named, names
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.arm import dh_range, h_range
 from tests.helpers.shares import one_in
@@ -22,26 +20,26 @@ FORMS = ["h", "dh"]
 SIZES = [-320.0, -200.0, -20.0, -8.0, -3.0, -1.0, 0.0, 1.0, 2.0, 2.8]
 
 
-def label(family: Family) -> str:
+def label(family):
     return f"{family.name}{family.m or ''}"
 
 
-def over(family: Family, form: str, x: Interval) -> Interval:
+def over(family, form, x):
     return {"h": h_range, "dh": dh_range}[form](family, x)
 
 
-def ball(family: Family, form: str, x: float) -> arb:
+def ball(family, form, x):
     return {"h": family.ball_h, "dh": family.ball_dh}[form](arb(x))
 
 
-def peaks(family: Family) -> list[float]:
+def peaks(family):
     """Where |h| and |h'| are largest and h' is least, seen on a grid, without the code that is tested."""
     x = np.linspace(0, 6, 60_001)
     h, dh = np.abs(family.h(x)), family.dh(x)
     return [float(x[k]) for k in (h.argmax(), dh.argmax(), dh.argmin(), np.abs(dh[100:]).argmin() + 100)]
 
 
-def boxes(family: Family, generator: np.random.Generator, count: int) -> tuple[Array, Array]:
+def boxes(family, generator, count):
     """Boxes of every size around 0, around each peak on either side, and far out."""
     middle = generator.choice([*peaks(family), 0.0], count) * generator.choice([-1.0, 1.0], count)
     middle += generator.normal(size=count) * 10.0 ** generator.uniform(-17, 0, count)
@@ -54,7 +52,7 @@ def boxes(family: Family, generator: np.random.Generator, count: int) -> tuple[A
 
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("family", one_in(3, FAMILIES), ids=label)
-def test_ranges_hold_balls(family: Family, form: str) -> None:
+def test_ranges_hold_balls(family, form):
     generator = np.random.default_rng(family.m or 0)
     low, high = boxes(family, generator, 1500)
     result = over(family, form, Interval(low, high))
@@ -69,7 +67,7 @@ def test_ranges_hold_balls(family: Family, form: str) -> None:
 
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("family", one_in(3, FAMILIES), ids=label)
-def test_ranges_are_those_of_a_dense_grid(family: Family, form: str) -> None:
+def test_ranges_are_those_of_a_dense_grid(family, form):
     """No wider than the function: an answer that is merely safe would pass the test above."""
     function = {"h": family.h, "dh": family.dh}[form]
     generator = np.random.default_rng(5)

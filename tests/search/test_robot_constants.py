@@ -1,7 +1,5 @@
 """λmin(M), λmax(M) and k_c of the arms: enclosures against dense samples, closed forms and spent budgets."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
@@ -21,7 +19,7 @@ F = Fraction
 Array = NDArray[np.float64]
 
 
-def angles(n: int, count: int = 20_000) -> Array:
+def angles(n, count=20_000):
     """Random angles, and every combination of quarter turns, where extremes often are."""
     quarters = np.stack(np.meshgrid(*[np.arange(4) * np.pi / 2] * n, indexing="ij"), axis=-1).reshape(-1, n)
     return np.concatenate([quarters, np.random.default_rng(n).uniform(-np.pi, np.pi, (count, n))])
@@ -31,7 +29,7 @@ QUICK = [name for name in BUILT_IN if not name.startswith("buap3")]
 
 
 @pytest.mark.parametrize("name", but(QUICK, BUILT_IN))
-def test_gaps_are_small(name: str) -> None:
+def test_gaps_are_small(name):
     result = robot_constants(load(name))
     for enclosure in (result.lambda_min, result.lambda_max, result.k_c):
         assert enclosure.lower <= enclosure.upper
@@ -39,7 +37,7 @@ def test_gaps_are_small(name: str) -> None:
     assert result.lambda_min.lower > 0
 
 
-def test_a_pendulum_has_its_inertia_and_no_coriolis() -> None:
+def test_a_pendulum_has_its_inertia_and_no_coriolis():
     model = load("pendulum1")
     result = robot_constants(model)
     inertia = F(int(model.mass[0][0].coefficient(0).p), int(model.mass[0][0].coefficient(0).q))
@@ -50,7 +48,7 @@ def test_a_pendulum_has_its_inertia_and_no_coriolis() -> None:
 
 
 @pytest.mark.parametrize(("name", "bend"), [("reyes-kelly2", 0.084), ("pelican2", None)])
-def test_two_joints_in_closed_form(name: str, bend: float | None) -> None:
+def test_two_joints_in_closed_form(name, bend):
     """M = [[a + 2k cos q₂, b + k cos q₂], [·, b]], C(q,x) = −k sin q₂ [[x₂, x₁ + x₂], [−x₁, 0]].
 
     Both eigenvalues are extreme at q₂ = 0, where a + 2k + b is largest and the determinant least.
@@ -72,7 +70,7 @@ def test_two_joints_in_closed_form(name: str, bend: float | None) -> None:
         assert enclosure.lower * (1 - F(1, 10**8)) <= value <= enclosure.upper * (1 + F(1, 10**8))
 
 
-def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
+def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones():
     model = load("reyes-kelly2")
     result, bounds = robot_constants(model), robot_bounds(model)
     assert (bounds.beta_M, bounds.k_c) == (result.lambda_max.upper, result.k_c.upper)
@@ -82,7 +80,7 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones() -> None:
 
 @pytest.mark.parametrize("budget", one_in(3, [0, 1, 40, 300]))
 @pytest.mark.parametrize("name", one_in(2, ["reyes-kelly2", "buap3"]))
-def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name: str, budget: int) -> None:
+def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name, budget):
     known = {constant.name: constant.enclosure for constant in arm_constants(load(name))}
     for constant in arm_constants(load(name), budget):
         assert constant.boxes <= max(budget, 1)
@@ -90,17 +88,17 @@ def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name: str
         assert constant.enclosure.upper >= known[constant.name].lower
 
 
-def test_only_the_constants_asked_for() -> None:
+def test_only_the_constants_asked_for():
     result = arm_constants(load("pelican2"), names=("k_g2", "lambda_max"))
     assert [constant.name for constant in result] == ["lambda_max", "k_g2"]
 
 
-def test_the_constants_of_a_model_are_found_once() -> None:
+def test_the_constants_of_a_model_are_found_once():
     model = load("pelican2")
     assert robot_constants(model) is robot_constants(model)
 
 
-def test_an_indefinite_inertia_is_not_called_positive() -> None:
+def test_an_indefinite_inertia_is_not_called_positive():
     """Data errors happen: the enclosure then lies below zero, it does not end there."""
     model = load("reyes-kelly2")
     (a, b), (_, d) = model.mass
