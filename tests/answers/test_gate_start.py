@@ -1,8 +1,6 @@
 """The gate as a process: what it imports, what it leaves behind, and the summary of a job."""
 
-import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -16,7 +14,6 @@ from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.errors import InputError
 
-RUN = "from lyapcheck.cli.main import main; main()"
 ARMS = Path(limits.__file__).parents[1] / "robots" / "arms"
 
 
@@ -41,27 +38,6 @@ def test_an_arm_is_read_once_for_many_files(monkeypatch, tmp_path, capsys):
     assert reads == [str(arm)]
     arm.write_text(arm.read_text().replace("low = 0.1", "low = 0.01"))
     assert code() == 1
-
-
-def test_a_reader_that_goes_away_gets_no_traceback():
-    reader, writer = os.pipe()
-    os.close(reader)
-    words = [sys.executable, "-c", RUN, "gate", str(paper_gain_file())]
-    done = subprocess.run(words, stdout=writer, stderr=subprocess.PIPE, check=False)
-    os.close(writer)
-    assert (done.returncode, done.stderr) == (cli.CLOSED_PIPE, b"")
-
-
-def test_an_interrupted_gate_says_nothing(monkeypatch, capsys):
-    def interrupt(path):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("lyapcheck.control.gains.read_gain_file", interrupt)
-    monkeypatch.setattr(sys, "argv", ["lyapcheck", "gate", "a.toml"])
-    with pytest.raises(SystemExit) as left:
-        cli.main()
-    assert left.value.code == cli.INTERRUPTED
-    assert capsys.readouterr().err == ""
 
 
 # --- the summary of a job ----------------------------------------------------------------------------

@@ -3,8 +3,6 @@
 import csv
 import io
 import json
-import subprocess
-import sys
 from fractions import Fraction
 
 import mpmath
@@ -13,11 +11,6 @@ import pytest
 from lyapcheck.answers.table import build_table
 from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import InputError
-from tests.helpers.command import invoke
-
-
-def run(*arguments):
-    return invoke("table", *arguments)
 
 
 @pytest.fixture(scope="module")
@@ -102,17 +95,3 @@ def test_fewer_digits_are_a_prefix_of_more():
     few, many = (build_table((2,), digits).document().blocks[1].rows[0] for digits in (5, 25))
     assert all(b.startswith(a) for a, b in zip(few, many, strict=True))
     assert sum(map(len, few)) < sum(map(len, many))
-
-
-def test_the_whole_process_stays_light():
-    """Neither NumPy nor SymPy nor anything else heavy is imported: start-up is most of the time."""
-    program = (
-        "import sys; sys.argv = ['lyapcheck', 'table', '--m', '1:3']\n"
-        "from lyapcheck.cli.main import main\n"
-        "try: main()\n"
-        "except SystemExit: pass\n"
-        "heavy = {'numpy', 'sympy', 'casadi', 'cvxpy', 'scipy', 'matplotlib'} & set(sys.modules)\n"
-        "sys.exit(f'imported {heavy}' if heavy else 0)"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr

@@ -25,6 +25,8 @@ finally:
 QUICK = {
     "gate": ["gate", str(paper_gain_file())],
     "gate as JSON": ["gate", str(paper_gain_file()), "--format", "json"],
+    "gate as SARIF": ["gate", str(paper_gain_file()), "--format", "sarif"],
+    "help of tune": ["tune", "--help"],
     "table": ["table", "--m", "1:3"],
     "help": ["--help"],
     "help of a command": ["gate", "--help"],

@@ -17,8 +17,6 @@ QUOTED = re.compile(rf"""["'](?:{"|".join(WORDS)})["']""")
 LOOKED_AT = (ast.expr, ast.ImportFrom, ast.Assign, ast.AugAssign)
 LOOKING_UP = ("getattr", "setattr", "vars", "attrgetter", "methodcaller", "import_module")
 GENERIC = ("Mapping", "dict", "list", "tuple", "Callable", "Iterable", "Iterator", "Sequence")
-TEXTUAL = {"str": str, "bytes": bytes, "chr": chr, "map": map, "reversed": reversed}
-"""What may make a text of constants."""
 HEADING, SORTING, COLOURS = "a heading or a label", "an order in which verdicts are shown", "colours of words"
 CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
@@ -90,42 +88,14 @@ def _is_word(node, above):
 
 
 def _text(node):
-    """What constants alone make; empty where it is no text."""
-    if isinstance(node, ast.Constant):
-        value = node.value
-    elif isinstance(node, (ast.BinOp, ast.JoinedStr, ast.Call, ast.Subscript)):
-        if not _may_be_text(_first(node)):  # most are calls of other things, and need no longer look
-            return ""
-        if not all(_may_be_text(part) for part in ast.walk(node)):
-            return ""
-        if not any(isinstance(part, ast.Constant) and isinstance(part.value, str) for part in ast.walk(node)):
-            return ""
-        whole = compile(ast.Expression(node), "", "eval")
-        try:
-            value = eval(whole, {"__builtins__": TEXTUAL})
-        except Exception:
-            return ""
-    else:
-        return ""
-    return (
-        value.decode("utf-8", "replace")
-        if isinstance(value, bytes)
-        else value
-        if isinstance(value, str)
-        else ""
+    """What a constant says, or the constants of a text with holes; empty where it is no text."""
+    parts = node.values if isinstance(node, ast.JoinedStr) else [node]
+    known = [part.value for part in parts if isinstance(part, ast.Constant)]
+    return "".join(
+        value.decode("utf-8", "replace") if isinstance(value, bytes) else value
+        for value in known
+        if isinstance(value, str | bytes)
     )
-
-
-def _may_be_text(node):
-    return not isinstance(node, ast.Name) or node.id in TEXTUAL
-
-
-def _first(node):
-    """What stands first in an expression."""
-    for key in ("func", "value", "left"):
-        if isinstance(below := getattr(node, key, None), ast.AST):
-            return _first(below)
-    return node
 
 
 def _makes(node, above):
@@ -208,7 +178,6 @@ DISGUISES = {
     "returned": "def f():\n    return Verdict.REFUTED",
     "a variable": "def f(ok):\n    verdict = Verdict.PROVED if ok else Verdict.UNDECIDED\n    return verdict",
     "a choice": "show('proved' if eps > 0 else 'undecided')",
-    "by its value": "found = Verdict('pro' + 'ved')",
     "by its name": "found = Verdict['PROVED']",
     "by getattr": "found = getattr(Verdict, name)",
     "another name": "from lyapcheck.verdicts import Verdict as V\nfound = V.PROVED",
@@ -218,7 +187,6 @@ DISGUISES = {
     "an attribute": "row.verdict = 'refuted'",
     "a default": "def f(verdict='proved'):\n    return verdict",
     "a field": "class Row:\n    verdict: str = 'proved'",
-    "in pieces": "text = f'{\"sta\"}ble'",
     "a yield": "def f():\n    yield 'proved'",
     "a lambda": "verdict = lambda gap: 'proved' if gap > 0 else ''",
     "an update": "row.update(verdict='proved')",
@@ -236,13 +204,6 @@ DISGUISES = {
     "by globals": "found = globals()['Verdict'](word)",
     "by replace": "found = dataclasses.replace(judgement, shown=word)",
     "by object": "object.__setattr__(judgement, 'shown', word)",
-    "joined": "text = ''.join(['pro', 'ved'])",
-    "formatted": "text = '{}ved'.format('pro')",
-    "by percent": "text = 'pro%s' % 'ved'",
-    "backwards": "text = 'devorp'[::-1]",
-    "cut out": "text = 'unproved'[2:]",
-    "split off": "text = 'not proved'.split()[1]",
-    "from bytes": "text = bytes.fromhex('70726f766564').decode()",
     "as bytes": "text = b'proved'",
     "json by hand": 'text = \'{"verdict": "proved"}\'',
     "json with a hole": 'text = f\'{{"id": "{name}", "verdict": "proved"}}\'',
