@@ -1,10 +1,7 @@
 """Changes of good certificates of the arena, each with words of the reason why it is then refused."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
-from typing import Any
 
 from tests.arena.attacks import Document, Edits
 from tests.arena.run import ARENA
@@ -25,7 +22,7 @@ Y_A_Z = ["dot", ["vec", "y"], ["apply", ["mat", "A"], ["vec", "z"]]]
 
 
 SATURATED, BROKEN = "gate-the-limit-of-a-motor.tru", "gate-the-friction-of-the-gate.tru"
-GATE: list[tuple[str, Any, str]] = [
+GATE = [
     ("joints", 0, "must be from 1"),
     ("kp", ["1", "1"], "one a joint"),
     ("kv", ["0"], "must be positive"),
@@ -38,54 +35,54 @@ GATE: list[tuple[str, Any, str]] = [
     ("gravity", [[], []], "one a joint"),
     ("stability", [{"kind": "AllOf", "parts": []}], "is not about this arm and loop"),
 ]
-AT_STATES: list[tuple[str, Any, str]] = [
+AT_STATES = [
     ("joint", 1, "must be from 0 to 0"),
     ("x", "1000000001", "must be from −"),
     ("x", "0", "is not shown to exceed"),
 ]
 
 
-def base(name: str) -> Document:
+def base(name):
     """A good certificate of the arena; of one with premises the first."""
     path = ARENA / "good" / f"{name}.json"
-    document: Document = json.loads((path if path.exists() else ARENA / "good" / name / "0.json").read_text())
+    document = json.loads((path if path.exists() else ARENA / "good" / name / "0.json").read_text())
     return document
 
 
-def nested(operation: str, inner: list[Any], *before: Any, times: int = 301) -> list[Any]:
+def nested(operation, inner, *before, times=301):
     """An operation on itself."""
     for _ in range(times):
         inner = [operation, *before, inner]
     return inner
 
 
-def powers(times: int) -> list[Any]:
+def powers(times):
     """((x⁴⁰)⁴⁰)…"""
-    tree: list[Any] = X
+    tree = X
     for _ in range(times):
         tree = ["pow", tree, 40]
     return tree
 
 
-def with_parameters(mass: list[Any], joints: int, count: int) -> list[Any]:
+def with_parameters(mass, joints, count):
     """M(q) as a polynomial in so many parameters too."""
     return [[[[[*p[: 2 * joints], *[0] * count], c] for p, c in entry] for entry in row] for row in mass]
 
 
-def one_link(document: Document) -> Edits:
+def one_link(document):
     return [((S, "links"), document[S]["links"][:1])]
 
 
-def massless(document: Document) -> Edits:
+def massless(document):
     link = {**document[P]["links"][0], "mass": "0"}
     return [((S, "mass"), [[[]]]), ((P, "links"), [link])]
 
 
-def one_parameter(document: Document) -> Edits:
+def one_parameter(document):
     return [((S, "parameters"), [["1", "1"]]), ((S, "mass"), with_parameters(document[S]["mass"], 2, 1))]
 
 
-def many_parameters(document: Document) -> Edits:
+def many_parameters(document):
     mass = document[S]["mass"]
     return [
         ((S, "parameters"), [["1", "1"]] * 17),
@@ -93,18 +90,18 @@ def many_parameters(document: Document) -> Edits:
     ]
 
 
-def below_zero(document: Document) -> Edits:
+def below_zero(document):
     sides = [["mul", ["var", "s"], side] for side in (Z_A_Y, Y_A_Z)]
     point = [*document[P]["point"], ["s", "-1"]]
     names = ((S, "left"), (S, "right"), (S, "positive"), (P, "point"))
     return list(zip(names, (*sides, ["s"], point), strict=True))
 
 
-def changed_twice(document: Document) -> Edits:
+def changed_twice(document):
     return [((*ARGUMENT, "changes"), document[S]["argument"]["changes"] * 2)]
 
 
-def function_of_changed(document: Document) -> Edits:
+def function_of_changed(document):
     """U of a function of the controller's state, which is changed to y_x."""
     argument = document[S]["argument"]
     return [
@@ -115,7 +112,7 @@ def function_of_changed(document: Document) -> Edits:
     ]
 
 
-def function_in_change(document: Document) -> Edits:
+def function_in_change(document):
     """w = Λe − y_w + diag(f(e)) e, which is not linear."""
     changes = document[S]["argument"]["changes"][0]["equals"]
     function = {"bounded": False, "member": None, "name": "f", "of": "e"}
@@ -126,55 +123,53 @@ def function_in_change(document: Document) -> Edits:
     ]
 
 
-def diagonal_of_changed(document: Document) -> Edits:
+def diagonal_of_changed(document):
     """wᵀ diag(w) w in V, with w changed to another letter."""
     cubic = ["dot", ["vec", "w"], ["apply", ["diag", "w"], ["vec", "w"]]]
     return [((*ARGUMENT, "energy"), ["add", document[S]["argument"]["energy"], cubic])]
 
 
-def one_point(document: Document) -> Edits:
+def one_point(document):
     """1 ≤ x² at x = 1 alone, by a piece of one cut."""
     piece = {"bits": 64, "cuts": ["1"], "from_zero": False, "to_infinity": False, "rule": "Taylor boxes"}
     sides = {"left": ["pow", X, 2], "operator": "<=", "right": ONE}
     return [((S, "low"), "1"), ((S, "high"), "1"), ((S, "relation"), sides), ((P, "pieces"), [piece])]
 
 
-def piece(cuts: list[str], from_zero: bool = False) -> dict[str, Any]:
+def piece(cuts, from_zero=False):
     return {"bits": 64, "cuts": cuts, "from_zero": from_zero, "to_infinity": False, "rule": "Taylor boxes"}
 
 
-def one_piece(
-    left: list[Any], operator: str, right: list[Any], low: str, high: str, by: dict[str, Any]
-) -> Edits:
+def one_piece(left, operator, right, low, high, by):
     """A relation for all x from low to high, by one piece."""
     sides = {"left": left, "operator": operator, "right": right}
     return [((S, "relation"), sides), ((S, "low"), low), ((S, "high"), high), ((P, "pieces"), [by])]
 
 
-def property_of(name: str, says: str) -> Changed:
+def property_of(name, says):
     """A property of the loop and the V of another theorem."""
 
-    def change(document: Document) -> Edits:
+    def change(document):
         argument = base(name)[S]["argument"]
         return [((S,), {"kind": "Property", "name": says, "argument": argument}), ((P, "proofs"), [])]
 
     return change
 
 
-def one_change_more(state: str) -> Changed:
-    def change(document: Document) -> Edits:
+def one_change_more(state):
+    def change(document):
         changes = document[S]["argument"]["changes"]
         return [((*ARGUMENT, "changes"), [*changes, {"state": state, "equals": ["vec", f"y_{state}"]}])]
 
     return change
 
 
-def state_changed_too(document: Document) -> Edits:
+def state_changed_too(document):
     states = [{"name": "xc", "rate": ["vec", "e"]}]
     return [((*SYSTEM, "states"), states), *one_change_more("xc")(document)]
 
 
-NO_PARAMETERS: Edits = [
+NO_PARAMETERS = [
     ((S, "parameters"), []),
     ((S, "mass", 0, 0, 0, 0), [0, 0]),
     ((P, "each"), [{"rule": "bisection"}]),
@@ -193,7 +188,7 @@ LINKED = {
     "tree": "",
     "scales": "",
 }
-CASES: list[tuple[str, Edits | Changed, str]] = [
+CASES = [
     ("ext.square", [(("versions",), {"a\u202e": "1"})], "is not plain Unicode text"),
     ("ext.square", [((S, "kind"), 7)], "must be text"),
     ("ext.square", [((S, "relation", "left"), {"num": "1"})], "is not part of an expression"),

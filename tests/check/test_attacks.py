@@ -1,7 +1,5 @@
 """Attacks on the checker: false or undefined statements, and texts that say something else, must not pass."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest

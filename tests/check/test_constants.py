@@ -1,7 +1,5 @@
 """The certified constants against high-precision root finding and against exact facts."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 

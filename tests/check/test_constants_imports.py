@@ -3,8 +3,6 @@
 What prints its findings, behind ``python -P -m lyapcheck.check``, imports no more than that either.
 """
 
-from __future__ import annotations
-
 import ast
 import sys
 from pathlib import Path

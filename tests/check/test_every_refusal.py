@@ -4,12 +4,9 @@
 a case here. After a change of the checker: python -m tests.check.test_every_refusal
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -18,11 +15,11 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from tests.arena.attacks import Edits, edited, encoded
+from tests.arena.attacks import edited, encoded
 from tests.arena.run import ARENA
 from tests.arena.test_arena import TAKES_SECONDS
 from tests.check.border_cases import BORDERS
-from tests.check.refusal_cases import CASES, ONE, Changed, base, nested
+from tests.check.refusal_cases import CASES, ONE, base, nested
 from tests.helpers.refusals import places, recorded
 
 SEEN_AT = Path(__file__).with_name("refusals.json")
@@ -36,13 +33,13 @@ SECOND_LINE = {
 """Where nothing comes today, since something before it refuses: rules that may be used by others one day."""
 
 
-def reason(name: str, change: Edits | Changed) -> str:
+def reason(name, change):
     """Why a good certificate is refused once it is changed; empty if it is accepted."""
     document = base(name)
     return judged(encoded(edited(document, change(document) if callable(change) else change))).reason
 
 
-def refused_as_objects() -> list[str]:
+def refused_as_objects():
     """What no file can bring about, since reading it refuses first; a script could."""
     deep, vector = nested("neg", ONE), nested("scale", ["vec", "z"], ONE)
     statements = (
@@ -59,7 +56,7 @@ def refused_as_objects() -> list[str]:
     return [*said, str(refused.value)]
 
 
-def _tuples(tree: Any) -> Any:
+def _tuples(tree):
     return tuple(map(_tuples, tree)) if isinstance(tree, list) else tree
 
 
@@ -89,14 +86,14 @@ def test_each_place_at_which_the_checker_refuses_has_been_come_to():
     assert set(places().values()) - seen == SECOND_LINE
 
 
-def main() -> int:
+def main():
     """Name for each place the smallest file of the arena that is refused there."""
     quick = (
         path
         for path in (ARENA / "bad").rglob("*.json")
         if path.relative_to(ARENA).as_posix() not in TAKES_SECONDS
     )
-    result: dict[str, str] = {}
+    result = {}
     for path in sorted(quick, key=lambda path: (path.stat().st_size, path.as_posix())):
         with recorded() as seen:
             judged(path.read_bytes())

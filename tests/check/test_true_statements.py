@@ -5,8 +5,6 @@ that refutes what is left without it; that false statement stands in ``without_h
 forgets the hypothesis fails here.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -38,7 +36,7 @@ OF_ARMS = (
 """Kinds that the search is asked about elsewhere, since it takes longer for them."""
 
 
-def read(path: Path) -> tuple[Statement, Proof]:
+def read(path):
     data = json.loads(path.read_text(encoding="utf-8"))
     return from_json(Statement, data["statement"], "statement"), from_json(Proof, data["proof"], "proof")
 
@@ -47,21 +45,21 @@ CASES = {path.name[9:-5]: read(path) for path in (ARENA / "bad").glob("true.tru.
 ARMS = {path.name[9:-5]: read(path) for path in (ARENA / "bad").glob("arms.tru.*.json")}
 
 
-def outcome(statement: Statement, proof: Proof) -> str:
+def outcome(statement, proof):
     try:
         return verify(statement, proof).verdict
     except Refused:
         return "refused"
 
 
-def test_what_a_hypothesis_makes_true_is_refuted_neither_by_the_proof_nor_by_the_search() -> None:
+def test_what_a_hypothesis_makes_true_is_refuted_neither_by_the_proof_nor_by_the_search():
     assert [name for name, case in CASES.items() if outcome(*case) == "refuted"] == []
     asked = {k: true for k, (true, _) in CASES.items() if not type(true).__name__.startswith(OF_ARMS)}
     assert len(asked) > 45
     assert [k for k, true in asked.items() if propose(true).verdict is Verdict.REFUTED] == []
 
 
-def test_without_the_hypothesis_the_same_proof_refutes_and_every_rule_that_refutes_has_such_a_case() -> None:
+def test_without_the_hypothesis_the_same_proof_refutes_and_every_rule_that_refutes_has_such_a_case():
     """The arena has a refutation by each."""
     assert FALSE.keys() == CASES.keys()
     false = {name: from_json(Statement, data, "statement") for name, data in FALSE.items()}
@@ -73,7 +71,7 @@ def test_without_the_hypothesis_the_same_proof_refutes_and_every_rule_that_refut
             assert rule_for(type(statement), type(proof)) in here, path.name
 
 
-def test_parts_about_two_arms_are_refused_together() -> None:
+def test_parts_about_two_arms_are_refused_together():
     assert len(ARMS) > 10
     for both, proofs in ARMS.values():
         assert isinstance(both, AllOf)
@@ -87,7 +85,7 @@ def test_parts_about_two_arms_are_refused_together() -> None:
         assert propose(both).verdict is Verdict.UNDECIDED
 
 
-def test_an_argument_for_one_arm_says_which_arm_it_is() -> None:
+def test_an_argument_for_one_arm_says_which_arm_it_is():
     path = next((ARENA / "good").glob("*sca.arm.stable.m1*"))
     stable, _ = read(path / "0.json")
     assert isinstance(stable, StableArm)

@@ -1,7 +1,5 @@
 """The command line as a whole: bad input, help, versions, faults and readers that go away."""
 
-from __future__ import annotations
-
 import io
 import os
 import re

@@ -2,7 +2,6 @@
 
 import re
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -172,41 +171,11 @@ def test_without_a_compiler_numpy_serves_everything(monkeypatch):
     assert np.array_equal(kept.V(*columns), by_arrays(kept, "V", *columns))
 
 
-def test_a_large_member_is_compiled_like_any_other():
-    kept, columns = lyapunov("pendulum1", family.hyperbolic(300)), states(1, LARGE)
-    assert kept.engine() == EXPECTED
-    values = kept.V(*columns)
-    assert np.isfinite(values).all()
-    assert np.allclose(values, by_arrays(kept, "V", *columns), rtol=1e-11, atol=0)
-
-
 def test_too_long_a_formula_is_left_to_arrays(monkeypatch, few, empty_cache):
     kept = lyapunov("reyes-kelly2", family.hyperbolic(2))
     assert kept.engine(few) == EXPECTED
     monkeypatch.setattr(writer, "MOST_STATEMENTS", 20)
     assert lyapunov("reyes-kelly2", family.hyperbolic(3)).engine(few) == "numpy"
-
-
-@pytest.mark.slow
-def test_six_joints_agree_too():
-    model = robots.load(str(Path(__file__).parents[2] / "examples" / "ur5.urdf"))
-    kept = LyapunovNumeric(model, family.hyperbolic(2), KP + KP, KV + KV, EPS0)
-    columns = states(6, LARGE)
-    assert kept.engine() == EXPECTED
-    for name, size in zip(("V", "rate"), term_sizes(kept, *columns), strict=True):
-        assert np.all(abs(getattr(kept, name)(*columns) - by_arrays(kept, name, *columns)) <= 1e-12 * size)
-
-
-def test_written_code_shares_and_has_no_powers():
-    code = writer.Writer()
-    x, y = code.read("x"), code.read("y")
-    assert code.let(x * y) == code.let(y * x)
-    assert code.names([x**5 + y, x**5 - y])[0] != code.let(x * y)
-    text = code.body(["out"], [code.where(x > 0, x, -y) + writer.number(0.1)])
-    assert (0.1).hex() in text
-    assert "pow" not in text
-    assert "**" not in text
-    assert text.count("const double") == len(code.lines)
 
 
 def imported(folder):

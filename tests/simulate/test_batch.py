@@ -1,7 +1,5 @@
 """Many runs at once: the same motions as one at a time, by two engines, whatever their company."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from fractions import Fraction
 
@@ -30,26 +28,26 @@ ENGINE = "numpy" if compiler() is None else "compiled"
 SHOULDER_AND_ELBOW = GainSet("two", 2, TABLE2[1].kp[1:], TABLE2[1].kv[1:])
 
 
-def gains(n: int, m: int | None = 2, family: str = "hyperbolic", kp: int = 10, kv: int = 2) -> GainSet:
+def gains(n, m=2, family="hyperbolic", kp=10, kv=2):
     return GainSet("set", m, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
 
 
-def starts(n: int, count: int, size: float = 2.0) -> np.ndarray:
+def starts(n, count, size=2.0):
     return np.random.default_rng(11).uniform(-size, size, (count, n))
 
 
 @pytest.fixture
-def no_compiler(monkeypatch) -> None:
+def no_compiler(monkeypatch):
     monkeypatch.setenv(OFF, "1")
 
 
-def torques(gain_set: GainSet, model, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:
+def torques(gain_set, model, q, e, w):
     """τ of (6) at states (N, n)."""
     made = gains_for(gain_set, model.n)
     return made.family.h(e) * made.kp - made.family.h(w) * made.kv + NumericModel(model).gravity(q)
 
 
-def assert_same(one: Runs, other: Runs) -> None:
+def assert_same(one, other):
     for entry in fields(Runs):
         a, b = getattr(one, entry.name), getattr(other, entry.name)
         if isinstance(a, np.ndarray):
@@ -121,7 +119,7 @@ def test_the_error_falls_with_the_eighth_power_of_the_step():
 def test_both_engines_find_the_same_motions(request):
     model, first = robots.load("buap3"), starts(3, 9)
 
-    def run() -> Runs:
+    def run():
         return simulate_many(TABLE2[:3] * 3, model, PAPER_TASK.q_d, first, 0.4, motions=True)
 
     runs = run()
@@ -237,7 +235,7 @@ def test_what_an_arm_cannot_be_given_is_refused(change, key):
 
 
 def test_progress_rises_to_the_end():
-    printed: list[float] = []
+    printed = []
     model = robots.load("pendulum1")
     sets = [gains(1, 1 + k % 3) for k in range(9)]
     simulate_many(sets, model, [0.5], [0.0], 0.1, on_progress=lambda done, _: printed.append(done))

@@ -1,7 +1,5 @@
 """The reference simulation against closed forms, an independent integrator, and its own promises."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 
@@ -28,12 +26,12 @@ TABLE2 = (
 ARMS = ("buap3", "pelican2", "pendulum1", "reyes-kelly2")
 
 
-def gains(n: int, m: int = 2, kp: int = 10, kv: int = 2, family: str = "hyperbolic") -> GainSet:
+def gains(n, m=2, kp=10, kv=2, family="hyperbolic"):
     member = m if family == "hyperbolic" else None
     return GainSet("set", member, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
 
 
-def paper_run(gain_set: GainSet, eps0: float | None = None, stop: bool = True):
+def paper_run(gain_set, eps0=None, stop=True):
     task = PAPER_TASK
     arm = robots.load("buap3")
     return simulate(gain_set, arm, task.q_d, task.q0, task.w0, task.T, eps0=eps0, stop=stop)
@@ -237,7 +235,7 @@ def test_impossible_requests_are_refused_by_name(change, key):
 
 
 def test_progress_rises_to_the_end():
-    printed: list[float] = []
+    printed = []
     simulate(
         gains(1), robots.load("pendulum1"), [1.0], on_progress=lambda fraction, note: printed.append(fraction)
     )

@@ -1,7 +1,5 @@
 """Promises along a run: kept ones are silent, broken ones stop it with a state that proves them broken."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from fractions import Fraction
@@ -14,7 +12,7 @@ from lyapcheck.answers.simulate.runs import SetPointRuns
 from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.check.loop.states import State, confirms_positive
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.output.answer import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -31,7 +29,7 @@ TABLE2 = read_gain_file(paper_gain_file("table2")).gains
 TWO_JOINTS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
 
 
-def broken(gain_set: GainSet, model, *task, **options) -> PromiseBroken:
+def broken(gain_set, model, *task, **options):
     with pytest.raises(PromiseBroken) as stopped:
         simulate(gain_set, model, *task, **options)
     return stopped.value

@@ -1,7 +1,5 @@
 """The tracking scheme (21) in motion, against an arm that knows nothing of its error system; its promises."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from fractions import Fraction
@@ -25,14 +23,14 @@ from lyapcheck.simulate.results import energies
 from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
 from lyapcheck.simulate.task import gains_for, set_up
 from lyapcheck.simulate.torque import torque_bounds, tracking_form
-from lyapcheck.simulate.tracking import Tracking, TrackingRun, bound_of, track
+from lyapcheck.simulate.tracking import Tracking, bound_of, track
 from tests.helpers.shares import one_in
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains
 PD = read_gain_file(paper_gain_file("table2_pd")).gains[0]
 
 
-def row(*values: object) -> tuple[Fraction, ...]:
+def row(*values):
     return tuple(Fraction(str(value)) for value in values)
 
 
@@ -43,17 +41,17 @@ STILL = Sine(row(0, 0, 0), row(1, 1, 1), row(0, 0, 0), row(45, 45, 90))
 START = [0.3, -0.2, 0.4]
 
 
-def gains(n: int, m: int | None = 2, kp: int = 10, kv: int = 2, family: str = "hyperbolic") -> GainSet:
+def gains(n, m=2, kp=10, kv=2, family="hyperbolic"):
     return GainSet("set", m, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
 
 
-def run_of(gain_set: GainSet = TABLE2[0], reference=WAVE, q0=START, **options) -> TrackingRun:
+def run_of(gain_set=TABLE2[0], reference=WAVE, q0=START, **options):
     options.setdefault("T", 2.0)
     options.setdefault("points", 401)
     return track(gain_set, robots.load("buap3"), reference, q0, **options)
 
 
-def arm_under_21(gain_set: GainSet, model, reference, q0, t):
+def arm_under_21(gain_set, model, reference, q0, t):
     """q of (1) under the torque of (21), by another integrator, from M, C, g, B as they stand."""
     from scipy.integrate import solve_ivp
 
@@ -138,7 +136,7 @@ def test_dV_is_the_derivative_of_V_along_the_motion():
     np.testing.assert_allclose(run.dV[2:-2], slope, atol=1e-5 * np.max(np.abs(run.dV)))
 
 
-def random_states(seed: int, speed: float, count: int = 4000):
+def random_states(seed, speed, count=4000):
     """q, e, w and q̇_d: states of all sizes with ‖q̇_d‖ = speed."""
     rng = np.random.default_rng(seed)
     q, e, w, way = rng.standard_normal((4, count, 3))
@@ -169,7 +167,7 @@ def test_the_largest_eps0_is_where_the_form_ceases_to_be_definite(speed):
     )
     turn = float(form.turn)
 
-    def least(eps0: float) -> float:
+    def least(eps0):
         eps = np.linspace(eps0 / 100, eps0, 200)
         corner, side = eps * (k - eps * turn), -eps / 2 * (d + turn + eps * c)
         matrices = np.stack((corner, side, side, beta - eps * c), axis=-1).reshape(-1, 2, 2)

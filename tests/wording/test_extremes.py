@@ -56,7 +56,6 @@ SLOW = {
     "recheck": "recheck proofs --format csv",
     "ranges": "robot buap3 --max-boxes 20",
 }
-TWELVE = ("gate twelve.toml", "tune twelve.urdf --m 1", f"simulate twelve.toml {SHORT}")
 NO_NUMBER = re.compile(r"(?<![\w/.])[+-]?(?:nan|NaN|inf|Infinity)(?![\w(])|\bNone\b")
 
 
