@@ -420,21 +420,6 @@ def test_the_alarm_is_the_exit_code_of_the_command(folder, monkeypatch, capsys):
     assert capsys.readouterr().out.count("ALARM") == 2
 
 
-@pytest.mark.parametrize(
-    ("name", "content"),
-    [("nowhere.json", None), ("bad.json", b"{"), ("latin.json", b'"\xe9"'), ("empty", b"")],
-)
-def test_a_file_that_cannot_be_read_is_exit_code_2(tmp_path, name, content):
-    path = tmp_path / name
-    if content is not None:
-        path.write_bytes(content)
-    run_ = command("recheck", path)
-    assert run_.returncode == 2
-    assert run_.stdout == ""
-    assert name in run_.stderr
-    assert "Traceback" not in run_.stderr
-
-
 def test_every_path_that_cannot_be_used_is_named(tmp_path):
     (tmp_path / "none").mkdir()
     with pytest.raises(Unreadable) as caught:
@@ -466,13 +451,6 @@ def test_file_names_are_safe_for_any_id():
     assert file_name("a b", 1) == "a%20b.m1.json"
 
 
-@pytest.mark.parametrize("target", ["file", "file/below"])
-def test_a_directory_that_cannot_be_made_is_exit_code_2(tmp_path, target):
-    (tmp_path / "file").write_text("")
-    code = command("check", "published.py", "--only", "2.3", "--certificates", tmp_path / target).returncode
-    assert code == 2
-
-
 # Independence ---------------------------------------------------------------------------------------------
 
 ALONE = """
@@ -502,18 +480,6 @@ def test_the_checker_imports_only_the_standard_library_and_flint(folder):
     )
     assert alone.returncode == 0, alone.stderr
     assert alone.stdout == command("recheck", folder).stdout
-
-
-@pytest.mark.slow
-def test_the_module_has_the_exit_codes_of_the_command(folder):
-    def code(*arguments):
-        words = [sys.executable, "-P", "-m", "lyapcheck.check", *map(str, arguments)]
-        return subprocess.run(words, capture_output=True, check=False).returncode
-
-    assert code(folder, "--format", "json") == 0
-    assert code(folder / "x.json") == 2
-    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
-    assert code(folder) == 1
 
 
 @pytest.mark.slow

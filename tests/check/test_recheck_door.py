@@ -132,15 +132,6 @@ def test_named_by_itself_it_is_exit_code_2(folder, what, command):
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("path", ["/dev/zero", "/dev/null", "/dev/stdin"])
-def test_devices_are_not_read(path):
-    done = subprocess.run(
-        [*MODULE, path], stdin=subprocess.PIPE, capture_output=True, timeout=60, check=False
-    )
-    assert done.returncode == 2
-    assert b"not a regular file" in done.stderr
-
-
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
 def test_what_may_not_be_read_is_named(folder):
     (folder / "good.json").chmod(0)

@@ -8,7 +8,6 @@ from dataclasses import replace
 import pytest
 from fastjsonschema import JsonSchemaException
 
-from lyapcheck.answers.explain import explain
 from lyapcheck.claims import run_proof
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Section, Table
@@ -302,15 +301,6 @@ def test_a_row_of_the_csv_is_a_claim_and_an_m(write):
     ]
     assert rows[1]["witness"].startswith("at x = ")
     assert rows[4]["uses"] == rows[4]["broken"] == "m"
-
-
-def test_explain_names_place_use_and_procedure():
-    result = explain("16.6")
-    assert "term 6" in result.place
-    assert [known for known, _ in result.used_by] == ["16"]
-    assert [part.kind for part in result.parts] == ["Implies"]
-    with pytest.raises(InputError, match=r"did you mean 16\.6"):
-        explain("16_6")
 
 
 def test_a_claim_is_handed_what_its_arguments_name(write):

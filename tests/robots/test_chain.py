@@ -95,15 +95,6 @@ def test_doubles_and_graphs_agree_with_balls(arm):
     np.testing.assert_allclose(nodes, expected, rtol=1e-12, atol=1e-12)
 
 
-def test_the_rate_of_the_mass_matrix_is_C_and_its_transpose(arm):
-    model, q, x, step = NumericModel(arm), np.array(Q), np.array(X), 1e-6
-    rate = (model.mass(q + step * x) - model.mass(q - step * x)) / (2 * step)
-    C = model.coriolis(q, x)
-    np.testing.assert_allclose(rate, C + C.T, atol=1e-7)
-    y = np.array(X[::-1])
-    np.testing.assert_allclose(C @ y, model.coriolis(q, y) @ x, atol=1e-12)
-
-
 def test_parameters_enter_along_the_links_as_in_the_polynomials(tmp_path):
     """Four joints, the mass and the inertia of the last one uncertain."""
     link = (
