@@ -7,7 +7,10 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from tests.arena.attacks import Document, Edits
-from tests.check.refusal_cases import ONE, SQUARE, TWO, ZERO, P, S, X
+
+S, P = "statement", "proof"
+ZERO, ONE, TWO, X = ["num", "0"], ["num", "1"], ["num", "2"], ["var", "x"]
+SQUARE = ["pow", X, 2]
 
 Row = tuple[str, Edits | Callable[[Document], Edits], str]
 ACCEPTED = ""
