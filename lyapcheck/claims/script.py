@@ -5,12 +5,9 @@ from __future__ import annotations
 import os
 import pickle
 import re
-import signal
-import subprocess
 import sys
 import traceback
 from collections.abc import Callable, Collection, Iterable
-from contextlib import suppress
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -25,6 +22,7 @@ from lyapcheck.claims.python_process import command, environment
 from lyapcheck.control.gains import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.reader import SCRIPT, read_bytes
+from lyapcheck.process_tree import run_apart
 from lyapcheck.temporary import temporary_folder
 
 SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py")
@@ -202,7 +200,9 @@ def ask(request: ScriptRequest) -> Handover:
     """
     with temporary_folder() as folder:
         answer = Path(folder, "answer.json")
-        code = _run_apart(replace(request, answer=str(answer)))
+        words = command("lyapcheck.claims.script_process")
+        asked = pickle.dumps(replace(request, answer=str(answer)))
+        code = run_apart(words, asked, STANDARD_ERROR, environment())
         handover = _read(answer, request, code)
     if handover.problems:
         raise InputError([Problem(*problem) for problem in handover.problems])
@@ -210,33 +210,6 @@ def ask(request: ScriptRequest) -> Handover:
     check_ids(claims, request.only, request.shown)
     in_order(claims, request.shown)
     return handover
-
-
-def _run_apart(request: ScriptRequest) -> int:
-    """The exit code of the process of the script.
-
-    It has a session of its own, so that what it leaves running can be ended; and as long as its standard
-    input is open it knows that this process lives.
-    """
-    process = subprocess.Popen(
-        command("lyapcheck.claims.script_process"),
-        stdin=subprocess.PIPE,
-        stdout=STANDARD_ERROR,
-        env=environment(),
-        start_new_session=True,
-    )
-    assert process.stdin is not None
-    try:
-        with suppress(BrokenPipeError):
-            process.stdin.write(pickle.dumps(request))
-            process.stdin.flush()
-        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
-    finally:
-        os.killpg(process.pid, signal.SIGKILL)  # its id cannot be another's before wait has returned
-        with suppress(BrokenPipeError):
-            process.stdin.close()
-        process.wait()
-    return process.returncode
 
 
 def _read(answer: Path, request: ScriptRequest, code: int) -> Handover:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import gc
 import os
 import pickle
-import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -31,6 +30,7 @@ from lyapcheck.claims.handover import (
 )
 from lyapcheck.claims.script import check_ids, line_of, load_proof, raised, repair_of
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.process_tree import GROUPS, end_below, end_own_group
 
 Lines = dict[Statement, tuple[int, str]]
 """The number and the line of each statement."""
@@ -51,6 +51,8 @@ def main() -> None:
     except BaseException as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
     finally:
+        if not GROUPS:  # elsewhere the parent ends the group
+            end_below()
         os._exit(code)
 
 
@@ -66,7 +68,7 @@ def _only_ours() -> BinaryIO:
 def _end_with(stream: BinaryIO) -> None:
     """End this process, and all that the script has started in its group, when the stream ends."""
     stream.read()
-    os.killpg(os.getpid(), signal.SIGKILL)
+    end_own_group()
 
 
 def answer(request: ScriptRequest) -> str:

@@ -179,14 +179,20 @@ def _require_output() -> None:
         number = sys.stdout.fileno()
     except (OSError, ValueError):  # something that is no file stands in for it
         return
-    poll = select.poll()
-    poll.register(number, 0)
-    if any(event & select.POLLERR for _, event in poll.poll(0)):
+    if hasattr(select, "poll") and _reader_has_gone(number):
         raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
     os.write(number, b"")  # which a full device refuses, and a full disk does not
+    if not hasattr(os, "fstatvfs"):
+        return
     disk = os.fstatvfs(number)
     if stat.S_ISREG(os.fstat(number).st_mode) and disk.f_blocks and not disk.f_bavail:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def _reader_has_gone(number: int) -> bool:
+    poll = select.poll()
+    poll.register(number, 0)
+    return any(event & select.POLLERR for _, event in poll.poll(0))
 
 
 def _drop(stream: TextIO) -> None:

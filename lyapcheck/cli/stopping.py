@@ -13,12 +13,16 @@ import os
 import signal
 import sys
 
+from lyapcheck.process_tree import end_below, prepare
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Any
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
+MASKS = hasattr(signal, "pthread_sigmask")
+"""Whether a thread can wait for signals. On Windows the handler alone ends the command, between two steps."""
 _SILENCE = "ignore::UserWarning:multiprocessing.resource_tracker"
 """The process that removes the locks of a pool must not complain that the command did not do it."""
 _ending = _thread.RLock()
@@ -32,11 +36,15 @@ class Stopping:
     """
 
     def __enter__(self) -> None:
+        prepare()
         self.handlers: dict[int, Any] = {
             number: signal.signal(number, _stop)
             for number in STOPS
             if signal.getsignal(number) is not signal.SIG_IGN
         }
+        sys.warnoptions.append(_SILENCE)  # is handed on to processes when they start
+        if not MASKS:
+            return
         reader, self.writer = os.pipe()
         os.set_blocking(self.writer, False)
         self.wakeup = signal.set_wakeup_fd(self.writer, warn_on_full_buffer=False)
@@ -45,14 +53,15 @@ class Stopping:
         self.set_mask = signal.pthread_sigmask
         self.before = self.set_mask(signal.SIG_BLOCK, [signal.SIGINT])
         signal.pthread_sigmask = self._set_mask
-        sys.warnoptions.append(_SILENCE)  # is handed on to processes when they start
 
     def __exit__(self, *raised: object) -> None:
         sys.warnoptions.remove(_SILENCE)
-        signal.set_wakeup_fd(self.wakeup)
-        os.close(self.writer)
         for number, handler in self.handlers.items():
             signal.signal(number, handler)
+        if not MASKS:
+            return
+        signal.set_wakeup_fd(self.wakeup)
+        os.close(self.writer)
         signal.pthread_sigmask = self.set_mask
         signal.pthread_sigmask(signal.SIG_SETMASK, self.before)
 
@@ -76,50 +85,10 @@ def _listen(reader: int) -> None:
 def _stop(number: int, frame: object = None) -> None:
     """End this process and all below it; nothing that was half written stays."""
     with _ending:
-        _end_processes()
+        end_below()
         temporary = sys.modules.get("lyapcheck.temporary")  # nothing is pending where nobody has loaded it
         if temporary is not None:
             temporary.clear()
         if "rich.progress" in sys.modules and os.isatty(2):
             os.write(2, b"\r\x1b[K\x1b[?25h")  # the bar is cleared, the cursor shown again
         os._exit(128 + number)
-
-
-def _end_processes() -> None:
-    """End all processes below; each is held before its own are looked for, so that none gets away."""
-    held: set[int] = set()
-    while fresh := _below(os.getpid()) - held:
-        for process in fresh:
-            _send(process, signal.SIGSTOP)
-        held |= fresh
-    for process in held:
-        # not SIGKILL: the process that removes the locks of a pool lives on until that is done
-        _send(process, signal.SIGTERM)
-        _send(process, signal.SIGCONT)
-
-
-def _below(ancestor: int) -> set[int]:
-    """The processes that a process has started, and those that they have; none where there is no /proc."""
-    try:
-        processes = [name for name in os.listdir("/proc") if name.isdigit()]
-    except OSError:
-        return set()
-    parents: dict[int, int] = {}
-    for name in processes:
-        try:
-            with open(f"/proc/{name}/stat", "rb") as stream:
-                parents[int(name)] = int(stream.read().rpartition(b")")[2].split()[1])
-        except OSError:
-            continue  # gone meanwhile
-    result: set[int] = set()
-    fresh = {ancestor}
-    while fresh := {process for process, parent in parents.items() if parent in fresh} - result:
-        result |= fresh
-    return result
-
-
-def _send(process: int, number: int) -> None:
-    try:
-        os.kill(process, number)
-    except ProcessLookupError:
-        return

@@ -102,7 +102,8 @@ def action_script():
 def action(folder, environment, **inputs):
     """The action's last step, run as GitHub runs it; the process and the summary of the job."""
     (folder / "lyapcheck" / "bin").mkdir(parents=True)
-    (folder / "lyapcheck" / "bin" / "lyapcheck").symlink_to(Path(sys.executable).with_name("lyapcheck"))
+    path = f'PATH="{Path(sys.executable).parent}:$PATH"\n'
+    (folder / "lyapcheck" / "bin" / "activate").write_text(path, encoding="utf-8")
     summary = folder / "summary.md"
     summary.write_text("of another step\n", encoding="utf-8")
     defaults = {"FILES": "*.toml", "ROBOT": "", "CONDITIONS": "", "STRICT": "false"}
@@ -161,6 +162,23 @@ def test_the_action_takes_conditions_and_strictness(tmp_path, environment):
         done, _ = action(tmp_path / folder, environment, FILES="../gains.toml", **inputs)
         assert done.returncode == code, done.stdout + done.stderr
         assert ("::error" in done.stdout) == (code == 1)
+
+
+@pytest.mark.parametrize(
+    "files", ["gains/**/*.toml", "gains/a b/one set.toml", "gains/a b/one set.toml\ngains/--robot=x.toml"]
+)
+def test_the_action_takes_any_name(files, tmp_path, environment):
+    (tmp_path / "gains" / "a b").mkdir(parents=True)
+    (tmp_path / "gains" / "a b" / "one set.toml").write_text(BAD, encoding="utf-8")
+    (tmp_path / "gains" / "--robot=x.toml").write_text(GOOD, encoding="utf-8")
+    done, _ = action(tmp_path, environment, FILES=files)
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "file=gains/a b/one set.toml,line=6" in done.stdout
+
+
+def test_the_hook_takes_no_file_name_for_an_option():
+    text = (ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8")
+    assert re.search(r"^  args: \[--\]$", text, re.MULTILINE)
 
 
 def test_what_a_caller_of_the_action_writes_is_never_part_of_the_script():

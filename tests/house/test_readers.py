@@ -41,8 +41,8 @@ OF_THE_SYSTEM = {
     ("claims/script_process.py", "_only_ours"): "the null device",
     ("cli/main.py", "_require_output"): "the null device",
     ("cli/main.py", "_drop"): "the null device",
-    ("cli/stopping.py", "_below"): "/proc",
     ("compiled/compiler.py", "_processor"): "/proc",
+    ("process_tree.py", "_below"): "/proc",
 }
 KNOWN = READERS | OURS | WRITTEN | OF_THE_SYSTEM
 
