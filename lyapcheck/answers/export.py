@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
@@ -24,10 +25,10 @@ from lyapcheck.output.document import Document, Paragraph, Section, Table
 from lyapcheck.output.json import laid_out
 from lyapcheck.robots import RobotModel
 
-NO_PERIOD = "no statement of this version is about a sampled loop: the gains are judged for a controller of infinite rate"
+NO_PERIOD = "nothing judges a sampled loop here: the gains are judged for a controller of infinite rate"
 ROUNDING = (
-    f"Rounding is a computed bound of |τ_i in C − τ_i|: running errors in balls over all |q_i|, |q_d,i| up to "
-    f"{ANGLES[0]} rad and all finite w. Up to 2³⁰ rad it is as the last column says; beyond, C refuses."
+    f"Rounding is a computed bound of |τ_i in C − τ_i|: running errors in balls over all |q_i|, |q_d,i| up "
+    f"to {ANGLES[0]} rad and all finite w. Up to 2³⁰ rad it is as the last column says; beyond, C refuses."
 )
 NOMINAL = "g(q) is that of the arm at its nominal numbers; a payload is not in it."
 COMPILE = "next: cc -std=c99 -O2 {name}.c {name}_test.c -lm -o {name}_test && ./{name}_test"
@@ -49,7 +50,8 @@ class Exported:
     judged: GateResult
     texts: dict[str, str]
 
-    def data(self) -> dict[str, Any]:
+    @cached_property
+    def record(self) -> dict[str, Any]:
         """All that is to be known of the files."""
         controller, gains = self.controller, self.controller.gains
         sampling = controller.sampling
@@ -62,7 +64,7 @@ class Exported:
             "kp": [*map(decimal_text, gains.kp)],
             "kv": [*map(decimal_text, gains.kv)],
             "limits": [None if limit is None else decimal_text(limit) for limit in controller.limits],
-            "period": decimal_text(sampling.period),
+            "rate": decimal_text(1 / sampling.period),
             "filter": [*map(decimal_text, sampling.filter)],
             "wrapped": sampling.wrapped,
             "hold_samples": sampling.hold,
@@ -94,13 +96,12 @@ class Exported:
             )
         )
         verdict = Paragraph(f"gate: {self.judged.spoken_standing} ({', '.join(self.judged.deciding)})")
-        following = Paragraph(COMPILE.format(name=controller.name))
-        return Section(f"{controller.gains.name}: {', '.join(self.files)}", (Table(heads, rows), verdict, following))
+        return Section(f"{controller.gains.name}: {', '.join(self.files)}", (Table(heads, rows), verdict))
 
     @property
     def files(self) -> dict[str, str]:
         """The files by name, with the JSON."""
-        record = {"schema": Export.schema} | self.data()
+        record = {"schema": Export.schema} | self.record
         return {**self.texts, f"{self.controller.name}.json": f"{laid_out(record)}\n"}
 
 
@@ -118,11 +119,14 @@ class Export(Answer):
         count = f"{len(self.sets)} gain set{'s' if len(self.sets) > 1 else ''} in C"
         title = f"{count}: rounding moves no torque by more than {at_most(worst, 3)} N·m (computed)"
         period = "Stability is judged for a controller of infinite rate, not for that of NAME_step."
-        return Document(title, tuple(one.section() for one in self.sets), (ROUNDING, NOMINAL, period))
+        following = COMPILE.format(name=self.sets[0].controller.name)
+        return Document(
+            title, tuple(one.section() for one in self.sets), (ROUNDING, NOMINAL, period, following)
+        )
 
     def data(self) -> dict[str, Any]:
         """``results``: a record a set, which is also its file ``NAME.json``."""
-        return {"results": [one.data() for one in self.sets]}
+        return {"results": [one.record for one in self.sets]}
 
     def records(self) -> Sequence[dict[str, Any]]:
         """A row a joint."""
@@ -141,9 +145,7 @@ class Export(Answer):
         ]
 
 
-def export(
-    gain_file: GainFile, model: RobotModel, sampling: Sampling, robot: str | None = None
-) -> Export:
+def export(gain_file: GainFile, model: RobotModel, sampling: Sampling, robot: str | None = None) -> Export:
     """Each gain set of a file as C99, with its bound of rounding.
 
     Args:

@@ -1,4 +1,4 @@
-"""A gain set on an arm as C99, its torque in balls, and a bound of what rounding does to the torque of its C text."""
+"""A gain set on an arm as C99, its torque in balls, and a bound of what rounding does to it in C."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from importlib.resources import files
 from flint import arb
 
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet
 from lyapcheck.export.functions import Kernel, Saturation, angle_error, saturation, sine_text
 from lyapcheck.export.rounding import BITS, Rounded
 from lyapcheck.export.steps import Program, constant
 from lyapcheck.family import Family, named
 from lyapcheck.files.decimals import significant_up
-from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.robots.plant import Plant
 
 ANGLES = (2**12, 2**30)
@@ -95,7 +95,7 @@ class Controller:
         return Kernel(program, {"tau[i]": kp * he - kv * hw + gi})
 
     def rounding(self, largest: int) -> tuple[Fraction, ...]:
-        """Bounds of |computed τ_i − τ_i|, (n,), N·m, rounded up, for |q|, |q_d| ≤ ``largest`` rad and every finite w.
+        """Bounds of |computed τ_i − τ_i|, (n,), N·m, rounded up, for |q|, |q_d| ≤ ``largest`` rad, finite w.
 
         Sines and cosines are any numbers of [−1, 1] there: the bound of g is larger than it need be, the
         more the longer the chain.
@@ -195,7 +195,9 @@ class Controller:
                 torques = self.torque(q, w, goal)
                 high = [float(x.mid()) for x in torques]
                 low = [float((x - arb(y)).mid()) for x, y in zip(torques, high, strict=True)]
-                rows.append(f"{{{int(far)}, {', '.join(f'{{{_list(part)}}}' for part in (q, w, goal, high, low))}}}")
+                rows.append(
+                    f"{{{int(far)}, {', '.join(f'{{{_list(part)}}}' for part in (q, w, goal, high, low))}}}"
+                )
         return ",\n    ".join(rows)
 
 

@@ -1,10 +1,10 @@
 """exp, sin, cos and h in sums and products of doubles, and how far each is from the real function.
 
-x = k c + r with c = π/2 or ln 2, the whole number k nearest to x/c, and |r| ≤ c/2 (Cody and Waite): c is a sum of
-four doubles, the first three so short that k times each is exact. Of r the Taylor polynomials are
+x = k c + r with c = π/2 or ln 2, the whole number k nearest to x/c, and |r| ≤ c/2 (Cody and Waite): c is a
+sum of four doubles, the first three so short that k times each is exact. Of r the Taylor polynomials are
 taken; their remainders are below the first term that is left out, or twice it for exp.
 
-References: (6) of ``reyes2019family``; ``cody1980software`` for the reduction.
+References: (6) of ``reyes2019family``; reduction: ``muller2018handbook`` 10.3.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from flint import arb
 from lyapcheck.check.numbers.balls import power, precision
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.errors import argument_error
-from lyapcheck.export.rounding import BITS, TINY, U, Rounded, Unbounded, upper
+from lyapcheck.export.rounding import BITS, TINY, Rounded, U, Unbounded, upper
 from lyapcheck.export.steps import Program, Step, constant
 from lyapcheck.family.base import Family
 
 SHORT = 22
-"""Bits after the point of the first part of c, and as many more of the next two: times 30 bits of k all are exact."""
+"""Bits after the point of the first part of c, and as many more of the next two: times k all are exact."""
 SINE, COSINE, EXP = 17, 16, 13
 """The highest powers of the polynomials."""
 NEAR = math.asinh(1.0)

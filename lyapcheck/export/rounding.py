@@ -1,8 +1,8 @@
 """Running errors: how far a program in doubles is from the same program in real numbers, in balls.
 
-A value is a ball that holds the exact number, and a bound of |computed − exact|. With u = 2⁻⁵³ and η = 2⁻¹⁰⁷⁴
-one operation of IEEE 754 in round-to-nearest gives x̂ ∘ ŷ up to u |x̂ ∘ ŷ| + η. The bounds hold as well where a compiler
-fuses a product with a sum: that leaves out a rounding that is counted here.
+A value is a ball that holds the exact number, and a bound of |computed − exact|. With u = 2⁻⁵³ and
+η = 2⁻¹⁰⁷⁴ one operation of IEEE 754, to nearest, gives x̂ ∘ ŷ up to u |x̂ ∘ ŷ| + η. The bounds hold as well
+where a compiler fuses a product with a sum: that leaves out a rounding that is counted here.
 
 References: running error analysis, ``higham2002accuracy`` section 3.3.
 """

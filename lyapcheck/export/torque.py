@@ -50,6 +50,6 @@ def torque(
         if x.shape[-1:] != (arm.n,):
             rule = f"has the shape {x.shape}, and its last axis must be the {arm.n} joints"
             raise argument_error(name, "", rule, f"give arrays of the shape (..., {arm.n})")
-    q, w, q_d = np.broadcast_arrays(*places)
-    h = gains.family.h
-    return np.asarray(gains.kp * h(q_d - q) - gains.kv * h(w) + NumericModel(arm).gravity(q))
+    at, rates, goals = np.broadcast_arrays(*places)
+    kp, kv, h = np.array(gains.kp), np.array(gains.kv), gains.family.h
+    return np.asarray(kp * h(goals - at) - kv * h(rates) + NumericModel(arm).gravity(at))

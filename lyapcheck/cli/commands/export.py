@@ -6,7 +6,14 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.values import Complaints, add_format, add_gain_file, add_robot, parse_decimal, parse_decimals
+from lyapcheck.cli.values import (
+    Complaints,
+    add_format,
+    add_gain_file,
+    add_robot,
+    parse_decimal,
+    parse_decimals,
+)
 from lyapcheck.errors import InputError, Problem, argument_error
 
 if TYPE_CHECKING:
@@ -65,7 +72,8 @@ def run(
     hertz = wrong.reading(_rate, rate)
     taps = wrong.reading(_taps, filter)
     gain_file, _, model = wrong.result(gains_on_arm, file, robot)
-    assert hertz is not None and taps is not None
+    assert hertz is not None
+    assert taps is not None
     require_joints([gain_file], model)
     if out is None:
         raise argument_error("--out", "", "is missing", "name a folder: --out controller")
