@@ -16,6 +16,7 @@ from flint import arb
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.export.functions import Kernel, Saturation, angle_error, saturation, sine_text
 from lyapcheck.export.rounding import BITS, Rounded
 from lyapcheck.export.steps import Program, constant
@@ -30,25 +31,10 @@ FAR = 10
 """One vector of so many has angles up to the last of `ANGLES`, the others up to the first."""
 DIGITS = 4
 TURN = 2 * math.pi
+ENDINGS = ("", "_test", "_sampled")
+"""Of names of files, beside those of their kinds."""
 LONGEST = 40
 """Letters of a name in C."""
-
-
-@dataclass(frozen=True)
-class Sampling:
-    """What ``NAME_step`` does between readings.
-
-    Args:
-        period: s between two calls.
-        filter: of backward differences over the period, newest first: ŵ_k = Σ f_j (q_{k−j} − q_{k−j−1})/T.
-        wrapped: whether readings jump at a full turn.
-        hold: samples without a good reading for which the last torque is sent.
-    """
-
-    period: Fraction
-    filter: tuple[Fraction, ...] = (Fraction(1),)
-    wrapped: bool = False
-    hold: int = 3
 
 
 @dataclass(frozen=True)
@@ -59,15 +45,19 @@ class Controller:
         gains: of a bounded family that is written in C.
         model: the arm, without parameters.
         limits: of the motors, N·m; none where there is none.
-        sampling: how it is run.
+        loop: how it is run, with a period and velocities by differences.
         name: that C names begin with.
+        wrapped: whether readings jump at a full turn.
+        hold: samples without a good reading for which the last torque is sent.
     """
 
     gains: GainSet
     model: Plant
     limits: tuple[Fraction | None, ...]
-    sampling: Sampling
+    loop: LoopRecord
     name: str
+    wrapped: bool = False
+    hold: int = 3
 
     @property
     def family(self) -> Family:
@@ -141,22 +131,23 @@ class Controller:
 
     def texts(self) -> dict[str, str]:
         """The C files by name."""
-        n, sampling = self.model.n, self.sampling
+        n, loop = self.model.n, self.loop
+        assert loop.period is not None
         title = _plain(f"{self.gains.name} on {self.model.name}")
         member = "" if self.gains.m is None else f", m = {self.gains.m}"
         words = {
             "TITLE": title,
             "H_NAME": f"{self.gains.family}{member}",
             "JOINTS_VALUE": str(n),
-            "PERIOD_VALUE": constant(sampling.period),
-            "TAPS_VALUE": str(len(sampling.filter)),
-            "HOLD_VALUE": str(sampling.hold),
-            "WRAPPED_VALUE": str(int(sampling.wrapped)),
+            "PERIOD_VALUE": constant(loop.period),
+            "TAPS_VALUE": str(len(loop.filter)),
+            "HOLD_VALUE": str(self.hold),
+            "WRAPPED_VALUE": str(int(self.wrapped)),
             "TURN_VALUE": constant(TURN),
             "FLAT_VALUE": constant(self.saturation.flat),
             "KP_VALUES": _list(self.gains.kp),
             "KV_VALUES": _list(self.gains.kv),
-            "FILTER_VALUES": _list(sampling.filter),
+            "FILTER_VALUES": _list(loop.filter),
             "LIMIT_VALUES": ", ".join(
                 "DBL_MAX" if limit is None else constant(below(limit)) for limit in self.limits
             ),
@@ -209,7 +200,7 @@ def c_names(names: Sequence[str]) -> list[str]:
         stem = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[:LONGEST].strip("_") or "gains"
         stem = stem if stem[0].isalpha() else f"gains_{stem}"
         chosen, count = stem, 1
-        while used & (taken := {chosen.lower(), f"{chosen}_test".lower()}):
+        while used & (taken := {f"{chosen}{end}".lower() for end in ENDINGS}):
             count += 1
             chosen = f"{stem}_{count}"
         used |= taken

@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.values import (
-    Complaints,
-    add_format,
-    add_gain_file,
-    add_robot,
-    parse_decimal,
-    parse_decimals,
-)
+from lyapcheck.cli.values import Complaints, add_format, add_gain_file, add_loop, add_robot, loop_of
 from lyapcheck.errors import InputError, Problem, argument_error
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
+    from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.verdicts import Exit
 
-SLOWEST, FASTEST = 1, 1_000_000
-"""Hz."""
-MOST_TAPS, LARGEST_TAP, MOST_HELD = 64, 1000, 1000
+MOST_HELD = 1000
 
 
 def arguments(parser: Parser) -> None:
@@ -30,14 +21,11 @@ def arguments(parser: Parser) -> None:
     add_gain_file(parser)
     about = "The folder for the files, made if need be."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
-    about = "How often NAME_step is called, Hz."
-    parser.add_argument("--rate", metavar="HZ", help=about)
-    about = "Weights of backward differences in the velocity, newest first; their sum is 1."
-    parser.add_argument("--filter", metavar="F,…", default="1", help=about)
     about = "Readings jump at a full turn; NAME_step counts turns."
     parser.add_argument("--wrapped", action="store_true", help=about)
     about = "Samples without a good reading for which the last torque is sent, before gravity alone."
     parser.add_number("--hold-samples", int, about, default=3, least=0, most=MOST_HELD)
+    add_loop(parser)
     add_robot(parser)
     add_format(parser)
 
@@ -45,17 +33,17 @@ def arguments(parser: Parser) -> None:
 def run(
     file: Path,
     out: Path | None,
-    rate: str | None,
-    filter: str,  # noqa: A002
     wrapped: bool,
     hold_samples: int,
     robot: str | None,
     format: str,  # noqa: A002
+    **options: str | None,
 ) -> Exit:
     """Write each gain set as a controller in C99, with a computed bound of rounding.
 
     NAME.h, NAME.c, NAME_test.c and NAME.json, whose names come from the gain set's. NAME_torque computes
     K_p h(e) − K_v h(w) + g(q); NAME_step reads angles at a rate, and keeps motors within their limits.
+    NAME_sampled.json is a certificate of the longest period that is known to do, where one is.
 
     Exit code 0: written, whatever the gate says of the gains, 2: a file cannot be used, or another is there.
 
@@ -65,21 +53,20 @@ def run(
     """
     from lyapcheck.cli.show import open_folder, show, write_whole
     from lyapcheck.cli.values import gains_on_arm, require_joints
-    from lyapcheck.export.controller import Sampling
+    from lyapcheck.control.sampling import record_of
     from lyapcheck.verdicts import Exit
 
     wrong = Complaints()
-    hertz = wrong.reading(_rate, rate)
-    taps = wrong.reading(_taps, filter)
+    said = wrong.reading(loop_of, options)
     gain_file, _, model = wrong.result(gains_on_arm, file, robot)
-    assert hertz is not None
-    assert taps is not None
+    assert said is not None
     require_joints([gain_file], model)
+    loop = _runnable(record_of(said, gain_file.loop, model.loop))
     if out is None:
         raise argument_error("--out", "", "is missing", "name a folder: --out controller")
     from lyapcheck.answers.export import export
 
-    answer = export(gain_file, model, Sampling(1 / hertz, taps, wrapped, hold_samples), robot)
+    answer = export(gain_file, model, loop, robot, wrapped=wrapped, hold=hold_samples)
     files = {name: text for one in answer.sets for name, text in one.files.items()}
     folder = open_folder("--out", out)
     others = [folder / name for name, text in files.items() if not _free(folder / name, text)]
@@ -97,23 +84,17 @@ def _free(path: Path, text: str) -> bool:
     return not path.exists() or (path.is_file() and path.read_bytes() == text.encode())
 
 
-def _rate(text: str | None) -> Fraction:
-    value = parse_decimal("--rate", text)
-    if value is None:
+def _runnable(loop: LoopRecord | None) -> LoopRecord:
+    """A loop that ``NAME_step`` can run."""
+    if loop is None or loop.period is None:
         rule = "is missing: NAME_step divides differences by its period"
-        raise argument_error("--rate", "", rule, "write --rate 1000, in Hz")
-    if not SLOWEST <= value <= FASTEST:
-        rule = f"must be from {SLOWEST} to {FASTEST} Hz"
-        raise argument_error("--rate", text, rule, "write --rate 1000")
-    return value
-
-
-def _taps(text: str) -> tuple[Fraction, ...]:
-    values = parse_decimals("--filter", text) or ()
-    if len(values) > MOST_TAPS or max(map(abs, values)) > LARGEST_TAP:
-        rule = f"must be up to {MOST_TAPS} weights of up to {LARGEST_TAP}"
-        raise argument_error("--filter", text, rule, "write --filter 0.5,0.5")
-    if sum(values) != 1:
-        rule = f"has the sum {float(sum(values)):.6g}, and rates would be scaled by it"
-        raise argument_error("--filter", text, rule, "give weights whose sum is 1: --filter 0.5,0.5")
-    return values
+        raise argument_error("--rate", "", rule, "add --rate 1000, or rate = 1000 under [loop]")
+    if loop.velocity != "difference":
+        rule = "is nothing that NAME_step can have; it takes differences"
+        raise argument_error(
+            "velocity", loop.velocity, rule, "say difference, and call NAME_torque with rates"
+        )
+    if loop.lowpass is not None:
+        rule = "is no filter of finitely many taps"
+        raise argument_error("lowpass", float(loop.lowpass), rule, "give its taps: --filter 0.5,0.5")
+    return loop
