@@ -1,7 +1,7 @@
 /* NAME: joint torques of TITLE. Written by lyapcheck export; do not edit.
  *
  * The bounds of rounding in NAME.json hold for doubles of IEEE 754, rounded to nearest, whether or not a
- * compiler fuses a product with a sum. Of the library only fabs and sqrt are called; nothing is allocated.
+ * compiler fuses a product with a sum. Of the library only fabs is called; nothing is allocated.
  */
 #include <float.h>
 #include <math.h>

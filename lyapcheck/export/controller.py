@@ -17,7 +17,7 @@ from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.sampling import LoopRecord
-from lyapcheck.export.functions import Kernel, Saturation, angle_error, saturation, sine_text
+from lyapcheck.export.functions import FLAT, Kernel, Saturation, angle_error, sine_text
 from lyapcheck.export.rounding import BITS, Rounded
 from lyapcheck.export.steps import Program, constant
 from lyapcheck.family import Family, named
@@ -67,7 +67,7 @@ class Controller:
     @cached_property
     def saturation(self) -> Saturation:
         """h in C."""
-        return saturation(self.family)
+        return Saturation(self.family)
 
     @cached_property
     def gravity(self) -> Kernel:
@@ -144,7 +144,7 @@ class Controller:
             "HOLD_VALUE": str(self.hold),
             "WRAPPED_VALUE": str(int(self.wrapped)),
             "TURN_VALUE": constant(TURN),
-            "FLAT_VALUE": constant(self.saturation.flat),
+            "FLAT_VALUE": constant(FLAT),
             "KP_VALUES": _list(self.gains.kp),
             "KV_VALUES": _list(self.gains.kv),
             "FILTER_VALUES": _list(loop.filter),

@@ -10,7 +10,6 @@ References: (6) of ``reyes2019family``; reduction: ``muller2018handbook`` 10.3.
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -33,6 +32,9 @@ SINE, COSINE, EXP = 17, 16, 13
 """The highest powers of the polynomials."""
 NEAR = math.asinh(1.0)
 """Below it powers of sinh x are taken, from it on those of 1/sinh x: neither grows."""
+FLAT = 20.0
+"""From this |x| on h is taken at it: what is left is 2e-17 and less."""
+WRITTEN = ("hyperbolic", "tanh")
 MOST_BOXES = 6_000
 LARGEST_M = 1_000
 
@@ -188,29 +190,70 @@ Box = tuple[arb, arb, int]
 """Two ends of |x|, and k for the hyperbolic family."""
 
 
-class Saturation(ABC):
-    """h for |x| ≤ ``flat``; beyond, the value there."""
+class Saturation:
+    """h_m from g = exp|x| − 1: sinh = ½ (g + g/(1 + g)), cosh = ½ (1 + g + 1/(1 + g)).
 
-    flat: float
+    h_m = cosh sinh^(2m−1)/(1 + sinh^(2m)), or with s = 1/sinh: cosh s/(1 + s^(2m)); no power exceeds 1.
+
+    Raises:
+        InputError: a family that is not written in C, or an m that is too large.
+    """
 
     def __init__(self, family: Family) -> None:
-        self.family = family
+        if family.name not in WRITTEN:
+            why = "has a torque without bound" if not family.bounded else "has no formula in C here"
+            repair = f"export gains of one of: {', '.join(WRITTEN)}"
+            raise argument_error("family", family.name, why, repair)
+        self.family, m = family, family.m or 1
+        if m > LARGEST_M:
+            rule = f"is above {LARGEST_M}, and its rounding is not analysed"
+            raise argument_error("m", m, rule, f"choose m up to {LARGEST_M}")
+        g = Program().read("g")
+        e = 1 + g
+        sinh, cosh = Fraction(1, 2) * (g + g / e), Fraction(1, 2) * (e + 1 / e)
+        z, s = sinh * sinh, 1 / sinh
+        low = z if m == 1 else z * power(z, m - 1)
+        rise = cosh * sinh if m == 1 else cosh * sinh * power(z, m - 1)
+        self.near = Kernel(g.of, {"y": rise / (1 + low)}, "c")
+        self.far = Kernel(g.of, {"y": cosh * s / (1 + power(s * s, m))}, "d")
 
-    @abstractmethod
     def start(self) -> list[Box]:
-        """Boxes that cover 0 to ``flat``."""
+        """For each k the |x| that it may come of, cut at `NEAR`."""
+        of, flat = reduction(1), arb(FLAT)
+        turns, left = of.reach(flat)
+        boxes: list[Box] = []
+        for k in range(math.floor(float(turns)) + 1):
+            low, high = (k * of.c - left).lower().max(arb(0)), upper(k * of.c + left).min(flat)
+            cut = arb(NEAR)
+            ends = [low, cut, high] if low < cut < high else [low, high]
+            boxes += [(a, b, k) for a, b in pairwise(ends) if a <= b]
+        return boxes
 
-    @abstractmethod
     def computed(self, box: Box) -> Rounded:
-        """h over a box."""
+        """By the branch that |x| takes; no box of `start` has `NEAR` inside."""
+        low, high, k = box
+        of, a, scale = reduction(1), low.union(high), Rounded(arb(2) ** k, arb(0))
+        r = a - k * of.c
+        (part,) = exp_less_one().rounded(r=Rounded(r, of.error(arb(FLAT))))
+        left_out = 2 * r.abs_upper() ** (EXP + 1) / math.factorial(EXP + 1)
+        (g,) = scaled().rounded(scale=scale, part=Rounded(r.expm1(), upper(part.error + left_out)))
+        kernel = self.near if high <= NEAR else self.far
+        return kernel.rounded(g=Rounded(a.expm1(), g.error))[0]
 
-    @abstractmethod
     def tail(self, low: arb) -> arb:
-        """A ball that holds h at every x ≥ ``low``."""
+        """coth x/(1 + s^(2m)) with s ≤ 1."""
+        return (1 / (1 + low.csch() ** 2)).union(low.coth())
 
-    @abstractmethod
     def text(self) -> str:
-        """The C statements that put h(a), 0 ≤ a ≤ ``flat``, into ``y``."""
+        """Reduction, exp, and the two branches."""
+        return HYPERBOLIC.format(
+            reduced=_reduced("a", reduction(1)),
+            part=exp_less_one().text(),
+            g=scaled().text(),
+            near=constant(NEAR),
+            low=self.near.text(" " * 8),
+            high=self.far.text(" " * 8),
+        )
 
     def errors(self) -> Errors:
         """Bounds by boxes; the worst is halved until it is within a quarter of what its middle shows.
@@ -220,7 +263,7 @@ class Saturation(ABC):
         Raises:
             Unbounded: not so within `MOST_BOXES`.
         """
-        flat = arb(self.flat)
+        flat = arb(FLAT)
         range_beyond = self.tail(flat * (1 - 4 * U))
         beyond = upper(2 * range_beyond.rad())
         boxes = [self._judged(box) for box in self.start()]
@@ -249,65 +292,6 @@ class Saturation(ABC):
         return -float(error + slope), box, error, upper(error + slope)
 
 
-class HyperbolicSaturation(Saturation):
-    """h_m from g = exp|x| − 1: sinh = ½ (g + g/(1 + g)), cosh = ½ (1 + g + 1/(1 + g)).
-
-    h_m = cosh sinh^(2m−1)/(1 + sinh^(2m)), or with s = 1/sinh: cosh s/(1 + s^(2m)); no power exceeds 1.
-    """
-
-    flat = 20.0
-
-    def __init__(self, family: Family) -> None:
-        super().__init__(family)
-        m = 1 if family.m is None else family.m
-        g = Program().read("g")
-        e = 1 + g
-        sinh, cosh = Fraction(1, 2) * (g + g / e), Fraction(1, 2) * (e + 1 / e)
-        z, s = sinh * sinh, 1 / sinh
-        low = z if m == 1 else z * power(z, m - 1)
-        rise = cosh * sinh if m == 1 else cosh * sinh * power(z, m - 1)
-        self.near = Kernel(g.of, {"y": rise / (1 + low)}, "c")
-        self.far = Kernel(g.of, {"y": cosh * s / (1 + power(s * s, m))}, "d")
-
-    def start(self) -> list[Box]:
-        """For each k the |x| that it may come of, cut at `NEAR`."""
-        of, flat = reduction(1), arb(self.flat)
-        turns, left = of.reach(flat)
-        boxes: list[Box] = []
-        for k in range(math.floor(float(turns)) + 1):
-            low, high = (k * of.c - left).lower().max(arb(0)), upper(k * of.c + left).min(flat)
-            cut = arb(NEAR)
-            ends = [low, cut, high] if low < cut < high else [low, high]
-            boxes += [(a, b, k) for a, b in pairwise(ends) if a <= b]
-        return boxes
-
-    def computed(self, box: Box) -> Rounded:
-        """By the branch that |x| takes; no box of `start` has `NEAR` inside."""
-        low, high, k = box
-        of, a, scale = reduction(1), low.union(high), Rounded(arb(2) ** k, arb(0))
-        r = a - k * of.c
-        (part,) = exp_less_one().rounded(r=Rounded(r, of.error(arb(self.flat))))
-        left_out = 2 * r.abs_upper() ** (EXP + 1) / math.factorial(EXP + 1)
-        (g,) = scaled().rounded(scale=scale, part=Rounded(r.expm1(), upper(part.error + left_out)))
-        kernel = self.near if high <= NEAR else self.far
-        return kernel.rounded(g=Rounded(a.expm1(), g.error))[0]
-
-    def tail(self, low: arb) -> arb:
-        """coth x/(1 + s^(2m)) with s ≤ 1."""
-        return (1 / (1 + low.csch() ** 2)).union(low.coth())
-
-    def text(self) -> str:
-        """Reduction, exp, and the two branches."""
-        return HYPERBOLIC.format(
-            reduced=_reduced("a", reduction(1)),
-            part=exp_less_one().text(),
-            g=scaled().text(),
-            near=constant(NEAR),
-            low=self.near.text(" " * 8),
-            high=self.far.text(" " * 8),
-        )
-
-
 HYPERBOLIC = """\
     double k;
     const double r = {reduced};
@@ -322,34 +306,6 @@ HYPERBOLIC = """\
     }}"""
 
 
-class AlgebraicSaturation(Saturation):
-    """h = x/√(1 + x²)."""
-
-    flat = 2.0**27
-
-    def __init__(self, family: Family) -> None:
-        super().__init__(family)
-        a = Program().read("a")
-        self.kernel = Kernel(a.of, {"double y": a / (1 + a * a).sqrt()})
-
-    def start(self) -> list[Box]:
-        """Powers of two."""
-        ends = [0.0, *(2.0**k for k in range(-30, 28))]
-        return [(arb(a), arb(b), 0) for a, b in pairwise(ends)]
-
-    def computed(self, box: Box) -> Rounded:
-        """One branch."""
-        return self.kernel.rounded(a=Rounded(box[0].union(box[1]), arb(0)))[0]
-
-    def tail(self, low: arb) -> arb:
-        """It rises to 1."""
-        return (low / (1 + low * low).sqrt()).union(arb(1))
-
-    def text(self) -> str:
-        """One statement after the other."""
-        return self.kernel.text()
-
-
 def _reduced(x: str, of: Reduction) -> str:
     return f"reduced({x}, {', '.join(map(constant, (of.inverse, *of.parts)))}, &k)"
 
@@ -357,26 +313,3 @@ def _reduced(x: str, of: Reduction) -> str:
 def sine_text() -> str:
     """The C statements that put sin x and cos x, but for quarters of a turn, into their places."""
     return f"    const double r = {_reduced('x', reduction(0))};\n{sine_and_cosine().text()}"
-
-
-KINDS: dict[str, type[Saturation]] = {
-    "hyperbolic": HyperbolicSaturation,
-    "tanh": HyperbolicSaturation,
-    "algebraic": AlgebraicSaturation,
-}
-
-
-def saturation(family: Family) -> Saturation:
-    """The h of a family.
-
-    Raises:
-        InputError: one that is not written in C, or an m that is too large.
-    """
-    if family.name not in KINDS:
-        known = ", ".join(KINDS)
-        why = "has a torque without bound" if not family.bounded else "has no formula in C here"
-        raise argument_error("family", family.name, why, f"export gains of one of: {known}")
-    if family.m is not None and family.m > LARGEST_M:
-        rule = f"is above {LARGEST_M}, and its rounding is not analysed"
-        raise argument_error("m", family.m, rule, f"choose m up to {LARGEST_M}")
-    return KINDS[family.name](family)

@@ -49,10 +49,6 @@ class Rounded:
         """At least |computed| and |exact|."""
         return upper(self.exact.abs_upper() + self.error)
 
-    def off(self, more: arb) -> Rounded:
-        """The same with a larger error."""
-        return Rounded(self.exact, upper(self.error + more))
-
     def __add__(self, other: Rounded) -> Rounded:
         return _rounded(self.exact + other.exact, self.error + other.error)
 
@@ -74,13 +70,6 @@ class Rounded:
 
     def __neg__(self) -> Rounded:
         return Rounded(-self.exact, self.error)
-
-    def sqrt(self) -> Rounded:
-        """√x̂ − √x = (x̂ − x)/(√x̂ + √x)."""
-        least = self.exact.lower()
-        if not least > 0 or not least > self.error:
-            raise Unbounded("a square root of what may be 0")
-        return _rounded(self.exact.sqrt(), self.error / least.sqrt())
 
 
 def _rounded(exact: arb, error: arb) -> Rounded:

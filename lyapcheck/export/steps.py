@@ -17,7 +17,6 @@ APPLIED: dict[str, Callable[..., Any]] = {
     "mul": lambda a, b: a * b,
     "div": lambda a, b: a / b,
     "neg": lambda a: -a,
-    "sqrt": lambda a: a.sqrt(),
 }
 
 
@@ -89,13 +88,25 @@ class Program:
 def _operation(kind: str, parts: Sequence[str]) -> str:
     if kind in SIGNS:
         return f"{parts[0]} {SIGNS[kind]} {parts[1]}"
-    return f"-{parts[0]}" if kind == "neg" else f"{kind}({parts[0]})"
+    return f"-{parts[0]}"
 
 
 def constant(value: Fraction | float) -> str:
     """The nearest double as C99 has it exactly; in brackets below 0, so that it can follow a sign."""
     text = float(value).hex()
     return f"({text})" if text.startswith("-") else text
+
+
+def _binary(kind: str) -> tuple[Callable[[Step, Any], Step], Callable[[Step, Any], Step]]:
+    """An operation with a step or a number on its right, and on its left."""
+
+    def value(one: Step, other: Any) -> Step:
+        return other if isinstance(other, Step) else one.of.number(other)
+
+    return (
+        lambda one, other: one.of.step(kind, one.index, value(one, other).index),
+        lambda one, other: one.of.step(kind, value(one, other).index, one.index),
+    )
 
 
 @dataclass(frozen=True)
@@ -105,38 +116,10 @@ class Step:
     of: Program
     index: int
 
-    def _with(self, kind: str, other: Any, turned: bool = False) -> Step:
-        second = other if isinstance(other, Step) else self.of.number(other)
-        pair = (second, self) if turned else (self, second)
-        return self.of.step(kind, *(part.index for part in pair))
-
-    def __add__(self, other: Any) -> Step:
-        return self._with("add", other)
-
-    def __radd__(self, other: Any) -> Step:
-        return self._with("add", other, turned=True)
-
-    def __sub__(self, other: Any) -> Step:
-        return self._with("sub", other)
-
-    def __rsub__(self, other: Any) -> Step:
-        return self._with("sub", other, turned=True)
-
-    def __mul__(self, other: Any) -> Step:
-        return self._with("mul", other)
-
-    def __rmul__(self, other: Any) -> Step:
-        return self._with("mul", other, turned=True)
-
-    def __truediv__(self, other: Any) -> Step:
-        return self._with("div", other)
-
-    def __rtruediv__(self, other: Any) -> Step:
-        return self._with("div", other, turned=True)
-
     def __neg__(self) -> Step:
         return self.of.step("neg", self.index)
 
-    def sqrt(self) -> Step:
-        """The square root."""
-        return self.of.step("sqrt", self.index)
+    __add__, __radd__ = _binary("add")
+    __sub__, __rsub__ = _binary("sub")
+    __mul__, __rmul__ = _binary("mul")
+    __truediv__, __rtruediv__ = _binary("div")
