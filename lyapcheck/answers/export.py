@@ -28,7 +28,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Document, Paragraph, Section, Table
 from lyapcheck.output.json import laid_out
-from lyapcheck.promise import Promise, promised
+from lyapcheck.promise import Promise, promised, told
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.dynamics import TooManyTerms
 
@@ -50,6 +50,7 @@ class Exported:
         controller: what is computed.
         rounding: N·m, of each joint, for each largest angle of `ANGLES`.
         judged: what the gate says of it.
+        proofs: digests of the certificates of that, by their names.
         texts: its C files by name.
         sampled: that the loop is stable at each period up to that of the question; none where it is open.
         reason: why it is.
@@ -58,6 +59,7 @@ class Exported:
     controller: Controller
     rounding: tuple[tuple[Fraction, ...], ...]
     judged: GateResult
+    proofs: dict[str, str]
     texts: dict[str, str]
     sampled: Promise | None
     reason: str
@@ -66,7 +68,6 @@ class Exported:
     def record(self) -> dict[str, Any]:
         """All that is to be known of the files."""
         controller, gains, loop = self.controller, self.controller.gains, self.controller.loop
-        assert loop.period is not None
         proof = self.certificate
         return {
             "name": gains.name,
@@ -77,27 +78,25 @@ class Exported:
             "kp": [*map(decimal_text, gains.kp)],
             "kv": [*map(decimal_text, gains.kv)],
             "limits": [None if limit is None else decimal_text(limit) for limit in controller.limits],
-            "period": decimal_text(loop.period),
+            "period": None if loop.period is None else decimal_text(loop.period),
             "delay": loop.delay,
             "filter": [*map(decimal_text, loop.filter)],
             "wrapped": controller.wrapped,
             "hold_samples": controller.hold,
             "rounding": [
                 {"largest_angle": angle, "bounds": [at_most(bound, 4) for bound in bounds]}
-                for angle, bounds in zip(ANGLES, self.rounding, strict=True)
+                for angle, bounds in zip(ANGLES, self.rounding, strict=False)
             ],
             "gate": {"verdict": self.judged.spoken, "conditions": [*self.judged.deciding]},
             "certified_period": None if proof is None else decimal_text(proof.statement.period),
             "certified_period_reason": self.reason,
             "period_covered": self._covered,
             "conclusion": None if proof is None else proof.statement.conclusion,
-            "supposes": [] if proof is None else [*proof.statement.granted],
+            "supposes": told(self.sampled, [] if proof is None else [*proof.statement.granted]),
             "digests": {
                 "arm": arm_digest(controller.model),
                 "gains": store.exact(replace(gains, index=0)),
-                "certificates": {
-                    name: one.digest for name, one in certificates([self.judged]).certificates.items()
-                }
+                "certificates": self.proofs
                 | ({} if proof is None else {f"{controller.name}_sampled.json": proof.digest}),
             },
             "vectors": VECTORS,
@@ -110,7 +109,7 @@ class Exported:
         rows = tuple(
             (joint, "—" if limit is None else decimal_text(limit), *(at_most(x, 4) for x in bounds))
             for joint, limit, *bounds in zip(
-                controller.model.joints, controller.limits, *self.rounding, strict=True
+                controller.model.joints, controller.limits, *self.rounding, strict=False
             )
         )
         verdict = Paragraph(f"gate: {self.judged.spoken_standing} ({', '.join(self.judged.deciding)})")
@@ -123,7 +122,7 @@ class Exported:
         if self.sampled is None:
             return f"as run: stability is open; {self.reason}"
         loop, question = self.controller.loop, self.certificate.statement
-        what = "stable" if question.conclusion == "goal" else "comes to rest"
+        what = "stable at the goal" if question.conclusion == "goal" else "comes to rest"
         words = f"as run ({loop.text}): {what} for every period up to {time_text(question.period)}"
         words += ", while no motor saturates"
         return self.sampled.says(words) + ("" if self._covered else "; at the period asked for it is open")
@@ -163,12 +162,13 @@ class Export(Answer):
 
     def document(self) -> Document:
         """The largest rounding, then set by set."""
-        worst = max(bound for one in self.sets for bound in one.rounding[0])
+        bounds = [bound for one in self.sets for row in one.rounding[:1] for bound in row]
+        worst = max(bounds, default=Fraction(0))
         count = f"{len(self.sets)} gain set{'s' if len(self.sets) > 1 else ''} in C"
         title = f"{count}: rounding moves no torque by more than {at_most(worst, 3)} N·m (computed)"
-        following = COMPILE.format(name=self.sets[0].controller.name)
+        following = [COMPILE.format(name=one.controller.name) for one in self.sets[:1]]
         return Document(
-            title, tuple(one.section() for one in self.sets), (ROUNDING, NOMINAL, IDEAL, following)
+            title, tuple(one.section() for one in self.sets), (ROUNDING, NOMINAL, IDEAL, *following)
         )
 
     def data(self) -> dict[str, Any]:
@@ -183,11 +183,11 @@ class Export(Answer):
                 "c_name": one.controller.name,
                 "joint": joint,
                 "limit": None if limit is None else decimal_text(limit),
-                **{f"rounding_{a}": at_most(x, 4) for a, x in zip(ANGLES, bounds, strict=True)},
+                **{f"rounding_{a}": at_most(x, 4) for a, x in zip(ANGLES, bounds, strict=False)},
             }
             for one in self.sets
             for joint, limit, *bounds in zip(
-                one.controller.model.joints, one.controller.limits, *one.rounding, strict=True
+                one.controller.model.joints, one.controller.limits, *one.rounding, strict=False
             )
         ]
 
@@ -228,7 +228,8 @@ def export(
             raise argument_error("gains", gains.name, rule, "choose numbers of a usual size") from None
         (judged,) = gate(replace(gain_file, gains=(gains,)), robot)
         period = _certified_period(gains, model, limits, loop)
-        result.append(Exported(controller, rounding, judged, controller.texts(), *period))
+        proofs = {name: one.digest for name, one in certificates([judged]).certificates.items()}
+        result.append(Exported(controller, rounding, judged, proofs, controller.texts(), *period))
     return Export(tuple(result))
 
 

@@ -311,8 +311,8 @@ def test_names_in_c() -> None:
 
 def gain_file(folder: Path, name: str = "one", more: str = "m = 1", robot: str = "pendulum1") -> Path:
     path = folder / "gains.toml"
-    text = f"robot = {json.dumps(robot)}\n[[gains]]\nname = {json.dumps(name)}\n{more}\nkp = [0.5]\nkv = [0.01]\n"
-    path.write_text(text)
+    head = f"robot = {json.dumps(robot)}\n[[gains]]\nname = {json.dumps(name)}\n"
+    path.write_text(f"{head}{more}\nkp = [0.5]\nkv = [0.01]\n")
     return path
 
 

@@ -81,7 +81,10 @@ def run(
 
 def _free(path: Path, text: str) -> bool:
     """Whether nothing else is lost where this is written."""
-    return not path.exists() or (path.is_file() and path.read_bytes() == text.encode())
+    data = text.encode()
+    if not path.exists():
+        return True
+    return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
 
 
 def _runnable(loop: LoopRecord | None) -> LoopRecord:
