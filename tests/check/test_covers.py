@@ -225,12 +225,13 @@ def test_the_directions_of_the_gate_are_those_of_its_proofs(field: str) -> None:
 @pytest.mark.parametrize("field", ["k_g", "viscous_min", "period", "stretch"])
 def test_the_directions_of_the_sampled_loop_are_those_of_its_proofs(field: str) -> None:
     """At the border: (S) reads 1 > 2·(0.1 + 3/2·T·10), so that T < 2/75."""
-    shown, border = SHOWN["SampledStable"], ShortPeriod((F(5),), (HarmonicSizes(),))
+    shown: Any = SHOWN["SampledStable"]
+    border = ShortPeriod((F(5),), (HarmonicSizes(),))
     if field == "k_g":  # a premise, of any arm
         none: dict[str, Any] = dict.fromkeys(("mass", "potential", "parameters"), ())
-        shown, border = replace(shown, k_g=(F(5),), **none), ShortPeriod((), ())  # type: ignore[type-var]
-    easier = replace(shown, **{field: (F(4),) if field == "k_g" else EASIER[field]})  # type: ignore[type-var]
-    harder = replace(shown, **{field: HARDER.get(f"SampledStable.{field}", HARDER[field])})  # type: ignore[type-var]
+        shown, border = replace(shown, k_g=(F(5),), **none), ShortPeriod((), ())
+    easier = replace(shown, **{field: (F(4),) if field == "k_g" else EASIER[field]})
+    harder = replace(shown, **{field: HARDER.get(f"SampledStable.{field}", HARDER[field])})
     require_covered(shown, easier)
     assert verify(shown, border).verdict == verify(easier, border).verdict == "proved"
     for refused in (lambda: require_covered(shown, harder), lambda: verify(harder, border)):
