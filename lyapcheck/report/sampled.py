@@ -41,17 +41,16 @@ def sampled_section(report: Report) -> Iterator[Section]:
     if not rows:
         return
     first = next((row for row in rows if row.granted), rows[0])
-    table = tuple(
-        (row.id, row.says(row.comment), "; ".join(filter(None, (row.word, row.reason)))) for row in rows
-    )
+    became = ("; ".join(filter(None, (row.word, row.reason))) for row in rows)
+    table = tuple((row.id, f"“{row.comment}”", word) for row, word in zip(rows, became, strict=True))
     words = (
-        "The theorem is about a torque that changes at every instant; a computer holds it between readings. "
-        "What follows is so whatever the inertia, for gains of Table 2 and the friction and gravity that are "
-        f"printed, if all of this is so, here of {first.id}:"
+        "The theorem is about a torque that changes all the time; a computer holds it between readings. "
+        "These claims are about gains of Table 2, with the friction and gravity that are printed, and any "
+        f"inertia. They suppose, here {first.id}:"
     )
     blocks = (
         Paragraph(words),
         Bullets(first.granted),
-        Table(("claim", "in words", "became"), table, align="lll"),
+        Table(("claim", "the author's words", "became"), table, align="lll"),
     )
     yield Section("On the computer that runs it", blocks)
