@@ -36,7 +36,6 @@ FLAT = 20.0
 """From this |x| on h is taken at it: what is left is 2e-17 and less."""
 WRITTEN = ("hyperbolic", "tanh")
 MOST_BOXES = 6_000
-LARGEST_M = 1_000
 
 
 @lru_cache(maxsize=1)
@@ -196,7 +195,7 @@ class Saturation:
     h_m = cosh sinh^(2m−1)/(1 + sinh^(2m)), or with s = 1/sinh: cosh s/(1 + s^(2m)); no power exceeds 1.
 
     Raises:
-        InputError: a family that is not written in C, or an m that is too large.
+        InputError: a family that is not written in C.
     """
 
     def __init__(self, family: Family) -> None:
@@ -205,9 +204,6 @@ class Saturation:
             repair = f"export gains of one of: {', '.join(WRITTEN)}"
             raise argument_error("family", family.name, why, repair)
         self.family, m = family, family.m or 1
-        if m > LARGEST_M:
-            rule = f"is above {LARGEST_M}, and its rounding is not analysed"
-            raise argument_error("m", m, rule, f"choose m up to {LARGEST_M}")
         g = Program().read("g")
         e = 1 + g
         sinh, cosh = Fraction(1, 2) * (g + g / e), Fraction(1, 2) * (e + 1 / e)
