@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, paper_gain_file, read_gain_file
     from lyapcheck.control.limits import Limits, limits_for
     from lyapcheck.errors import InputError, Problem
+    from lyapcheck.export.torque import torque
     from lyapcheck.family.asymptotes import gamma_less_than
     from lyapcheck.family.base import Family
     from lyapcheck.family.registry import named as named_family
@@ -109,6 +110,7 @@ __all__ = [
     "run_simulation",
     "run_tracking",
     "sweep",
+    "torque",
     "tune_gains",
 ]
 
@@ -169,6 +171,7 @@ _HOMES = {
     "run_simulation": "simulate.closed_loop:simulate",
     "run_tracking": "simulate.tracking:track",
     "sweep": "answers.sweep",
+    "torque": "export.torque",
     "tune_gains": "answers.tune.tuning:tune",
 }
 """The module of each public name, and its name there if that is another."""

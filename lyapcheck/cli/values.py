@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from argparse import SUPPRESS, Action
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,6 +15,7 @@ from lyapcheck.output.formats import JudgedFormat
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile
+    from lyapcheck.files.loop import LoopEntry
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
 
@@ -182,6 +183,21 @@ def require_joints(gain_files: Iterable[GainFile], model: RobotModel) -> None:
 # --- Arguments and options that several commands have.
 
 
+LOOP = {
+    "rate": ("HZ", "How often the controller runs. Like the options after it in place of [loop] in files."),
+    "period": ("TIME", 'The same as a time, such as "2.5 ms".'),
+    "longest": ("TIME", "The longest interval between two readings."),
+    "delay": ("N", "Whole samples from a reading to its torque."),
+    "velocity": ("HOW", "difference (of readings), or measured."),
+    "filter": ("TAPS", "Taps of a filter of the velocity, the newest first: 0.5,0.5."),
+    "lowpass": ("HZ", "Cut-off of a first-order filter of the velocity."),
+    "encoder": ("BITS", 'Of every joint: "17 bits", or counts a turn.'),
+    "unknown_payload": ("KG", "The most at the tip that the controller does not know."),
+    "gravity_error": ("PERCENT", "How wrong the gravity that the controller knows may be."),
+}
+"""Options of the loop with what they take; each is a key of ``[loop]``."""
+
+
 def add_gain_file(parser: Parser) -> None:
     """``FILE``, a path."""
     parser.add_argument("file", metavar="FILE", type=Path, help="A gain file.")
@@ -227,6 +243,24 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     result = [wrong.reading(Vary.parsed, text) for text in texts]
     wrong.raise_all()
     return tuple(one for one in result if one is not None)
+
+
+def add_loop(parser: Parser, names: Sequence[str] = ()) -> None:
+    """``--rate`` and so on: the loop as it is run, all of it or some options."""
+    for name, (metavar, about) in LOOP.items():
+        if name in names or not names:
+            parser.add_argument(f"--{name.replace('_', '-')}", metavar=metavar, help=about)
+
+
+def loop_of(options: Mapping[str, Any]) -> LoopEntry:
+    """What the options of `add_loop` say, among those of a command.
+
+    Raises:
+        InputError: every one that cannot be used.
+    """
+    from lyapcheck.control.sampling import loop_of_options
+
+    return loop_of_options({name: options.get(name) for name in LOOP})
 
 
 def add_no_store(parser: Parser) -> None:

@@ -12,6 +12,7 @@ from typing import Any, Protocol
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 from lyapcheck.files.places import KeyPath, Place
 from lyapcheck.files.toml import GAINS, TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
@@ -101,6 +102,7 @@ class GainFile:
     gains: tuple[GainSet, ...]
     bounds: Bounds = Bounds()
     document: TomlFile | None = None
+    loop: LoopEntry = NOTHING
 
     def place(self, gain_set: GainSet, key: str = "", joint: int | None = None) -> Place | None:
         """Where a gain of a set stands; ``joint`` counts from 0."""
@@ -151,13 +153,13 @@ def read_gain_file(path: str | Path) -> GainFile:
     tables = top.tables("gains", required=True)
     sets = [gain_set_of(table, index, condition) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
-    bounds = _bounds(top.table("bounds"))
+    bounds, loop = _bounds(top.table("bounds")), read_loop(top.table("loop"))
     top.close()
     _check_names(tables)
     _check_lengths(gains, bounds, notes)
     if notes.problems:
         raise InputError(notes.problems)
-    return GainFile(document.name, beside(robot, Path(path)), gains, bounds, document)
+    return GainFile(document.name, beside(robot, Path(path)), gains, bounds, document, loop)
 
 
 def conditions_of(table: Fields) -> tuple[str, ...]:

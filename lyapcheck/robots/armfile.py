@@ -55,6 +55,8 @@ A **printed model** gives M on and above the diagonal (kg·m²) and the potentia
 A **printed C(q, q̇) or g(q)** goes into ``[printed]`` beside ``[model]``, to be compared with what M and the
 potential give, see `lyapcheck.robots.printed`.
 
+A **loop** that a computer runs goes into ``[loop]``, see `lyapcheck.files.loop`.
+
 A **URDF file** gives the links, and this file what such files lack, see `lyapcheck.robots.urdf`::
 
     title = "UR5 with friction"
@@ -69,10 +71,12 @@ A **URDF file** gives the links, and this file what such files lack, see `lyapch
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 from lyapcheck.errors import InputError, file_error
+from lyapcheck.files.loop import read_loop
 from lyapcheck.files.reader import ARM
 from lyapcheck.files.toml import ARM as TOML_ARM
 from lyapcheck.files.toml import TomlFile, open_document, require_kind
@@ -126,11 +130,11 @@ def read_arm(
     notes = ArmNotes(document.name, document.line, source if isinstance(source, str) else "")
     top = ArmFields(document.data, (), notes)
     title, _ = top.text("title", required=True), top.text("source")
-    remarks = top.texts("remarks")
+    remarks, loop = top.texts("remarks"), read_loop(top.table("loop"))
     if "urdf" in top.data:  # which also reports what was noted so far
         from lyapcheck.robots.overlay import read_overlay
 
-        return with_ranges(read_overlay(path, title, remarks, top), spread, vary)
+        return replace(with_ranges(read_overlay(path, title, remarks, top), spread, vary), loop=loop)
     plan = read_plan(top)
     top.close()
     if notes.problems or plan is None:
@@ -141,7 +145,7 @@ def read_arm(
         check_positive_definite(model, plan.place, notes)
     if notes.problems:
         raise InputError(notes.problems)
-    return model
+    return replace(model, loop=loop)
 
 
 def with_ranges(model: RobotModel, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:

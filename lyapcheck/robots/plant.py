@@ -11,6 +11,7 @@ from typing import TypeVar
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
 from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift, Tidy
 from lyapcheck.robots.fields import Number
@@ -186,6 +187,7 @@ class RobotModel(Plant):
         numbers: every number of the arm with its provenance.
         remarks: what is taken for granted beyond assumed numbers, in sentences.
         printed: C and g as the source prints them, where it does; nothing is derived from them.
+        loop: how a computer runs the arm, as its file says.
 
     Soundness: M is that of the physical arm only as far as ``numbers`` are; ``assumptions`` lists those
     that no source prints.
@@ -201,6 +203,7 @@ class RobotModel(Plant):
     numbers: dict[str, Number]
     remarks: tuple[str, ...] = ()
     printed: PrintedTorques | None = None
+    loop: LoopEntry = NOTHING
 
     @property
     def dry(self) -> bool:

@@ -19,6 +19,7 @@ CALLS = {
     "derive": ("--m 1 --n 1", Exit.PROVED),
     "epsilon": ("one.toml --max-boxes 20 --starts 1", Exit.PROVED),
     "explain": ("16.6", Exit.PROVED),
+    "export": ("one.toml --out c --rate 1000", Exit.PROVED),
     "gate": ("one.toml", Exit.REFUTED),
     "init": ("mine", Exit.PROVED),
     "recheck": (str(CERTIFICATE), Exit.PROVED),

@@ -52,6 +52,7 @@ def base_lines(folder, arm, m=1):
         "check": f"check scalar.py --m {m} --only h.odd",
         "derive": f"derive --m {m} --n 1",
         "epsilon": f"epsilon {gains} --max-boxes 20 --starts 1 --jobs 1",
+        "export": f"export {gains} --out {shlex.quote(str(folder / 'c'))} --rate 1000",
         "gate": f"gate {gains}",
         "robot": f"robot {arm} --max-boxes 20",
         "simulate": f"simulate {gains} --target={goal} --time 0.05",

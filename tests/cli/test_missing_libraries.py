@@ -40,6 +40,7 @@ ALSO = {
     "bounds one.toml --target 10": "numpy",
     "check scalar.py --m 1 --only h.odd": "numpy",
     "explain 16.6": "numpy",
+    "export one.toml --out c --rate 1000": "numpy",
     "report --m 1": "numpy",
     "robot pendulum1": "numpy",
     "simulate one.toml --target 10": "numpy",

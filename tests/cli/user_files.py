@@ -23,6 +23,7 @@ COMMANDS = {
     "gain file of epsilon": "epsilon bad.toml",
     "gain file of bounds": "bounds bad.toml",
     "gain file of simulate": "simulate bad.toml",
+    "gain file of export": "export bad.toml --out c --rate 1000",
     "gain file of check": "check published.py --only 7b --m 1 --gains bad.toml",
     "gain file of report": "report --m 1 --gains bad.toml",
     "gain file to compare with": "tune buap3 --compare bad.toml",

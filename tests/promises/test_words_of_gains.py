@@ -62,6 +62,7 @@ FILES = {
 TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
 TARGETS = ("--overshoot", "5", "--settle", "2.5", "--goal", "45")
 ASKED = {
+    "export": ("export", "gains.toml", "--out", "c", "--rate", "1000", "--longest", "3 ms"),
     "gate": ("gate", TABLE2),
     "gate, a proof for the arm": ("gate", TABLE2, "--condition", "10i", "--condition", "scalar"),
     "gate over ranges": ("gate", TABLE2, "--vary", "viscous=-30%..+30%"),

@@ -50,6 +50,7 @@ SLOW = {
     "bounds": f"bounds g.toml {SHORT}",
     "epsilon": "epsilon g.toml --max-boxes 20 --starts 1",
     "tracking": "simulate g.toml --reference sine.toml --time 0.2",
+    "export": "export g.toml --out c --rate 1000",
     "derive": "derive --m 1 --n 1",
     "explain": "explain 2.1",
     "sweep": "sweep plan.toml --out swept",

@@ -1,0 +1,103 @@
+"""``lyapcheck export``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lyapcheck.cli.values import Complaints, add_format, add_gain_file, add_loop, add_robot, loop_of
+from lyapcheck.errors import InputError, Problem, argument_error
+
+if TYPE_CHECKING:
+    from lyapcheck.cli.parser import Parser
+    from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.verdicts import Exit
+
+MOST_HELD = 1000
+
+
+def arguments(parser: Parser) -> None:
+    """What the command takes."""
+    add_gain_file(parser)
+    about = "The folder for the files, made if need be."
+    parser.add_argument("--out", metavar="DIR", type=Path, help=about)
+    about = "Readings jump at a full turn; NAME_step counts turns."
+    parser.add_argument("--wrapped", action="store_true", help=about)
+    about = "Samples without a good reading for which the last torque is sent, before gravity alone."
+    parser.add_number("--hold-samples", int, about, default=3, least=0, most=MOST_HELD)
+    add_loop(parser)
+    add_robot(parser)
+    add_format(parser)
+
+
+def run(
+    file: Path,
+    out: Path | None,
+    wrapped: bool,
+    hold_samples: int,
+    robot: str | None,
+    format: str,  # noqa: A002
+    **options: str | None,
+) -> Exit:
+    """Write each gain set as a controller in C99, with a computed bound of rounding.
+
+    NAME.h, NAME.c, NAME_test.c and NAME.json, whose names come from the gain set's. NAME_torque computes
+    K_p h(e) − K_v h(w) + g(q); NAME_step reads angles at a rate, and keeps motors within their limits.
+    NAME_sampled.json is a certificate of the longest period that is known to do, where one is.
+
+    Exit code 0: written, whatever the gate says of the gains, 2: a file cannot be used, or another is there.
+
+    Examples:
+      lyapcheck export gains.toml --out controller --rate 1000
+      lyapcheck export gains.toml --out controller --rate 400 --filter 0.5,0.5 --wrapped
+    """
+    from lyapcheck.cli.show import open_folder, show, write_whole
+    from lyapcheck.cli.values import gains_on_arm, require_joints
+    from lyapcheck.control.sampling import record_of
+    from lyapcheck.verdicts import Exit
+
+    wrong = Complaints()
+    said = wrong.reading(loop_of, options)
+    gain_file, _, model = wrong.result(gains_on_arm, file, robot)
+    assert said is not None
+    require_joints([gain_file], model)
+    loop = _runnable(record_of(said, gain_file.loop, model.loop))
+    if out is None:
+        raise argument_error("--out", "", "is missing", "name a folder: --out controller")
+    from lyapcheck.answers.export import export
+
+    answer = export(gain_file, model, loop, robot, wrapped=wrapped, hold=hold_samples)
+    files = {name: text for one in answer.sets for name, text in one.files.items()}
+    folder = open_folder("--out", out)
+    others = [folder / name for name, text in files.items() if not _free(folder / name, text)]
+    if others:
+        rule, repair = "is there already, with other content", "name another folder, or move it away"
+        raise InputError([Problem("argument", None, "--out", str(path), rule, repair) for path in others])
+    for name, text in files.items():
+        write_whole(folder / name, text)
+    show(answer, format)
+    return Exit.PROVED
+
+
+def _free(path: Path, text: str) -> bool:
+    """Whether nothing else is lost where this is written."""
+    data = text.encode()
+    if not path.exists():
+        return True
+    return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
+
+
+def _runnable(loop: LoopRecord | None) -> LoopRecord:
+    """A loop that ``NAME_step`` can run."""
+    if loop is None or loop.period is None:
+        rule = "is missing: NAME_step divides differences by its period"
+        raise argument_error("--rate", "", rule, "add --rate 1000, or rate = 1000 under [loop]")
+    if loop.velocity != "difference":
+        rule = "is nothing that NAME_step can have; it takes differences"
+        raise argument_error(
+            "velocity", loop.velocity, rule, "say difference, and call NAME_torque with rates"
+        )
+    if loop.lowpass is not None:
+        rule = "is no filter of finitely many taps"
+        raise argument_error("lowpass", float(loop.lowpass), rule, "give its taps: --filter 0.5,0.5")
+    return loop

@@ -1,0 +1,147 @@
+"""What a ``[loop]`` table says, in a gain file or an arm file: how a computer runs the controller::
+
+[loop]
+rate = 400                    # Hz; or period = "2.5 ms"
+longest = "3 ms"              # optional: the longest interval between two readings
+delay = 1                     # optional: whole samples from reading to torque, 1 without
+velocity = "difference"       # or "measured"
+filter = [0.5, 0.5]           # optional: taps of a filter of the velocity; or lowpass = 50, in Hz
+encoder = "17 bits"           # optional: of every joint; or its counts a turn
+unknown_payload = 2           # optional: kg at the tip that the controller does not know
+gravity_error = 5             # optional: % by which the controller's g(q) may be wrong
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from lyapcheck.files.fields import Fields
+
+VELOCITIES = ("difference", "measured")
+MOST_DELAY, MOST_TAPS, MOST_COUNTS = 1_000, 100, 2**40
+SHORTEST, LONGEST = Fraction(1, 10**7), Fraction(10)
+"""Of a period, s."""
+MOST_ERROR = 1_000
+"""Of g(q), %."""
+_UNITS = {"s": 1, "ms": 10**3, "us": 10**6, "µs": 10**6, "μs": 10**6}
+_TIME = re.compile(rf"([0-9]{{1,9}}(?:\.[0-9]{{1,15}})?) ?({'|'.join(_UNITS)})")
+_BITS = re.compile(r"([0-9]{1,2}) ?bits?")
+
+
+@dataclass(frozen=True)
+class LoopEntry:
+    """What one source says of the loop; ``None`` where it says nothing. Units are those of `LoopRecord`."""
+
+    period: Fraction | None = None
+    longest: Fraction | None = None
+    delay: int | None = None
+    velocity: str | None = None
+    filter: tuple[Fraction, ...] | None = None
+    lowpass: Fraction | None = None
+    encoder: int | None = None
+    unknown_payload: Fraction | None = None
+    gravity_error: Fraction | None = None
+
+    def over(self, other: LoopEntry) -> LoopEntry:
+        """The other, with what this one says in place; a period goes with its longest, a filter alone."""
+        dropped: dict[str, Any] = {} if self.period is None else {"longest": None}
+        if self.filter is not None or self.lowpass is not None:
+            dropped |= {"filter": None, "lowpass": None}
+        given = {name: value for name, value in vars(self).items() if value is not None}
+        return replace(other, **(dropped | given))
+
+
+NOTHING = LoopEntry()
+
+
+def read_loop(table: Fields | None) -> LoopEntry:
+    """What a table says; problems are noted there."""
+    if table is None:
+        return NOTHING
+    rate, period, longest = _positive(table, "rate", "Hz"), _time(table, "period"), _time(table, "longest")
+    if rate is not None:
+        period = 1 / rate
+    if period is not None and not SHORTEST <= period <= LONGEST:
+        rule = "must be a period from 0.1 µs to 10 s"
+        table.fail("period" if rate is None else "rate", rule, "give the rate of the controller")
+    for one, other in (("rate", "period"), ("filter", "lowpass")):
+        if one in table.data and other in table.data:
+            table.fail(other, f"does not go together with {one}", f"keep {one} or {other}, not both")
+    if period is not None and longest is not None and longest < period:
+        table.fail("longest", "must not be shorter than the period", "give the longest interval, or none")
+    velocity = table.choice("velocity", VELOCITIES, VELOCITIES[0])
+    delay = table.integer("delay", 0, MOST_DELAY)
+    result = LoopEntry(
+        period,
+        longest,
+        delay,
+        velocity if "velocity" in table.data else None,
+        _taps(table),
+        _positive(table, "lowpass", "Hz"),
+        _encoder(table),
+        table.number("unknown_payload", positive=False),
+        _share(table),
+    )
+    table.close()
+    return result
+
+
+def _positive(table: Fields, key: str, unit: str) -> Fraction | None:
+    value = table.raw(key)
+    if isinstance(value, str):
+        table.fail(
+            key, f"must be a number, in {unit}", f"give it without its unit, such as 400 for 400 {unit}"
+        )
+        return None
+    return table.number(key)
+
+
+def _time(table: Fields, key: str) -> Fraction | None:
+    """A text of a number and its unit, in s."""
+    value = table.raw(key)
+    if value is None:
+        return None
+    match = _TIME.fullmatch(value.strip()) if isinstance(value, str) else None
+    if match is None or not Fraction(match[1]):
+        table.fail(key, "must be a time with its unit s, ms or us", 'give it as text, such as "2.5 ms"')
+        return None
+    return Fraction(match[1]) / _UNITS[match[2]]
+
+
+def _taps(table: Fields) -> tuple[Fraction, ...] | None:
+    value = table.raw("filter")
+    if value is None:
+        return None
+    numbers = isinstance(value, list) and all(
+        isinstance(x, int | Fraction) and not isinstance(x, bool) and abs(x) <= MOST_ERROR for x in value
+    )
+    if not numbers or not 1 <= len(value) <= MOST_TAPS or not any(value):
+        rule = f"must be 1 to {MOST_TAPS} taps of a filter, numbers that are not all 0"
+        table.fail("filter", rule, "give one for each past difference, the newest first, such as 0.5, 0.5")
+        return None
+    return tuple(map(Fraction, value))
+
+
+def _encoder(table: Fields) -> int | None:
+    """Counts a turn."""
+    value = table.raw("encoder")
+    if value is None:
+        return None
+    match = _BITS.fullmatch(value.strip()) if isinstance(value, str) else None
+    counts = 2 ** int(match[1]) if match else value
+    if not isinstance(counts, int) or isinstance(counts, bool) or not 2 <= counts <= MOST_COUNTS:
+        rule = "must be bits or counts a turn, from 1 bit to 40 bits"
+        table.fail("encoder", rule, 'give it as "17 bits", or as 131072')
+        return None
+    return counts
+
+
+def _share(table: Fields) -> Fraction | None:
+    percent = table.number("gravity_error", positive=False)
+    if percent is not None and percent > MOST_ERROR:
+        table.fail("gravity_error", f"must be at most {MOST_ERROR} %", "give the error in % of g(q)")
+        return None
+    return None if percent is None else percent / 100
