@@ -67,7 +67,7 @@ class ReportAnswer(Answer):
             "epsilon": [plain(row) for row in report.epsilon],
             "claims": [row.data() for row in report.claims],
             "others": [row.data() for row in report.others],
-            "runs": [plain(row) for row in report.runs],
+            "runs": [vars(row) for row in report.runs],
             "sensitivity": report.sensitivity and plain(report.sensitivity),
             "figures": sorted(report.figures),
             "certificates": sorted(report.certificates),

@@ -12,6 +12,7 @@ from lyapcheck.output.digits import decimals
 from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.experiment import (
+    StudyRow,
     answer_cell,
     at_once_words,
     figure_gains_words,
@@ -24,7 +25,6 @@ from lyapcheck.report.experiment import (
 )
 from lyapcheck.report.gain_rows import KINDS, EpsilonRow, RunRow
 from lyapcheck.report.model import Report
-from lyapcheck.report.study import StudyRow
 from lyapcheck.report.text import bracket, fixed, joined
 
 
@@ -100,7 +100,7 @@ def _runs(report: Report) -> Iterator[Block]:
         (
             row.name,
             fixed(row.L2, 3),
-            fixed(row.printed.L2, 3) if row.printed else "–",
+            fixed(row.printed["L2"], 3) if row.printed else "–",
             joined(row.settling),
             joined(row.overshoot, 1),
             joined(row.peak_torque, 1),

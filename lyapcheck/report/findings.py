@@ -22,9 +22,9 @@ from lyapcheck.report.text import witness_words
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
+    from lyapcheck.report.experiment import NumberRow, StudyRow
     from lyapcheck.report.gain_rows import EpsilonRow
     from lyapcheck.report.notes import Notes
-    from lyapcheck.report.study import NumberRow, StudyRow
 
 SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""

@@ -15,7 +15,6 @@ from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import KINDS, LINKED, EpsilonRow, RunRow
-from lyapcheck.report.plain import read
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.report.gain_map import JudgedCell
+    from lyapcheck.report.model import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
@@ -267,7 +266,7 @@ def goal_of(model: RobotModel) -> list[float]:
 class MapData:
     """The places of the map, and by names of gain sets the certificates of ε₀ that it proves for them."""
 
-    cells: list[JudgedCell]
+    cells: list[MapCell]
     for_sets: Mapping[str, Certificate]
 
 
@@ -311,7 +310,7 @@ def _run_row(run: Run, rest: float | None) -> RunRow:
     for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
         del facts[name]
     facts |= {"top_speed": float(abs(run.w).max()), "rest": rest}
-    return read(RunRow, shortened(facts))
+    return RunRow(**shortened(facts))
 
 
 def shortened(value: Any) -> Any:

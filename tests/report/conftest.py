@@ -13,7 +13,7 @@ import pytest
 from lyapcheck.answers.check import ProofResult, run
 from lyapcheck.answers.check.run import run_proof
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
-from lyapcheck.report import compute
+from lyapcheck.report import build as building
 from lyapcheck.report.build import build, render, write
 from lyapcheck.report.model import Report, Subject
 from tests.helpers import small_proofs
@@ -58,7 +58,7 @@ def report(subject: Subject, tmp_path_factory: pytest.TempPathFactory) -> Report
 
     def made() -> Report:
         with one_process() as patch:
-            patch.setattr(compute, "ProcessPoolExecutor", AtOnce)
+            patch.setattr(building, "ProcessPoolExecutor", AtOnce)
             patch.setattr(run, "run_proof", kept)
             return build(subject)
 

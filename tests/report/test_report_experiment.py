@@ -18,6 +18,9 @@ from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.report.build import render
 from lyapcheck.report.drawings import draw_comparisons, draw_sensitivity
 from lyapcheck.report.experiment import (
+    AssumedRow,
+    NumberRow,
+    StudyRow,
     answer_cell,
     answer_words,
     leading,
@@ -28,11 +31,10 @@ from lyapcheck.report.experiment import (
     value_words,
 )
 from lyapcheck.report.findings import findings
-from lyapcheck.report.gain_rows import PrintedRow, RunRow
+from lyapcheck.report.gain_rows import RunRow
 from lyapcheck.report.model import Report
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.plain import read
-from lyapcheck.report.study import AssumedRow, NumberRow, StudyRow
 from lyapcheck.robots import load
 from studies.printed_experiment.json import study_json
 from studies.printed_experiment.study import study
@@ -85,10 +87,6 @@ def number(**changed: Any) -> NumberRow:
     return NumberRow(**(blank | plain | {"nearest": 1.2, "answer": "no", "runs": 10} | changed))
 
 
-def run_row(**about: Any) -> RunRow:
-    return RunRow(**(dict.fromkeys(field.name for field in fields(RunRow)) | about))
-
-
 @pytest.mark.slow
 def test_the_pages_show_every_printed_number(found: StudyRow, files: dict[str, str | bytes]) -> None:
     for one in found.sets:
@@ -125,8 +123,8 @@ def test_figures_draw_what_the_data_beside_them_say(found: StudyRow, files: dict
 @pytest.mark.slow
 def test_indices_stand_beside_the_bench(found: StudyRow) -> None:
     runs = [
-        run_row(name="tau_m1", L2=31.0, printed=PrintedRow(25.4, None, ())),
-        run_row(name="other", L2=9.0),
+        RunRow(name="tau_m1", L2=31.0, printed={"L2": 25.4}),
+        RunRow(name="other", L2=9.0, printed=None),
     ]
     rows = list(csv.reader(StringIO(str(draw_comparisons((), runs, found)["indices.csv"]))))
     assert rows[0] == [

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from lyapcheck.output.escapes import plot_text
+from lyapcheck.report.experiment import NumberRow, SetRow
 from lyapcheck.report.figures.motion import TICK
 from lyapcheck.report.figures.style import COLOURS, Plot, panels, styled
-from lyapcheck.report.study import NumberRow, SetRow
 
 TITLES = {"L2": "L2 index [°]", "settling": "settling time [s]", "final_error": "error after 5 s [°]"}
 UNITS = {"L2": "deg", "settling": "s", "final_error": "deg", "start_torque": "N·m"}

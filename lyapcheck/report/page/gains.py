@@ -90,9 +90,7 @@ def _map(report: Report) -> Markup | None:
     largest = max((float(cell.eps0 or 0) for cell in cells), default=0.0) or 1.0
     heads = [element("th", f"k_v = {kv}", scope="col") for kv in scales]
     rows = [
-        element(
-            "tr", element("th", f"m = {m}", scope="row"), [_cell(report, at[m, kv], largest) for kv in scales]
-        )
+        element("tr", element("th", f"m = {m}", scope="row"), [_cell(at[m, kv], largest) for kv in scales])
         for m in ms
     ]
     caption = (
@@ -111,9 +109,9 @@ def _map(report: Report) -> Markup | None:
     return element("div", element("h3", "The map of m and k_v"), element("div", table, class_="scroll"))
 
 
-def _cell(report: Report, cell: MapCell, largest: float) -> Markup:
+def _cell(cell: MapCell, largest: float) -> Markup:
     eps0 = element("b", cell.eps0 or "none proved")
-    if cell.path in report.certificates:
+    if cell.certificate:
         eps0 = element("a", eps0, href=cell.path)
     settling = "not settled" if cell.settling is None else f"{cell.settling:.2f} s"
     share = "" if cell.share is None else f", {100 * cell.share:.0f} %"
