@@ -20,8 +20,8 @@ from typing import Any
 
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.claim import Proof, in_order
+from lyapcheck.claims.fresh_check import command, environment
 from lyapcheck.claims.handover import Handover, ScriptRequest, read
-from lyapcheck.claims.python_process import command, environment
 from lyapcheck.control.gains import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.reader import SCRIPT, read_bytes

@@ -111,14 +111,10 @@ def _columns(arm: ArmIntervals, q: list[Interval]) -> Columns:
     used = {k for entry in entries for terms in entry.values() for k in terms if any(k)}
     columns: Columns = {}
     for k in sorted(used):
-        angle = _angle(k, q)
+        parts = [x * float(factor) for factor, x in zip(k, q, strict=True) if factor]
+        angle = sum(parts[1:], parts[0])
         columns[k] = cosine(angle), sine(angle)
     return columns
-
-
-def _angle(k: Harmonic, q: list[Interval]) -> Interval:
-    parts = [x * float(factor) for factor, x in zip(k, q, strict=True) if factor]
-    return sum(parts[1:], parts[0])
 
 
 def combine(terms: Mapping[Harmonic, Gaussian], columns: Columns) -> Interval:
@@ -191,7 +187,12 @@ def _range(
     slack: float,
     least: Array | float,
 ) -> Interval:
-    a, b = _at_ends(function, x)
+    # the function at both ends; boxes made by halving share most ends, and equal ones are done once
+    ends = np.concatenate([np.ravel(x.lo), np.ravel(x.hi)])
+    distinct, index = np.unique(ends, return_inverse=True)
+    values = function(distinct)[index.ravel()]
+    half = values.size // 2
+    a, b = values[:half].reshape(np.shape(x.lo)), values[half:].reshape(np.shape(x.hi))
     result = widened(np.minimum(a, b), np.maximum(a, b), slack, least)
     low, high = result.lo, result.hi
     for point in extrema:
@@ -199,15 +200,6 @@ def _range(
         low = np.where(inside, np.minimum(low, point.value[0]), low)
         high = np.where(inside, np.maximum(high, point.value[1]), high)
     return Interval(low, high)
-
-
-def _at_ends(function: Callable[[Array], Array], x: Interval) -> tuple[Array, Array]:
-    """The function at both ends; boxes made by halving share most ends, and equal ones are done once."""
-    ends = np.concatenate([np.ravel(x.lo), np.ravel(x.hi)])
-    distinct, index = np.unique(ends, return_inverse=True)
-    values = function(distinct)[index.ravel()]
-    half = values.size // 2
-    return values[:half].reshape(np.shape(x.lo)), values[half:].reshape(np.shape(x.hi))
 
 
 @lru_cache(maxsize=256)

@@ -84,21 +84,17 @@ def blocks(result: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterat
                 yield element(f"h{min(level, 6)}", title)
                 yield from blocks(inner, level + 1, drawn)
             case Table():
-                yield from _table(block)
-
-
-def _table(table: Table) -> Iterator[Markup]:
-    yield Markup("<table>")
-    if table.caption:
-        yield element("caption", table.caption)
-    heads = [
-        element("th", head, style=_side(side), scope="col")
-        for head, side in zip(table.heads, table.align, strict=True)
-    ]
-    yield element("thead", element("tr", heads))
-    yield Markup("<tbody>")
-    yield from (element("tr", _cells(row, table)) for row in table.rows)
-    yield from (Markup("</tbody>"), Markup("</table>"))
+                yield Markup("<table>")
+                if block.caption:
+                    yield element("caption", block.caption)
+                heads = [
+                    element("th", head, style=_side(side), scope="col")
+                    for head, side in zip(block.heads, block.align, strict=True)
+                ]
+                yield element("thead", element("tr", heads))
+                yield Markup("<tbody>")
+                yield from (element("tr", _cells(row, block)) for row in block.rows)
+                yield from (Markup("</tbody>"), Markup("</table>"))
 
 
 def _cells(row: Sequence[str], table: Table) -> Iterator[Markup]:

@@ -40,7 +40,9 @@ def _block(block: Block, level: int) -> Iterator[str]:
         case Paragraph(text):
             yield latex_text(text)
         case Bullets(items):
-            yield from _bullets(items)
+            yield r"\begin{itemize}"
+            yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
+            yield r"\end{itemize}"
         case Code(text):
             yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
         case Equation(_, latex):
@@ -51,29 +53,19 @@ def _block(block: Block, level: int) -> Iterator[str]:
             yield f"{HEADINGS[min(level, len(HEADINGS) - 1)]}{{{latex_text(title)}}}"
             yield from _blocks(blocks, level + 1)
         case Table():
-            yield from _table(block)
+            if block.caption:
+                yield from (latex_text(block.caption), "")
+            columns = map(_column, zip(block.heads, *block.rows, strict=True), block.align)
+            yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
+            yield r"\hline"
+            yield _row(block.heads)
+            yield r"\hline"
+            yield from map(_row, block.rows)
+            yield from (r"\hline", r"\end{tabular}")
 
 
 def _lines(text: str) -> Iterator[str]:
     return (rf"{latex_text(printable(line))}\\" for line in text.splitlines() if line.strip())
-
-
-def _bullets(items: Iterable[str]) -> Iterator[str]:
-    yield r"\begin{itemize}"
-    yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
-    yield r"\end{itemize}"
-
-
-def _table(table: Table) -> Iterator[str]:
-    if table.caption:
-        yield from (latex_text(table.caption), "")
-    columns = map(_column, zip(table.heads, *table.rows, strict=True), table.align)
-    yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
-    yield r"\hline"
-    yield _row(table.heads)
-    yield r"\hline"
-    yield from map(_row, table.rows)
-    yield from (r"\hline", r"\end{tabular}")
 
 
 def _column(cells: Sequence[str], side: str) -> str:

@@ -68,7 +68,13 @@ def evidence(report: Report) -> Iterator[Section]:
     yield Section("The family and its constants", tuple(_constants(report)))
     yield Section("The gate", tuple(_gate(report)))
     yield Section("The closed loop", tuple(_runs(report)))
-    yield from _members(report)
+    # what m does in these runs, where each member has one gain set
+    members = {row.m: row for row in report.runs if row.m is not None and row.complete}
+    if len(members) > 1 and len(members) == sum(row.m is not None and row.complete for row in report.runs):
+        first = members[min(members)]
+        effects = [_effect(m, row) for m, row in sorted(members.items())]
+        section = effect_section(effects, first.target, first.time)
+        yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
     if report.sensitivity:
         yield Section("The printed experiment and what is assumed", tuple(_study(report, report.sensitivity)))
 
@@ -113,16 +119,6 @@ def _runs(report: Report) -> Iterator[Block]:
     yield from figure(report, "indices", "The L2 index (20), simulated and measured")
     for row in report.runs:
         yield from figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
-
-
-def _members(report: Report) -> Iterator[Section]:
-    """What m does in these runs, where each member has one gain set."""
-    members = {row.m: row for row in report.runs if row.m is not None and row.complete}
-    if len(members) > 1 and len(members) == sum(row.m is not None and row.complete for row in report.runs):
-        first = members[min(members)]
-        effects = [_effect(m, row) for m, row in sorted(members.items())]
-        section = effect_section(effects, first.target, first.time)
-        yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
 
 
 OWN_GAINS = (

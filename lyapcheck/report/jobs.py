@@ -95,7 +95,7 @@ def _claims(
         more: whether only those about gains are, as the others are known.
     """
     from lyapcheck.answers.check.run import run_proof
-    from lyapcheck.claims.certificates import file_name
+    from lyapcheck.claims.decision import file_name
 
     result = run_proof(proof, ms, robot, None, gains, only)
     names = {one.m: one.name for one in reversed(gains.gains) if one.m is not None}

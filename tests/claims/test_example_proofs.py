@@ -100,7 +100,7 @@ def test_a_changed_statement_changes_the_verdict(tmp_path, path, claim, right, w
 
 REPAIRS = [
     ("wrong", "x - x**3 / 3, 0)", "x, 0)"),
-    ("sign", "s.w) / 2 + s.eps", "s.w) / 2 - s.eps"),
+    ("sign", "w) / 2 + ε", "w) / 2 - ε"),
     ("large", "robot, gains, 2)", 'robot, gains, "0.02")'),
 ]
 
