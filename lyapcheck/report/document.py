@@ -79,7 +79,10 @@ class ReportAnswer(Answer):
         """A row a claim."""
         keys = ("proof", "id", "m", "n", "verdict", "grade", "comment")
         rows = [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
-        return [data | {"verdict": row.word} for data, row in zip(rows, self.report.every_claim, strict=True)]
+        return [
+            data | {"verdict": row.decision.word}
+            for data, row in zip(rows, self.report.every_claim, strict=True)
+        ]
 
 
 def _robot(model: RobotModel) -> dict[str, Any]:
@@ -159,12 +162,12 @@ def _claims(report: Report) -> Iterator[Section]:
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
             shown = ", ".join(
-                f"{SYMBOLS[row.verdict]} {row.word}" + (f" ({row.about})" if row.about else "")
+                f"{SYMBOLS[row.verdict]} {row.decision.word}" + (f" ({row.about})" if row.about else "")
                 for row in result
             )
             if len({row.verdict for row in result}) == 1:
                 ms = [str(row.m) for row in result if row.m is not None]
-                shown = f"{SYMBOLS[result[0].verdict]} {result[0].word}" + (
+                shown = f"{SYMBOLS[result[0].verdict]} {result[0].decision.word}" + (
                     f" (m = {', '.join(ms)})" if ms else ""
                 )
             grades = ", ".join(sorted({row.grade for row in result}))

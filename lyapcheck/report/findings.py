@@ -130,7 +130,7 @@ def sides_name(own: RefutedBelow) -> str:
 
 def _length(row: ClaimRow) -> int:
     """Of the numbers of a witness, written out: the roundest is the shortest."""
-    return sum(map(len, (row.witness or {}).get("point", {}).values()))
+    return sum(map(len, (row.decision.witness or {}).get("point", {}).values()))
 
 
 def small_path(claim: str) -> str:
@@ -139,7 +139,7 @@ def small_path(claim: str) -> str:
 
 
 def _ordinary(row: ClaimRow) -> WitnessRow | None:
-    data = row.witness
+    data = row.decision.witness
     if data is None or "point" not in data:
         return None
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])

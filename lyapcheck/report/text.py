@@ -57,7 +57,7 @@ MOST_COORDINATES = 3
 
 def witness_words(row: ClaimRow) -> str:
     """Both sides of a refuted relation, in as few digits as tell them apart, and where: for an overview."""
-    witness = row.witness or {}
+    witness = row.decision.witness or {}
     if "point" not in witness:
         return "; ".join(f"{name}: {value}" for name, value in witness.items())
     point = [f"{name} = {value}" for name, value in witness["point"].items()]

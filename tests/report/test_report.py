@@ -25,6 +25,7 @@ from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.recheck import recheck
+from lyapcheck.claims.decision import Decision
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
 from lyapcheck.control.judgement import JudgedStatement
@@ -44,9 +45,9 @@ from lyapcheck.report.jobs import done, map_job
 from lyapcheck.report.model import Report, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
-from lyapcheck.report.plain import read
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
+from lyapcheck.verdicts import Grade, Verdict
 from tests.helpers.command import invoke
 
 VOID = {"meta", "link", "img", "br", "input"}
@@ -193,8 +194,8 @@ def test_every_claim_has_its_equation_certificate_and_trust(report: Report, file
         if row.decided:
             assert f'href="{row.certificate}"' in body
             assert row.certificate in report.certificates
-            assert row.rules
-            assert row.rules[0] in body
+            assert row.decision.rules
+            assert row.decision.rules[0] in body
         assert f"| {row.id} |" in files["report.md"]
 
 
@@ -217,12 +218,15 @@ KEPT = Promise(ONE, JudgedStatement(ONE, None, "proved"))
 """A promise for rows put together by hand."""
 
 
-def claim_row(name: str, **about: Any) -> ClaimRow:
+def claim_row(
+    name: str, verdict: str = "proved", witness: Any = None, grade: Grade = Grade.EXACT, **about: Any
+) -> ClaimRow:
     """A claim of the paper of which nothing else is known."""
-    blank = {field.name: () if "tuple" in str(field.type) else None for field in fields(ClaimRow)}
-    words = {"section": "Section 3", "place": "", "comment": "one is small", "verdict": "proved"}
-    row = read(ClaimRow, {**blank, "evidence": {}, **words, "id": name, **about})
-    return replace(row, promise=KEPT if row.verdict == "proved" else None)
+    kept = KEPT if verdict == "proved" else None
+    decision = Decision(Verdict(verdict), grade, "", "open", witness, certificate=ONE, promise=kept)
+    blank = {field.name: () if "tuple" in str(field.type) else "" for field in fields(ClaimRow)}
+    words = {"section": "Section 3", "comment": "one is small", "m": None, "n": None, "gains": None}
+    return ClaimRow(**blank | words | {"id": name, "decision": decision} | about)
 
 
 def claim(claim_id: str, m: int | None, verdict: str, uses: tuple[str, ...] = ()) -> ClaimRow:
@@ -316,8 +320,8 @@ def test_numbers_of_any_size_fit_a_cell() -> None:
 
 
 def test_a_long_witness_is_left_to_the_table() -> None:
-    row = claim("a", 1, "refuted")
-    row = replace(row, witness={**(row.witness or {}), "point": {f"x{i}": "1" for i in range(4)}})
+    witness = claim("a", 1, "refuted").decision.witness or {}
+    row = claim_row("a", "refuted", {**witness, "point": {f"x{i}": "1" for i in range(4)}})
     assert "x0" not in witness_words(row)
 
 
@@ -408,11 +412,11 @@ def test_every_box_of_the_graph_has_a_title_that_fits(report: Report) -> None:
 
 
 def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
-    second = {"grade": "enclosure", "uses": ["a"], "comment": "<b>"}
+    second: dict[str, Any] = {"grade": Grade.ENCLOSURE, "uses": ["a"], "comment": "<b>"}
     rows = [
-        claim_row("a", grade="exact", comment="<b>"),
+        claim_row("a", comment="<b>"),
         claim_row("b", **second),
-        claim_row("c", verdict="refuted", broken=["a"], **second),
+        claim_row("c", "refuted", witness={"shown by": "it"}, broken=["a"], **second),
     ]
     drawn = graph(rows, "words", {"a": "short"})
     boxes = ElementTree.fromstring(drawn).findall("a")

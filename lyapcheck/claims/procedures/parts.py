@@ -1,4 +1,4 @@
-"""Statements that others decide: conjunctions, theorems by their obligations, kinds that name their proofs."""
+"""Statements that others decide: conjunctions, theorems by obligations, kinds that name their proofs."""
 
 from __future__ import annotations
 
