@@ -45,7 +45,7 @@ from lyapcheck.report.jobs import done, map_job
 from lyapcheck.report.model import Report, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
-from lyapcheck.report.text import bracket, number, span_words, witness_words
+from lyapcheck.report.text import span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.verdicts import Grade, Verdict
 from tests.helpers.command import invoke
@@ -301,21 +301,7 @@ def test_conditions_without_a_limit_do_not_apply() -> None:
     assert applies(replace(gate_result(), checks=(free, bound)))
 
 
-@pytest.mark.parametrize(
-    ("ends", "expected"),
-    [
-        (("1.0535692", "1.0535693"), "1.053569"),
-        (("1", "1"), "1"),
-        (("0.1", "0.2"), "[0.1, 0.2]"),
-        (None, "–"),
-    ],
-)
-def test_bracket_shows_only_digits_that_both_ends_share(ends: Any, expected: str) -> None:
-    assert bracket(ends) == expected
-
-
 def test_numbers_of_any_size_fit_a_cell() -> None:
-    assert number(None) == "–"
     assert span_words(["1", "2"]) == "1 to 2"
 
 
