@@ -372,13 +372,6 @@ def _question(chain: Chain, name: str) -> tuple[StorageProblem, Bound]:
     return weight_problem(chain, joints), ChainGravityBelow(chain.links, chain.fall, counted, zero)
 
 
-def bound_of(chain: Chain, name: str, value: Fraction) -> Bound:
-    """The bound of a constant of a chain as a statement: λmin(M) from below, the others from above."""
-    if name == "k_c":
-        return ChainCoriolisBelow(chain.links, value)
-    return with_end(_question(chain, name)[1], value)
-
-
 def with_end(statement: Bound, value: Fraction) -> Bound:
     """The statement with another bound."""
     if isinstance(statement, ChainAbove):

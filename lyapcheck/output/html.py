@@ -5,33 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from urllib.parse import quote
 
-from lyapcheck.output.document import (
-    Block,
-    Bullets,
-    Code,
-    Document,
-    Equation,
-    Figure,
-    Paragraph,
-    Section,
-    Table,
-)
+from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import html_text
 from lyapcheck.output.mathml import Child, Markup, element
 from lyapcheck.output.mathml import latex as formula
 
 _SIDES = {"l": "left", "r": "right"}
 VIEWPORT = element("meta", name="viewport", content="width=device-width, initial-scale=1")
-Drawn = Callable[[Figure], Markup | None]
+Drawn = Callable[[doc.Figure], Markup | None]
 
 
-def linked(figure: Figure) -> Markup:
+def linked(figure: doc.Figure) -> Markup:
     """A figure as a link to its file."""
     image = element("img", src=quote(figure.path), alt=figure.caption)
     return element("figure", image, element("figcaption", figure.caption))
 
 
-def render(document: Document, level: int = 2) -> str:
+def render(document: doc.Document, level: int = 2) -> str:
     """The whole document, its title a heading of a level; no script, no style sheet needed."""
     lines = [element(f"h{level}", document.title), *blocks(document.body, level + 1)]
     return "\n".join(lines) + "\n"
@@ -56,7 +46,7 @@ def fold(
     return element("details", summary, inner, class_=classes, open=opened)
 
 
-def blocks(result: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterator[Markup]:
+def blocks(result: Iterable[doc.Block], level: int, drawn: Drawn = linked) -> Iterator[Markup]:
     """Blocks one after the other.
 
     Args:
@@ -66,24 +56,24 @@ def blocks(result: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterat
     """
     for block in result:
         match block:
-            case Paragraph(text):
+            case doc.Paragraph(text):
                 yield element("p", text)
-            case Bullets(items):
+            case doc.Bullets(items):
                 yield Markup("<ul>")
                 yield from (element("li", item) for item in items)
                 yield Markup("</ul>")
-            case Equation(_, latex):
+            case doc.Equation(_, latex):
                 yield formula(latex)
-            case Code(text):
+            case doc.Code(text):
                 shown = Markup("\n".join(map(html_text, text.splitlines())))
                 yield element("pre", element("code", shown))
-            case Figure():
+            case doc.Figure():
                 if (shape := drawn(block)) is not None:
                     yield shape
-            case Section(title, inner):
+            case doc.Section(title, inner):
                 yield element(f"h{min(level, 6)}", title)
                 yield from blocks(inner, level + 1, drawn)
-            case Table():
+            case doc.Table():
                 yield Markup("<table>")
                 if block.caption:
                     yield element("caption", block.caption)
@@ -97,7 +87,7 @@ def blocks(result: Iterable[Block], level: int, drawn: Drawn = linked) -> Iterat
                 yield from (Markup("</tbody>"), Markup("</table>"))
 
 
-def _cells(row: Sequence[str], table: Table) -> Iterator[Markup]:
+def _cells(row: Sequence[str], table: doc.Table) -> Iterator[Markup]:
     for cell, head, side in zip(row, table.heads, table.align, strict=True):
         yield element("td", cell, style=_side(side), data_label=head)
 
