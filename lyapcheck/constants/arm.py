@@ -45,7 +45,6 @@ def arm_constants(
             that.
         gap: relative width of an enclosure that is good enough; by default a thousandth, and two
             hundredths for more than three joints.
-        on_progress: receives the share of the work done.
         names: of the constants wanted; by default all.
 
     Returns:

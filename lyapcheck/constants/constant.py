@@ -53,10 +53,8 @@ def maximise(
         bounds: see ``Bounds``.
         influence: decides which side of a box is halved.
         witness: a state to begin with, (n,), and what the function is at least there.
-        max_boxes: how many boxes may be looked at.
         gap: relative distance of the two bounds that is good enough.
         most: an upper bound of the supremum that is known beforehand.
-        on_progress: receives the share of the budget used.
 
     Soundness: halves cover their box, and a box is dropped only when its bound is not above ``inside``;
         ``bounds`` is taken at its word.
@@ -207,7 +205,6 @@ class SupremumTask:
         Args:
             max_boxes: budget in boxes of cost 1.
             gap: relative width that is good enough.
-            on_progress: receives the share of the budget used.
             known: a bound of the constant from outside.
         """
         half = np.zeros(self.torus.n)

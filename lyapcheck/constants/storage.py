@@ -331,7 +331,6 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProo
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
     Args:
-        chain: the arm.
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
     """

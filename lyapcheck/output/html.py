@@ -50,8 +50,6 @@ def blocks(result: Iterable[doc.Block], level: int, drawn: Drawn = linked) -> It
     """Blocks one after the other.
 
     Args:
-        result: the blocks.
-        level: of the headings of sections among them.
         drawn: what becomes of a figure.
     """
     for block in result:

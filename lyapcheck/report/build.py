@@ -52,10 +52,6 @@ WORKERS = 2
 def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     """Compute a report.
 
-    Args:
-        subject: arm, members and gains.
-        on_progress: receives the fraction done and a few words.
-
     Raises:
         InputError: the arm cannot be read, or gains do not fit it.
 
@@ -197,8 +193,6 @@ def render(report: Report, formats: Sequence[str] = USUAL, appendix: bool = Fals
     """Every file of a report by its name; figures and certificates are shared by the formats.
 
     Args:
-        report: what it says.
-        formats: some of ``FORMATS``.
         appendix: whether the PDF goes on with claims, gate, runs and the experiment one by one.
     """
     files: dict[str, str | bytes] = {}

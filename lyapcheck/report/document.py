@@ -195,7 +195,6 @@ def render(report: Report, appendix: bool = False) -> bytes:
     """A PDF of a few pages; the same report gives the same bytes.
 
     Args:
-        report: what it says.
         appendix: whether claims, gate, runs and the experiment follow one by one.
     """
     import typst

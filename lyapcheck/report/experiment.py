@@ -158,7 +158,6 @@ def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> Study
 
     Args:
         gain_sets: those of the report; what the paper did not run is left out.
-        model: the arm.
 
     Returns:
         None where the paper ran none of the gains on this arm, or where the arm is another by now.

@@ -37,7 +37,6 @@ def gain_map(
     """For each m and k_v the ε₀ that is proved, and what the reference simulation does.
 
     Args:
-        model: the arm.
         sets: a gain set for each m, whose K_p is kept.
         goal: (n,) the step of each joint from rest at home, rad.
         scales: k_v, N·m, the same in every joint.
@@ -107,7 +106,6 @@ def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[MapCell]:
     None for another arm or K_p; as of all gains, no ε₀ is shown that is not proved.
 
     Args:
-        model: the arm.
         sets: a gain set for each m, as for ``gain_map``.
     """
     from lyapcheck.check.certificate import judged

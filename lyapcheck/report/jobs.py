@@ -87,9 +87,6 @@ def _claims(
     """The claims of a proof, with what their verdicts rest on.
 
     Args:
-        proof: the script.
-        ms: the members.
-        robot: the arm.
         gains: with the gain set of each m first.
         only: the claims wanted; all if empty.
         more: whether only those about gains are, as the others are known.

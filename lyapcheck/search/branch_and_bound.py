@@ -136,8 +136,6 @@ def certify(
 
     Args:
         problem: what must be positive definite.
-        max_boxes: how many boxes may be looked at.
-        on_progress: receives the share of the volume decided.
         deadline: by the computing time of `lyapcheck.computing`, s.
 
     Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.loop.proves``.

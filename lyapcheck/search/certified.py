@@ -69,7 +69,6 @@ def certified_epsilon(
         max_boxes: the budget of all attempts together.
         jobs: processes that share the boxes, of the search and of the checker; they change no answer.
         seconds: of computing time, after which no new boxes are looked at; the answer depends on the machine.
-        on_progress: receives the share of the attempts done.
 
     Returns:
         no proof where nothing was proved; ``reason`` says why the next share was not.
@@ -116,7 +115,6 @@ def linked_otherwise(
         boxes: what was proved without.
         max_boxes: of errors e alone, of all attempts together.
         seconds: of computing time, after which no attempt begins.
-        on_progress: receives the share of the attempts done.
 
     Soundness: as for `certified_epsilon`.
     """

@@ -28,7 +28,6 @@ def closed_loop_of(
     """(11) with V of (13), or of y = w − εΛh where a diagonal of Λ is given, at one ε₀.
 
     Args:
-        gains: the controller.
         model: the arm; its parameters range where it has some.
         eps0: ε₀.
         ranges: whether the friction of joints ranges.

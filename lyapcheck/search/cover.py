@@ -116,11 +116,8 @@ def cover(
     there.
 
     Args:
-        start: one box.
         prove: for each box whether the property holds on all of it, proved.
         choose: the side of each box that should be halved.
-        max_boxes: how many boxes may be looked at.
-        on_progress: receives the share of the volume decided.
         deadline: by the computing time of `lyapcheck.computing`, s; the search gives up after it.
         share: has others look at what lies below the boxes of a level.
         worth: how many boxes of a level are left to them, more than ``FEW``.
@@ -200,10 +197,8 @@ def explored(
     Args:
         boxes: of one level.
         prove: see ``cover``, as for the rest.
-        choose: the sides.
         most: a level that would make them more boxes than that is left waiting.
         deadline: by the computing time of `lyapcheck.computing`, s.
-        on_progress: receives the share of the volume decided.
         few: whether no level so far had more than ``FEW`` boxes.
         worth: a level of so many boxes is left waiting as well.
     """

@@ -92,7 +92,6 @@ def sample(controlled: ControlledArm, count: int, seed: int) -> States:
     it is log-uniform from 0.001 to 10 rad.
 
     Args:
-        controlled: gains and arm.
         count: how many states.
         seed: of the random numbers; the same seed gives the same states.
     """

@@ -118,8 +118,6 @@ def weighted_epsilon(
         certified: what is proved with Λ = I, where the search begins.
         effort: how long to search.
         jobs: processes for the checker.
-        seed: of the sampled states.
-        on_progress: receives the share done.
 
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back, if it has accepted ``certified``.
     """

@@ -98,7 +98,6 @@ def alone_plot(sets: Sequence[SetRow], words: dict[str, str]) -> Plot:
     """The range of L2 when one assumption alone runs over its range, widest first, beside the print.
 
     Args:
-        sets: of the study.
         words: the assumptions as they stand in a sentence, by name.
     """
     columns = min(2, len(sets))
