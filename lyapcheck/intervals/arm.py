@@ -24,7 +24,7 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.intervals.interval import TINY, Interval, cosine, sine, widened
 
-Place = tuple[int, ...]
+Place = tuple[int, int, int]
 Columns = dict[Harmonic, tuple[Interval, Interval]]
 
 
@@ -92,17 +92,6 @@ class ArmBox:
             if slope:
                 mean = mean + combine(slope, self.wide) * self._offset[i]
         return natural.meet(mean)
-
-
-def coriolis(symbols: Mapping[Place, Interval], h: list[Interval]) -> list[list[Interval | float]]:
-    """C(q, h)_ij = Σ_k c_ijk h_k."""
-    n = len(h)
-    rows: list[list[Interval | float]] = [[0.0] * n for _ in range(n)]
-    for (i, j, k), symbol in symbols.items():
-        rows[i][j] = symbol * h[k] + rows[i][j]
-        if k != j:
-            rows[i][k] = symbol * h[j] + rows[i][k]
-    return rows
 
 
 def _columns(arm: ArmIntervals, q: list[Interval]) -> Columns:
