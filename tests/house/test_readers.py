@@ -18,7 +18,7 @@ READERS = {
 OURS = {
     ("answers/explain.py", "_cited"): "the bibliography of the package",
     ("compiled/loop.py", "source"): "source of the package",
-    ("compiled/compiler.py", "_fetch"): "what the compiler has just written to a folder of ours",
+    ("compiled/compiler.py", "library"): "what the compiler has just written to a folder of ours",
     ("kernel/coq.py", "_compile_library"): "the library of the package",
     ("kernel/coq.py", "sources"): "the library of the package",
     ("kernel/coq.py", "golden"): "the library of the package",
