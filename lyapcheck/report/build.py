@@ -41,7 +41,6 @@ from lyapcheck.temporary import pending, try_writing, work_in
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.report.figures.style import Files
-    from lyapcheck.report.jobs import MapData, ProofsData
     from lyapcheck.report.notes import Notes
 
 Job = Future[Done]
@@ -69,28 +68,27 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
     of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
     study = None if subject.own else printed_experiment(of_the_report, model)
-    mapped: MapData = jobs.map.result().result
-    parts = [with_the_map(job.result().result, mapped.for_sets) for job in jobs.sets]
-    proofs: ProofsData = jobs.proofs.result().result
+    cells, for_sets = jobs.map.result().result
+    parts = [with_the_map(job.result().result, for_sets) for job in jobs.sets]
+    proofs, small = jobs.proofs.result().result
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
-    for made in [*(one.certificates for one in proofs.proofs), *(part.certificates for part in parts)]:
+    for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
         certificates |= made
-    certificates |= {small_path(name): one.certificate.text() for name, one in proofs.small.items()}
-    certificates |= {one.path: one.certificate for one in mapped.cells if one.certificate}
-    rows = [row for part in proofs.proofs for row in part.rows]
+    certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
+    certificates |= {one.path: one.certificate for one in cells if one.certificate}
+    rows = [row for part in proofs for row in part.rows]
     if subject.own:
         known = {row.certificate for row in rows}
         rows, fresh = as_the_gate_judges(rows, gate)
         gone = known - {row.certificate for row in rows}
         certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
-    figures |= draw_sides(proofs.small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
+    figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
     claims = tuple(row for row in rows if row.proof == "published")
     if subject.own:
         weighed = own_findings(gate, epsilon, claims)
     else:
-        small = {name: light(one) for name, one in proofs.small.items()}
-        weighed = findings(notes, claims, small, epsilon, study)
+        weighed = findings(notes, claims, {name: light(one) for name, one in small.items()}, epsilon, study)
     packages = frozenset[str]().union(*(job.result().packages for job in jobs.labels))
     return Report(
         notes=notes,
@@ -106,7 +104,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         runs=runs,
         sensitivity=study,
         findings=weighed,
-        map=tuple(mapped.cells),
+        map=tuple(cells),
         figures=dict(sorted(figures.items())),
         certificates=dict(sorted(certificates.items())),
         versions={name: version(name) for name in sorted(packages)},

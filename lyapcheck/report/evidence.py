@@ -12,7 +12,7 @@ from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Pa
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.experiment import (
     StudyRow,
-    answer_cell,
+    answer_words,
     at_once_words,
     figure_gains_words,
     printed_words,
@@ -139,7 +139,7 @@ def _study(report: Report, study: StudyRow) -> Iterator[Block]:
             printed_words(entry),
             value_words(entry.nominal, entry.unit),
             span(entry.typical),
-            answer_cell(entry),
+            answer_words(entry),
         )
         for one in study.sets
         for entry in one.numbers

@@ -243,18 +243,6 @@ def answer_words(number: NumberRow) -> str:
     return f"no arm in range among {number.runs} does it: nearest {nearest}"
 
 
-def answer_cell(number: NumberRow) -> str:
-    """The same in a cell of a table."""
-    nearest = value_words(number.nearest, number.unit)
-    cells = {
-        "yes": "yes",
-        "no part": "no part in it",
-        "between": f"more and less: nearest {nearest}",
-        "no": f"no: nearest {nearest}",
-    }
-    return cells[number.answer]
-
-
 def tally_words(study: StudyRow) -> str:
     """How many printed numbers some arm in range explains, each by itself."""
     numbers = [number for one in study.sets for number in one.numbers]
@@ -268,19 +256,13 @@ def tally_words(study: StudyRow) -> str:
     return f"of {len(free)} printed numbers that depend on the arm, each by itself, {', '.join(parts)}{fixed}"
 
 
-def hangs_words(number: NumberRow, study: StudyRow) -> str:
-    """Which assumptions a number hangs on, by their share of the variance."""
-    result = leading(number, study)
-    return f"it hangs on {result}" if result else "it hangs on no assumption by itself"
-
-
-def leading(number: NumberRow, study: StudyRow, most: int = 2) -> str:
-    """The assumptions with the largest shares, ``elbow viscous friction 45 %``."""
+def hangs_words(number: NumberRow, study: StudyRow, most: int = 2) -> str:
+    """The assumptions that a number hangs on, by share of the variance: ``elbow viscous friction 45 %``."""
     shares = number.shares or {}
     words = {one.name: one.words for one in study.assumed}
     first = sorted(shares, key=lambda name: -shares[name])[:most]
-    large = [name for name in first if shares[name] >= LEAST_SHARE]
-    return ", ".join(f"{words[name]} {percent(shares[name], '')}" for name in large)
+    large = [f"{words[name]} {percent(shares[name], '')}" for name in first if shares[name] >= LEAST_SHARE]
+    return f"it hangs on {', '.join(large) or 'no assumption by itself'}"
 
 
 def together_words(study: StudyRow, result: TogetherRow) -> str:
