@@ -256,11 +256,11 @@ def tally_words(study: StudyRow) -> str:
     return f"of {len(free)} printed numbers that depend on the arm, each by itself, {', '.join(parts)}{fixed}"
 
 
-def hangs_words(number: NumberRow, study: StudyRow, most: int = 2) -> str:
+def hangs_words(number: NumberRow, study: StudyRow) -> str:
     """The assumptions that a number hangs on, by share of the variance: ``elbow viscous friction 45 %``."""
     shares = number.shares or {}
     words = {one.name: one.words for one in study.assumed}
-    first = sorted(shares, key=lambda name: -shares[name])[:most]
+    first = sorted(shares, key=lambda name: -shares[name])[:2]
     large = [f"{words[name]} {percent(shares[name], '')}" for name in first if shares[name] >= LEAST_SHARE]
     return f"it hangs on {', '.join(large) or 'no assumption by itself'}"
 
@@ -299,14 +299,14 @@ def figure_gains_words(one: SetRow) -> str:
     )
 
 
-def span(ends: Ends, unit: str = "") -> str:
+def span(ends: Ends) -> str:
     """Two ends of a range; open where a joint does not settle."""
     low, high = ends
     if low is None:
         return "not settled"
     if low == high:
-        return f"{_short(low)}{unit}"
-    return f"{_short(low)} to {'not settled' if high is None else _short(high)}{unit}"
+        return _short(low)
+    return f"{_short(low)} to {'not settled' if high is None else _short(high)}"
 
 
 def percent(share: float, sign: str = "+") -> str:

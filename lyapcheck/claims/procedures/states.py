@@ -157,8 +157,8 @@ def _by_boxes(statement: Decreasing) -> SearchResult:
     return shown(tree, f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
 
 
-def controlled_arm_of(statement: Decreasing, *, ranges: bool = False) -> ControlledArm:
-    """The arm at the middle of its ranges, or over them, under the controller, for a search."""
+def controlled_arm_of(statement: Decreasing) -> ControlledArm:
+    """The arm at the middle of its ranges under the controller, for a search."""
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
 
@@ -182,7 +182,7 @@ def controlled_arm_of(statement: Decreasing, *, ranges: bool = False) -> Control
         viscous=_numbers(viscous, statement.viscous),
         parameters=dict(zip(names, _numbers(parameters, statement.parameters), strict=True)),
     )
-    return ControlledArm(gains, plant if ranges else plant.fixed(), ranges)
+    return ControlledArm(gains, plant.fixed())
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

@@ -20,19 +20,19 @@ from lyapcheck.report.model import MapCell, Report
 FORMS = ("svg", "png", "csv")
 
 
-def figure(report: Report, name: str, caption: str, class_: str = "") -> Markup | None:
-    """A figure by its name with a caption and links to its forms; nothing where there is none."""
+def figure(report: Report, name: str, caption: str) -> Markup | None:
+    """A figure by its name; nothing where there is none."""
     text = report.figures.get(f"{name}.svg")
-    return drawn(name, text, caption, class_) if isinstance(text, str) else None
+    return drawn(name, text, caption) if isinstance(text, str) else None
 
 
-def drawn(name: str, text: str, caption: str, class_: str = "") -> Markup:
+def drawn(name: str, text: str, caption: str) -> Markup:
     """A figure by its SVG, with a caption and links to its forms in ``figures``."""
     links = [element("a", form.upper(), href=f"figures/{name}.{form}") for form in FORMS]
     words = element(
         "figcaption", caption, " ", element("span", [[" ", link] for link in links], class_="forms")
     )
-    return element("figure", inline(text, caption), words, class_=f"drawing {class_}".strip())
+    return element("figure", inline(text, caption), words, class_="drawing")
 
 
 def inline(svg: str, words: str) -> Markup:
