@@ -54,7 +54,6 @@ from lyapcheck.claims.bounds import ArmBounds as ArmBounds
 from lyapcheck.claims.bounds import FamilyBounds as FamilyBounds
 from lyapcheck.claims.bounds import above as above
 from lyapcheck.claims.bounds import below as below
-from lyapcheck.claims.bounds import entry_sizes as entry_sizes
 from lyapcheck.claims.bounds import largest_with as largest_with
 from lyapcheck.claims.claim import Case as Case
 from lyapcheck.claims.claim import Claim as Claim
@@ -91,7 +90,6 @@ from lyapcheck.claims.letters import any_matrix as any_matrix
 from lyapcheck.claims.letters import any_vector as any_vector
 from lyapcheck.claims.letters import apply as apply
 from lyapcheck.claims.letters import at_most_every_n as at_most_every_n
-from lyapcheck.claims.letters import combined as combined
 from lyapcheck.claims.letters import diagonal as diagonal
 from lyapcheck.claims.letters import dot as dot
 from lyapcheck.claims.letters import every_n as every_n

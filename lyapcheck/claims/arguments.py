@@ -140,7 +140,6 @@ def along(loop: System, V: Expr, equals: Expr, gravity: bool = False) -> EveryN:
     """dV/dt along the loop equals an expression in its letters, for every n.
 
     Args:
-        loop: the closed loop.
         V: in its letters, without the energy of gravity.
         equals: in its letters too.
         gravity: whether U_g(q) − U_g(q_d) + g(q_d)ᵀe is added to V.

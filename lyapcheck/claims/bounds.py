@@ -6,7 +6,7 @@ What these functions hand back is a proposal: a claim that uses a wrong one is r
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -17,12 +17,11 @@ from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, MassBelow
-from lyapcheck.check.kinds.trigonometric import largest
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.expressions import Expr, closed_value, diff, exact_value, expr, sqrt, var
 from lyapcheck.claims.statements import for_all, identity, norm_bound
-from lyapcheck.robots.trig import to_terms
+from lyapcheck.search.closed_loop import mass_of
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -50,11 +49,6 @@ def above(value: object, digits: int = DIGITS) -> Fraction:
 def below(value: object, digits: int = DIGITS) -> Fraction:
     """The decimal number of so many places that is at most a number, and nearest to it."""
     return -above(-expr(value), digits)
-
-
-def entry_sizes(entries: Iterable[Expr]) -> list[Fraction]:
-    """For each polynomial in sines and cosines a number that its absolute value does not exceed."""
-    return [largest(entry.tree) for entry in entries]
 
 
 class FamilyBounds:
@@ -115,7 +109,7 @@ class ArmBounds:
     @cached_property
     def mass(self) -> Mass:
         """M(q) as statements have it."""
-        return tuple(tuple(tuple(to_terms(entry)) for entry in row) for row in self.robot.mass)
+        return mass_of(self.robot)
 
     @cached_property
     def inertia(self) -> Inertia:

@@ -255,7 +255,7 @@ class Proof:
             self.add(
                 name,
                 f"{claim_id}: {OBLIGATIONS.get(group, f'{group} is one of its class')}",
-                _all(parts),
+                parts[0][1] if len(parts) == 1 else AllOf(tuple(parts)),
                 place,
             )
         self.add(claim_id, says, theorem, place, uses=[*names, *uses])
@@ -271,9 +271,9 @@ class Proof:
         Raises:
             InputError: there is no such script, or no such claim in it.
         """
-        from lyapcheck.claims.script import check_ids, load_library
+        from lyapcheck.claims.script import check_ids, find_script, load_proof
 
-        other = load_library(script)
+        other = load_proof(find_script(script))
         check_ids(other.claims, ids, script)
         wanted = needed(other.claims, ids)
         for name, claim in other.claims.items():
@@ -298,10 +298,6 @@ def _group(obligation: str) -> str:
     if name.startswith(("origin", "V at")):
         return "origin"
     return "arm" if name in ("M", "beta", "kc", "kg", "km", "kc2") or name.startswith("condition") else name
-
-
-def _all(parts: list[tuple[str, Statement]]) -> Statement:
-    return parts[0][1] if len(parts) == 1 else AllOf(tuple(parts))
 
 
 def _of_case(claim_id: str, statement: Callable[..., Statement]) -> StatementOf:

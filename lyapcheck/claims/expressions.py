@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -110,54 +110,14 @@ def var(name: str) -> Expr:
     return Expr(("var", name))
 
 
-def function(name: str, argument: object) -> Expr:
-    """An elementary function of an expression."""
-    return Expr((name, expr(argument).tree))
+def _function(name: str) -> Callable[[object], Expr]:
+    return lambda x: Expr((name, expr(x).tree))
 
 
-def sinh(x: object) -> Expr:
-    """The hyperbolic sine."""
-    return function("sinh", x)
-
-
-def cosh(x: object) -> Expr:
-    """The hyperbolic cosine."""
-    return function("cosh", x)
-
-
-def tanh(x: object) -> Expr:
-    """The hyperbolic tangent."""
-    return function("tanh", x)
-
-
-def exp(x: object) -> Expr:
-    """The exponential."""
-    return function("exp", x)
-
-
-def log(x: object) -> Expr:
-    """The natural logarithm."""
-    return function("log", x)
-
-
-def sqrt(x: object) -> Expr:
-    """The square root."""
-    return function("sqrt", x)
-
-
-def sin(x: object) -> Expr:
-    """The sine."""
-    return function("sin", x)
-
-
-def cos(x: object) -> Expr:
-    """The cosine."""
-    return function("cos", x)
-
-
-def atan(x: object) -> Expr:
-    """The arc tangent."""
-    return function("atan", x)
+sinh, cosh, tanh = map(_function, ("sinh", "cosh", "tanh"))
+exp, log, sqrt = map(_function, ("exp", "log", "sqrt"))
+sin, cos, atan = map(_function, ("sin", "cos", "atan"))
+"""Elementary functions of an expression or an exact number."""
 
 
 def h(m: int, x: object) -> Expr:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import lyapcheck
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.handover import Key
-from lyapcheck.claims.python_process import command, environment
 from lyapcheck.temporary import temporary_folder
 
 
@@ -97,3 +99,18 @@ def _judged(row: dict[str, Any], certificate: Certificate) -> Judged:
     return Judged(
         certificate.statement, row["accepted"] is True, row["reason"], row["verdict"], row["grade"], *rests
     )
+
+
+# --- Fresh Python processes that import the lyapcheck that runs here, and nothing from the working directory.
+
+
+def command(module: str, *arguments: str) -> list[str]:
+    """The words that run a module; ``-P`` because a script may have written modules where it was started."""
+    return [sys.executable, "-P", "-m", module, *arguments]
+
+
+def environment() -> dict[str, str]:
+    """The variables of this process, with the folder that this lyapcheck was imported from."""
+    folder = str(Path(lyapcheck.__file__).resolve().parents[1])
+    given = [os.path.abspath(path) for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
+    return os.environ | {"PYTHONPATH": os.pathsep.join([*given, folder])}

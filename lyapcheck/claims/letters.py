@@ -289,10 +289,3 @@ def scaled(x: V, y: V) -> V:
     if isinstance(x, AnyVector):
         return diagonal(x) @ y
     return [a * b for a, b in zip(x, y, strict=True)]
-
-
-def combined(x: V, factor: Expr, y: V) -> V:
-    """x + factor·y."""
-    if isinstance(x, AnyVector):
-        return x + y.times(factor)
-    return [a + factor * b for a, b in zip(x, y, strict=True)]

@@ -7,7 +7,7 @@ import pickle
 import re
 import sys
 import traceback
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -17,8 +17,8 @@ from typing import Any
 
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.claim import Proof, in_order
+from lyapcheck.claims.fresh_check import command, environment
 from lyapcheck.claims.handover import Handover, ScriptRequest, read
-from lyapcheck.claims.python_process import command, environment
 from lyapcheck.control.gains import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.reader import SCRIPT, read_bytes
@@ -61,22 +61,8 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
         InputError: the script has a syntax error, raises, or does not define exactly one proof.
     """
     name = shown or str(path)
-    return _only_proof(lambda: _run(path, read_bytes(path, SCRIPT, name)), path, name)
-
-
-def load_library(script: str) -> Proof:
-    """The one proof of a script that another one builds on; run once in a process, like a module.
-
-    Raises:
-        InputError: there is no such script, or as for `load_proof`.
-    """
-    path = find_script(script)
-    return _only_proof(lambda: _run_once(path, read_bytes(path, SCRIPT)), path, str(path))
-
-
-def _only_proof(run: Callable[[], dict[str, Any]], path: Path, name: str) -> Proof:
     try:
-        names = run()
+        names = _run_once(path, read_bytes(path, SCRIPT, name))
     except SyntaxError as error:
         raise InputError(
             Problem(name, error.lineno, "script", "", f"is not Python: {error.msg}", "correct the syntax")
@@ -84,7 +70,8 @@ def _only_proof(run: Callable[[], dict[str, Any]], path: Path, name: str) -> Pro
     except InputError:
         raise
     except BaseException as error:  # a script must not choose the exit code
-        raise InputError(_raised(name, path, error)) from error
+        repair = repair_of(error, "correct the script")
+        raise InputError(Problem(name, line_of(error, path), "script", "", raised(error), repair)) from error
     proofs = {id(value): value for value in names.values() if isinstance(value, Proof)}
     if len(proofs) != 1:
         rule = f"a script defines exactly one Proof, this one has {len(proofs)}"
@@ -104,12 +91,7 @@ def companion(script: str) -> SimpleNamespace:
 
 @lru_cache(maxsize=64)
 def _run_once(path: Path, content: bytes) -> dict[str, Any]:
-    """What a script defines; anew where its text has changed."""
-    return _run(path, content)
-
-
-def _run(path: Path, content: bytes) -> dict[str, Any]:
-    """What a script of that text defines.
+    """What a script of that text defines; anew where its text has changed.
 
     It is a module while it runs: dataclasses look theirs up.
     """
@@ -133,17 +115,6 @@ def line_of(error: BaseException, path: Path) -> int | None:
     return frames[-1].lineno if frames else None
 
 
-def _raised(name: str, path: Path, error: BaseException) -> Problem:
-    return Problem(
-        name,
-        line_of(error, path),
-        "script",
-        "",
-        raised(error),
-        repair_of(error, "correct the script"),
-    )
-
-
 def raised(error: BaseException) -> str:
     """What a script raises, in words; without the path of a module on this machine."""
     return f"raises {type(error).__name__}: {_IMPORTED.sub('', str(error))}"
@@ -161,7 +132,7 @@ def repair_of(error: BaseException, otherwise: str) -> str:
 
 
 def check_ids(known: Collection[str], ids: Iterable[str], file: str) -> None:
-    """Complain about every id that the proof does not have, with the nearest ones it has.
+    """Complain about every id that the proof does not have, with those that begin alike, or the nearest.
 
     Raises:
         InputError: some id is unknown.
@@ -169,18 +140,13 @@ def check_ids(known: Collection[str], ids: Iterable[str], file: str) -> None:
     problems = []
     for wanted in ids:
         if wanted not in known:
-            near = _near(wanted, dict.fromkeys(known))
+            begun = [one for one in known if one.casefold().startswith(wanted.casefold())] if wanted else []
+            near = begun[:MOST_NEAR] or get_close_matches(wanted, dict.fromkeys(known), n=3, cutoff=0.5)
             hint = f"did you mean {', '.join(near)}? " if near else ""
             repair = f"{hint}lyapcheck explain lists the ids, with --proof those of one script"
             problems.append(Problem(file, None, "id", wanted, "no claim has this id", repair))
     if problems:
         raise InputError(problems)
-
-
-def _near(wanted: str, ids: Collection[str]) -> list[str]:
-    """The ids that may have been meant: those that begin alike, or else those of about the same letters."""
-    begun = [known for known in ids if known.casefold().startswith(wanted.casefold())] if wanted else []
-    return begun[:MOST_NEAR] or get_close_matches(wanted, ids, n=3, cutoff=0.5)
 
 
 # --- Asking a proof script for its statements, without running it in this process.
@@ -214,8 +180,9 @@ def ask(request: ScriptRequest) -> Handover:
 
 def _read(answer: Path, request: ScriptRequest, code: int) -> Handover:
     try:
+        ending = f"exit code {code}" if code >= 0 else f"signal {-code}"
         if code or not answer.is_file():
-            raise Refused("process", _ending(code), "must end with its claims handed over")
+            raise Refused("process", ending, "must end with its claims handed over")
         size = answer.stat().st_size
         if size > MAX_BYTES:
             raise Refused("answer", f"{size} bytes", f"must not exceed {MAX_BYTES}")
@@ -223,8 +190,3 @@ def _read(answer: Path, request: ScriptRequest, code: int) -> Handover:
     except (Refused, ValueError, RecursionError) as error:
         rule = f"does not hand over its claims ({error})"
         raise InputError(Problem(request.shown, None, "script", "", rule, "correct the script")) from error
-
-
-def _ending(code: int) -> str:
-    """How a process has ended."""
-    return f"exit code {code}" if code >= 0 else f"signal {-code}"

@@ -74,26 +74,22 @@ def _end_with(stream: BinaryIO) -> None:
 def answer(request: ScriptRequest) -> str:
     """The handover of the script as JSON: its claims with their statements, or what is wrong with it."""
     try:
-        return _handover(request)
+        proof = load_proof(Path(request.path), request.shown)
+        check_ids(proof.claims, request.only, request.shown)
+        in_order(proof.claims, request.shown)
+        wanted = needed(proof.claims, request.only or proof.claims)
+        statements: Lines = {}
+        handover = []
+        for claim in proof.claims.values():
+            answers = tuple(_answers(claim, request, statements)) if claim.id in wanted else ()
+            handover.append(ClaimData(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
+        return write(
+            Handover(proof.name, proof.title, proof.reference, tuple(handover)),
+            (line for _, line in statements.values()),
+        )
     except InputError as error:
         problems = tuple((p.file, p.line, p.key, p.value, p.rule, p.repair) for p in error.problems)
         return write(Handover(problems=problems), [])
-
-
-def _handover(request: ScriptRequest) -> str:
-    proof = load_proof(Path(request.path), request.shown)
-    check_ids(proof.claims, request.only, request.shown)
-    in_order(proof.claims, request.shown)
-    wanted = needed(proof.claims, request.only or proof.claims)
-    statements: Lines = {}
-    handover = []
-    for claim in proof.claims.values():
-        answers = tuple(_answers(claim, request, statements)) if claim.id in wanted else ()
-        handover.append(ClaimData(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
-    return write(
-        Handover(proof.name, proof.title, proof.reference, tuple(handover)),
-        (line for _, line in statements.values()),
-    )
 
 
 def _answers(claim: Claim, request: ScriptRequest, statements: Lines) -> Iterator[ScriptAnswer]:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, TypeVar
 
-from lyapcheck.check.kinds.all_of import EveryPart, OnePart
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.output.digits import decimals
@@ -74,27 +73,6 @@ def entries(**vectors: Iterable[object]) -> dict[str, str]:
 def still_open(reason: str, method: str, **evidence: Any) -> SearchResult:
     """Nothing was found; the reason says what to try next."""
     return SearchResult(Verdict.UNDECIDED, method, reason=reason, evidence=evidence)
-
-
-def proposed_word(verdict: Verdict) -> str:
-    """What a search thinks of one part, which no checker has judged by itself."""
-    return "proposed" if verdict is Verdict.PROVED else verdict.value
-
-
-def conjunction(parts: Iterable[tuple[str, SearchResult]]) -> SearchResult:
-    """The finding on "all of these": one part refuted, or one open, or a proof of each."""
-    named = list(parts)
-    rows = [{"part": name, "verdict": proposed_word(f.verdict), "method": f.method} for name, f in named]
-    evidence = {"parts": rows}
-    for wanted in (Verdict.REFUTED, Verdict.UNDECIDED):
-        for index, (name, result) in enumerate(named):
-            if result.verdict is wanted:
-                reason = f"{name}: {result.reason}" if result.reason else name
-                proof = OnePart(index, result.proof) if result.proof is not None else None
-                return replace(result, reason=reason, proof=proof, evidence={**result.evidence, **evidence})
-    methods = "; ".join(dict.fromkeys(result.method for _, result in named))
-    proofs = tuple(result.proof for _, result in named if result.proof is not None)
-    return shown(EveryPart(proofs), methods, **evidence)
 
 
 # --- Which search decides which kind of statement: each says so where it is defined.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import os
 import platform
@@ -10,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
@@ -131,30 +130,16 @@ def library(key: str, command: str, source: Callable[[], str | None]) -> ctypes.
         source: writes the C text; asked only where nothing is kept.
     """
     try:
-        with workplace() as place:
-            path = place / "kernel.so"
-            _fetch(key, command, source, path)
+        with tempfile.TemporaryDirectory(prefix="lyapcheck-") as name, pending(name):
+            path = Path(name, "kernel.so")
+            body = store.kept(ROOM, f"{key}.so")
+            if body is not None:
+                path.write_bytes(body)
+            elif (text := source()) is not None and compile_library(text, path, command):
+                store.keep(ROOM, f"{key}.so", path.read_bytes())
             return ctypes.CDLL(str(path))  # it stays in memory when its file is gone
     except OSError:
         return None
-
-
-def _fetch(key: str, command: str, source: Callable[[], str | None], path: Path) -> None:
-    """Put the library at ``path``, if it is kept or can be compiled."""
-    body = store.kept(ROOM, f"{key}.so")
-    if body is not None:
-        path.write_bytes(body)
-        return
-    text = source()
-    if text is not None and compile_library(text, path, command):
-        store.keep(ROOM, f"{key}.so", path.read_bytes())
-
-
-@contextlib.contextmanager
-def workplace() -> Iterator[Path]:
-    """A private directory that is gone afterwards."""
-    with tempfile.TemporaryDirectory(prefix="lyapcheck-") as name, pending(name):
-        yield Path(name)
 
 
 # --- Work split over the processors; compiled code runs without the interpreter's lock.
@@ -169,34 +154,16 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def over_shares(work: Callable[[int, int], int], count: int, unit: int = 1) -> int:
-    """The sum of ``work(start, stop)`` over consecutive shares of ``range(count)``, a few to a processor.
+def over_shares(work: Callable[[int, int], object], count: int, unit: int = 1) -> None:
+    """Do ``work(start, stop)`` for consecutive shares of ``range(count)``, a few to a processor.
 
     Args:
         work: does its share.
         count: how much there is.
         unit: shares are whole multiples of it, except the last.
     """
-    helpers = processors() - 1
-    shares = _shares(count, _A_FEW * (helpers + 1), unit) if helpers else [(0, count)]
-    if len(shares) == 1:
-        return work(*shares[0])
-    open_shares = deque(shares)
-
-    def drain() -> int:
-        total = 0
-        while True:
-            try:
-                share = open_shares.popleft()
-            except IndexError:
-                return total
-            total += work(*share)
-
-    with ThreadPoolExecutor(min(helpers, len(shares) - 1)) as pool:
-        others = [pool.submit(drain) for _ in range(helpers)]
-        return drain() + sum(other.result() for other in others)
-
-
-def _shares(count: int, parts: int, unit: int) -> list[tuple[int, int]]:
-    size = max(1, -(-count // (parts * unit))) * unit
-    return [(start, min(start + size, count)) for start in range(0, count, size)] or [(0, count)]
+    workers = processors()
+    size = unit * max(1, -(-count // (_A_FEW * workers * unit))) if workers > 1 else max(count, 1)
+    starts = range(0, count, size)
+    with ThreadPoolExecutor(min(workers, max(1, len(starts)))) as pool:
+        deque(pool.map(work, starts, (min(start + size, count) for start in starts)), maxlen=0)

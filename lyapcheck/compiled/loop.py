@@ -44,9 +44,8 @@ class Loop:
         at = (ctypes.c_void_p * len(every))(*(x.__array_interface__["data"][0] for x in every))
         steps = (ctypes.c_long * (2 * len(every)))(*(s // 8 for x in every for s in x.strides))
 
-        def share(start: int, stop: int) -> int:
+        def share(start: int, stop: int) -> None:
             self._run(start, stop, at, steps)
-            return 0
 
         if lanes < 2 * SHARE:
             share(0, lanes)

@@ -33,7 +33,6 @@ MAX_BOXES = 60_000
 def arm_constants(
     model: Plant,
     max_boxes: int = MAX_BOXES,
-    gap: float | None = None,
     on_progress: Progress | None = None,
     names: Sequence[str] | None = None,
 ) -> tuple[ConstantResult, ...]:
@@ -43,13 +42,10 @@ def arm_constants(
         model: the arm, of any number of joints.
         max_boxes: how many boxes each constant may take; k_c of n joints, whose boxes cost more, an nth of
             that.
-        gap: relative width of an enclosure that is good enough; by default a thousandth, and two
-            hundredths for more than three joints.
-        on_progress: receives the share of the work done.
         names: of the constants wanted; by default all.
 
     Returns:
-        The constants; where the budget did not suffice their enclosures are wider than ``gap``.
+        The constants; where the budget did not suffice their enclosures are wider than ``GAP``.
 
     Soundness: floating point with residuals and bounds of its error beforehand, see
         `lyapcheck.constants.torus` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
@@ -58,7 +54,7 @@ def arm_constants(
     fixed, makers = model.fixed(), _makers(model.n)
     along = model.n > FEW_JOINTS and fixed.chain is not None
     arm = None if along else ArmHarmonics(fixed)
-    enough = (GAP if model.n <= FEW_JOINTS else GAP_OF_MANY) if gap is None else gap
+    enough = GAP if model.n <= FEW_JOINTS else GAP_OF_MANY
     wanted = [name for name in makers if names is None or name in names]
     result = []
     for step, name in enumerate(wanted):

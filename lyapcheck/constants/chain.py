@@ -134,11 +134,6 @@ def _short(values: Array) -> tuple[Fraction, ...]:
 def chain_constant(plant: Plant, name: str, on_progress: Progress = silent) -> ConstantResult:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
-    Args:
-        plant: the arm.
-        name: of the constant.
-        on_progress: receives the share of the work done.
-
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts.
     """
     on_progress(0.0, "posture")

@@ -8,97 +8,13 @@ from fractions import Fraction
 from math import inf, nextafter, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.constants.storage import BoundWithProof
 from lyapcheck.constants.torus import PI_ABOVE, AffineForms, Torus
 from lyapcheck.robots.plant import Plant
-
-# --- The largest value of a function over a box, from both sides: best first, and stopped at any time.
-
-
-Bounds = Callable[[Array, Array], tuple[Array, Array]]
-"""Middles and half widths of boxes to what the function is at least in the middle and at most on the box."""
-Influence = Callable[[Array, Array], Array]
-"""Middles and half widths of boxes to how much each side matters."""
-
-BATCH = 128
-
-
-@dataclass(frozen=True)
-class Largest:
-    """The supremum lies in [inside, outside]; the function is at least ``inside`` at ``state``."""
-
-    inside: float
-    outside: float
-    state: tuple[float, ...]
-    boxes: int
-
-
-def maximise(
-    half: Array,
-    bounds: Bounds,
-    influence: Influence,
-    witness: tuple[Array, float],
-    max_boxes: int,
-    gap: float,
-    most: float = np.inf,
-    on_progress: Progress | None = None,
-) -> Largest:
-    """Enclose the supremum over the box [−half, half], splitting where the bound is largest.
-
-    Args:
-        half: half widths of the box, (n,); sides of width 0 stay.
-        bounds: see ``Bounds``.
-        influence: decides which side of a box is halved.
-        witness: a state to begin with, (n,), and what the function is at least there.
-        max_boxes: how many boxes may be looked at.
-        gap: relative distance of the two bounds that is good enough.
-        most: an upper bound of the supremum that is known beforehand.
-        on_progress: receives the share of the budget used.
-
-    Soundness: halves cover their box, and a box is dropped only when its bound is not above ``inside``;
-        ``bounds`` is taken at its word.
-    """
-    state, inside = witness
-    middle, width = np.zeros((1, len(half))), half[None]
-    top = np.fmin(bounds(middle, width)[1], most)
-    seen = 1
-    while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
-        chosen = np.argsort(-top, kind="stable")[: min(BATCH, (max_boxes - seen) // 2)]
-        rest = np.ones(len(top), dtype=np.bool_)
-        rest[chosen] = False
-        halves = _halves(middle[chosen], width[chosen], influence)
-        low, high = bounds(*halves)
-        # a bound that is undefined is no bound: fmin then keeps that of the whole
-        high = np.fmin(high, np.concatenate([top[chosen], top[chosen]]))
-        seen += len(high)
-        if low.max() > inside:
-            inside, state = float(low.max()), halves[0][np.argmax(low)]
-        keep = high > inside
-        kept = rest & (top > inside)
-        middle = np.concatenate([middle[kept], halves[0][keep]])
-        width = np.concatenate([width[kept], halves[1][keep]])
-        top = np.concatenate([top[kept], high[keep]])
-        if on_progress is not None:
-            on_progress(seen / max_boxes, f"{seen} boxes")
-    outside = max(inside, float(top.max())) if len(top) else inside
-    return Largest(inside, outside, tuple(float(x) for x in state), seen)
-
-
-def _halves(middle: Array, width: Array, influence: Influence) -> tuple[Array, Array]:
-    """Both halves of every box; they overlap by the rounding of their middles."""
-    rows = np.arange(len(middle))
-    side = np.argmax(influence(middle, width), axis=1)
-    half = width.copy()
-    half[rows, side] *= 0.5
-    step = np.zeros_like(middle)
-    step[rows, side] = half[rows, side]
-    wider = half.copy()
-    wider[rows, side] = np.nextafter(half[rows, side] * (1 + 1e-15), np.inf) + 1e-15
-    return np.concatenate([middle - step, middle + step]), np.concatenate([wider, wider])
-
 
 # --- What is known of the constants of an arm for all angles before any box: from its links.
 
@@ -127,6 +43,7 @@ def _length(vector: Sequence[Fraction]) -> Fraction:
 _SAMPLES = 1024
 _BLOCK = 64
 _ROUNDS = 40
+_BATCH = 128
 
 
 @dataclass(frozen=True)
@@ -182,19 +99,6 @@ class SupremumTask:
     sign: int = 1
     cost: int = 1
 
-    def bounds(self, middle: Array, half: Array) -> tuple[Array, Array]:
-        """What the function is at least in the middles of boxes, and at most on them."""
-        affine = self.torus.on(middle, half)
-        return self.value(affine.value), self.most(affine)
-
-    def at(self, states: Array) -> Array:
-        """What the function is at least at states, given by their coordinates."""
-        return self.value(self.torus.at(states))
-
-    def influence(self, middle: Array, half: Array) -> Array:
-        """How much each side of a box matters."""
-        return self.torus.influence(half, self.weight)
-
     def solve(
         self,
         max_boxes: int,
@@ -207,27 +111,68 @@ class SupremumTask:
         Args:
             max_boxes: budget in boxes of cost 1.
             gap: relative width that is good enough.
-            on_progress: receives the share of the budget used.
             known: a bound of the constant from outside.
         """
         half = np.zeros(self.torus.n)
         half[list(self.torus.angles)] = PI_ABOVE
-        start = climb(self.at, half)
-        witness = start, float(self.at(start[None])[0])
-        most = ceiling(known, self.sign)
-        budget = max_boxes // self.cost
-        result = maximise(half, self.bounds, self.influence, witness, budget, gap, most, on_progress)
-        outside = Fraction(self.sign * result.outside)
+        start = climb(lambda states: self.value(self.torus.at(states)), half)
+        most, budget = ceiling(known, self.sign), max_boxes // self.cost
+        inside, outside, coordinates, boxes = self._enclosed(half, start, budget, gap, most, on_progress)
+        bound = Fraction(self.sign * outside)
         if known is not None:
-            outside = self.sign * min(self.sign * known, self.sign * outside)
-        ends = sorted((Fraction(self.sign * result.inside), outside))
+            bound = self.sign * min(self.sign * known, self.sign * bound)
+        ends = sorted((Fraction(self.sign * inside), bound))
         # a norm is never negative, however much its bound from below is rounded
         low, high = (max(x, Fraction(0)) for x in ends) if self.sign > 0 else ends
-        coordinates = np.array(result.state)
-        state = tuple(self.torus.angles_at(coordinates).tolist())
-        if self.shown is not None:
-            state = self.shown(coordinates)
-        return ConstantResult(self.name, self.unit, Enclosure(low, high), state, result.boxes)
+        shown = self.shown or (lambda p: tuple(self.torus.angles_at(p).tolist()))
+        return ConstantResult(self.name, self.unit, Enclosure(low, high), shown(coordinates), boxes)
+
+    def _enclosed(
+        self, half: Array, state: Array, max_boxes: int, gap: float, most: float, on_progress: Progress | None
+    ) -> tuple[float, float, Array, int]:
+        """The supremum over [−half, half] from both sides, the state of the inner end, and the boxes it took.
+
+        Boxes are halved where the bound is largest: best first, and stopped at any time.
+
+        Soundness: halves cover their box, and one is dropped only when its bound is not above the inner end.
+        """
+        inside = float(self.value(self.torus.at(state[None]))[0])
+        middle, width = np.zeros((1, len(half))), half[None]
+        top = np.fmin(self.most(self.torus.on(middle, width)), most)
+        seen = 1
+        while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
+            chosen = np.argsort(-top, kind="stable")[: min(_BATCH, (max_boxes - seen) // 2)]
+            rest = np.ones(len(top), dtype=np.bool_)
+            rest[chosen] = False
+            side = np.argmax(self.torus.influence(width[chosen], self.weight), axis=1)
+            halves = _halves(middle[chosen], width[chosen], side)
+            affine = self.torus.on(*halves)
+            low, high = self.value(affine.value), self.most(affine)
+            # a bound that is undefined is no bound: fmin then keeps that of the whole
+            high = np.fmin(high, np.concatenate([top[chosen], top[chosen]]))
+            seen += len(high)
+            if low.max() > inside:
+                inside, state = float(low.max()), halves[0][np.argmax(low)]
+            keep = high > inside
+            kept = rest & (top > inside)
+            middle = np.concatenate([middle[kept], halves[0][keep]])
+            width = np.concatenate([width[kept], halves[1][keep]])
+            top = np.concatenate([top[kept], high[keep]])
+            if on_progress is not None:
+                on_progress(seen / max_boxes, f"{seen} boxes")
+        return inside, max(inside, float(top.max())) if len(top) else inside, state, seen
+
+
+def _halves(middle: Array, width: Array, side: NDArray[np.intp]) -> tuple[Array, Array]:
+    """Both halves of every box; they overlap by the rounding of their middles."""
+    rows = np.arange(len(middle))
+    half = width.copy()
+    half[rows, side] *= 0.5
+    step = np.zeros_like(middle)
+    step[rows, side] = half[rows, side]
+    wider = half.copy()
+    wider[rows, side] = np.nextafter(half[rows, side] * (1 + 1e-15), np.inf) + 1e-15
+    return np.concatenate([middle - step, middle + step]), np.concatenate([wider, wider])
 
 
 def climb(merit: Callable[[Array], Array], half: Array) -> Array:

@@ -331,7 +331,6 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProo
     """The best bound of λmin(M), λmax(M), k_c, ‖g‖ or a |g_i| that the checker accepts; ``None`` without.
 
     Args:
-        chain: the arm.
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
     """
@@ -370,13 +369,6 @@ def _question(chain: Chain, name: str) -> tuple[StorageProblem, Bound]:
     joints = range(chain.n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
     counted = tuple(i + 1 for i in joints)
     return weight_problem(chain, joints), ChainGravityBelow(chain.links, chain.fall, counted, zero)
-
-
-def bound_of(chain: Chain, name: str, value: Fraction) -> Bound:
-    """The bound of a constant of a chain as a statement: λmin(M) from below, the others from above."""
-    if name == "k_c":
-        return ChainCoriolisBelow(chain.links, value)
-    return with_end(_question(chain, name)[1], value)
 
 
 def with_end(statement: Bound, value: Fraction) -> Bound:

@@ -12,33 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.numbers.harmonics import Harmonics
-
-# --- The functions of which polynomials are sums, at many states: cosines and sines of sums of angles.
-
-
-Rows = list[dict[int, Fraction]]
-
-
-def basis_of(entries: Sequence[Harmonics], n: int) -> tuple[Sums, Rows]:
-    """A basis for some polynomials, and each of them as its numbers by the row of the function."""
-    sums = [{(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries]
-    keys = sorted({key for entry in sums for key in entry}) or [((0,) * n, 0)]
-    places = {key: row for row, key in enumerate(keys)}
-    rows_of = [{places[key]: x for key, x in entry.items()} for entry in sums]
-    sizes = np.zeros(len(keys))
-    for entry_rows in rows_of:
-        for row, x in entry_rows.items():
-            sizes[row] += abs(float(x))
-    multiples, back = _sheared(np.array([k for k, _ in keys], dtype=np.float64), sizes)
-    return Sums(multiples, np.array([sine for _, sine in keys]) > 0, back), rows_of
 
 
 def _sheared(multiples: Array, sizes: Array) -> tuple[Array, Array]:
@@ -56,47 +35,6 @@ def _sheared(multiples: Array, sizes: Array) -> tuple[Array, Array]:
             shear[i + 1, i] = sign
             multiples, back = other, back @ shear
     return multiples, back
-
-
-class Sums:
-    """cos(k·p) and sin(k·p) of coordinates p with q = back p, where back is whole and of determinant ±1.
-
-    ``frequency`` bounds how fast each turns with each coordinate, (functions, n).
-    """
-
-    def __init__(self, multiples: Array, sine: NDArray[np.bool_], back: Array) -> None:
-        self.multiples, self.sine, self.back = multiples, sine, back
-        self.frequency: Array = np.abs(multiples)
-
-    def at(self, p: Array) -> SumsAt:
-        """The functions at coordinates (count, n)."""
-        return SumsAt(self, p @ self.multiples.T)
-
-
-class SumsAt:
-    """The functions at some states."""
-
-    def __init__(self, basis: Sums, angle: Array) -> None:
-        sine, cosine = np.sin(angle), np.cos(angle)
-        self.values: Array = np.where(basis.sine, sine, cosine)
-        self._turned = np.where(basis.sine, cosine, -sine)
-        self._multiples = basis.multiples
-
-    def bent(self, turn: Array) -> tuple[Array, Array]:
-        """Middle and radius of what the functions are beyond their linear part, where they turn that far.
-
-        v cos d + u sin d at the distance d, v itself and u its slope: what is left of it without u d.
-
-        Args:
-            turn: how far at most in rad, not above π; one number a function.
-        """
-        least = np.cos(turn)
-        radius = np.abs(self.values) * 0.5 * (1 - least) + np.abs(self._turned) * (turn - np.sin(turn))
-        return self.values * 0.5 * (1 + least), radius
-
-    def slopes(self, i: int) -> Array:
-        """Their derivatives with respect to the i-th coordinate."""
-        return np.asarray(self._turned * self._multiples[:, i])
 
 
 PI_ABOVE = 3.1415926535897936
@@ -143,16 +81,27 @@ class Torus:
 
     def __init__(self, entries: Sequence[Harmonics], n: int) -> None:
         self.n = n
-        self._basis, rows = basis_of(entries, n)
-        coefficients = np.zeros((len(self._basis.frequency), len(entries)))
-        for column, entry in enumerate(rows):
-            for row, value in entry.items():
-                coefficients[row, column] = float(value)
-        self._coefficients: Array = coefficients
-        self._sizes: Array = np.abs(coefficients)
+        sums = [
+            {(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries
+        ]
+        keys = sorted({key for entry in sums for key in entry}) or [((0,) * n, 0)]
+        coefficients = np.array([[float(entry.get(key, 0)) for entry in sums] for key in keys])
+        self._coefficients: Array = coefficients.reshape(len(keys), len(entries))
+        self._sizes: Array = np.abs(self._coefficients)
         self.slack: Array = SLACK * self._sizes.sum(axis=0)
+        # q = back p, where back is whole and of determinant ±1
+        multiples = np.array([k for k, _ in keys], dtype=np.float64)
+        self._multiples, self._back = _sheared(multiples, self._sizes.sum(axis=1))
+        self._sine = np.array([sine for _, sine in keys]) > 0
+        self._frequency: Array = np.abs(self._multiples)
         used = self._sizes.any(axis=1)
-        self.angles = tuple(np.flatnonzero(self._basis.frequency[used].any(axis=0)).tolist())
+        self.angles = tuple(np.flatnonzero(self._frequency[used].any(axis=0)).tolist())
+
+    def _harmonics(self, p: Array) -> tuple[Array, Array]:
+        """cos(k·p) and sin(k·p) at coordinates (count, n), and their slopes by the angle k·p."""
+        angle = p @ self._multiples.T
+        sine, cosine = np.sin(angle), np.cos(angle)
+        return np.where(self._sine, sine, cosine), np.where(self._sine, cosine, -sine)
 
     @property
     def lost(self) -> float:
@@ -161,33 +110,38 @@ class Torus:
 
     def at(self, states: Array) -> Array:
         """Values at states, given by their coordinates (count, n); up to ``slack``."""
-        return np.asarray(self._basis.at(states).values @ self._coefficients)
+        return np.asarray(self._harmonics(states)[0] @ self._coefficients)
 
     def on(self, middle: Array, half: Array) -> AffineForms:
         """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
-        at = self._basis.at(middle)
-        turn = half @ self._basis.frequency.T
+        values, turned = self._harmonics(middle)
+        turn = half @ self._frequency.T
         near = turn < _NEAR
-        low, high = np.maximum(at.values - turn, -1.0), np.minimum(at.values + turn, 1.0)
-        bent, rest = at.bent(np.minimum(turn, _NEAR))
-        middles = np.where(near, bent, 0.5 * (low + high))
-        radius = np.where(near, rest, 0.5 * (high - low)) @ self._sizes + self.slack
+        low, high = np.maximum(values - turn, -1.0), np.minimum(values + turn, 1.0)
+        # v cos d + u sin d at the distance d, v the value and u the slope: what is left of it without u d
+        most = np.minimum(turn, _NEAR)
+        least = np.cos(most)
+        bent = np.abs(values) * 0.5 * (1 - least) + np.abs(turned) * (most - np.sin(most))
+        middles = np.where(near, values * 0.5 * (1 + least), 0.5 * (low + high))
+        radius = np.where(near, bent, 0.5 * (high - low)) @ self._sizes + self.slack
         linear = np.zeros((len(middle), 0, len(self.slack)))
         if half.any():
+            slopes = (turned * self._multiples[:, i] for i in self.angles)
             parts = [
-                (np.where(near, at.slopes(i), 0.0) @ self._coefficients) * half[:, [i]] for i in self.angles
+                (np.where(near, slope, 0.0) @ self._coefficients) * half[:, [i]]
+                for i, slope in zip(self.angles, slopes, strict=True)
             ]
             linear = np.stack(parts, axis=1) if parts else linear
-        value, middle = at.values @ self._coefficients, middles @ self._coefficients
+        value, middle = values @ self._coefficients, middles @ self._coefficients
         return AffineForms(value, middle, linear, radius * (1.0 + 1e-9))
 
     def angles_at(self, p: Array) -> Array:
         """The joint angles of coordinates (n,), rad, each within one turn around 0."""
-        q = self._basis.back @ p
+        q = self._back @ p
         return np.asarray(q - 2 * np.pi * np.round(q / (2 * np.pi)))
 
     def influence(self, half: Array, weight: Array) -> Array:
         """How much of the reach each angle causes, roughly, (boxes, n); ``weight`` is one number an entry."""
-        turn = half @ self._basis.frequency.T
+        turn = half @ self._frequency.T
         share = (np.minimum(turn, 2.0) / np.maximum(turn, 1e-300)) * (self._sizes @ weight)
-        return np.asarray(half * (share @ self._basis.frequency))
+        return np.asarray(half * (share @ self._frequency))

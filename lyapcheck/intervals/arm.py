@@ -24,7 +24,7 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.intervals.interval import TINY, Interval, cosine, sine, widened
 
-Place = tuple[int, ...]
+Place = tuple[int, int, int]
 Columns = dict[Harmonic, tuple[Interval, Interval]]
 
 
@@ -94,31 +94,16 @@ class ArmBox:
         return natural.meet(mean)
 
 
-def coriolis(symbols: Mapping[Place, Interval], h: list[Interval]) -> list[list[Interval | float]]:
-    """C(q, h)_ij = Σ_k c_ijk h_k."""
-    n = len(h)
-    rows: list[list[Interval | float]] = [[0.0] * n for _ in range(n)]
-    for (i, j, k), symbol in symbols.items():
-        rows[i][j] = symbol * h[k] + rows[i][j]
-        if k != j:
-            rows[i][k] = symbol * h[j] + rows[i][k]
-    return rows
-
-
 def _columns(arm: ArmIntervals, q: list[Interval]) -> Columns:
     """cos and sin of every harmonic that occurs."""
     entries = (*arm.mass.values(), *arm.christoffel.values())
     used = {k for entry in entries for terms in entry.values() for k in terms if any(k)}
     columns: Columns = {}
     for k in sorted(used):
-        angle = _angle(k, q)
+        parts = [x * float(factor) for factor, x in zip(k, q, strict=True) if factor]
+        angle = sum(parts[1:], parts[0])
         columns[k] = cosine(angle), sine(angle)
     return columns
-
-
-def _angle(k: Harmonic, q: list[Interval]) -> Interval:
-    parts = [x * float(factor) for factor, x in zip(k, q, strict=True) if factor]
-    return sum(parts[1:], parts[0])
 
 
 def combine(terms: Mapping[Harmonic, Gaussian], columns: Columns) -> Interval:
@@ -191,7 +176,12 @@ def _range(
     slack: float,
     least: Array | float,
 ) -> Interval:
-    a, b = _at_ends(function, x)
+    # the function at both ends; boxes made by halving share most ends, and equal ones are done once
+    ends = np.concatenate([np.ravel(x.lo), np.ravel(x.hi)])
+    distinct, index = np.unique(ends, return_inverse=True)
+    values = function(distinct)[index.ravel()]
+    half = values.size // 2
+    a, b = values[:half].reshape(np.shape(x.lo)), values[half:].reshape(np.shape(x.hi))
     result = widened(np.minimum(a, b), np.maximum(a, b), slack, least)
     low, high = result.lo, result.hi
     for point in extrema:
@@ -199,15 +189,6 @@ def _range(
         low = np.where(inside, np.minimum(low, point.value[0]), low)
         high = np.where(inside, np.maximum(high, point.value[1]), high)
     return Interval(low, high)
-
-
-def _at_ends(function: Callable[[Array], Array], x: Interval) -> tuple[Array, Array]:
-    """The function at both ends; boxes made by halving share most ends, and equal ones are done once."""
-    ends = np.concatenate([np.ravel(x.lo), np.ravel(x.hi)])
-    distinct, index = np.unique(ends, return_inverse=True)
-    values = function(distinct)[index.ravel()]
-    half = values.size // 2
-    return values[:half].reshape(np.shape(x.lo)), values[half:].reshape(np.shape(x.hi))
 
 
 @lru_cache(maxsize=256)

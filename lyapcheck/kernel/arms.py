@@ -61,7 +61,14 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     """
     loop = statement.closed_loop
     if isinstance(proof, StateWitness):
-        return _by_state(loop, proof)
+        parts = _robot(loop) | {
+            "q": exact_list(proof.q),
+            "e": exact_list(proof.e),
+            "w": exact_list(proof.w),
+            "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m} 0)",
+            "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m} 0)",
+        }
+        return _applied("falsified_by_state", parts)
     if certifies(loop.tail, loop.eps0):
         return by_norms(loop)
     if isinstance(proof, LargerKv):  # P is larger for a smaller K_v, so that the tree serves as it is
@@ -69,7 +76,21 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
         rule = proof.rate.rule if isinstance(proof, PositiveAndDecreasing) else proof.rule
         raise NotPrinted(f"a proof by {rule}")
-    return _by_boxes(loop, proof.rate.tree)
+    parts = _parts(loop)
+    count, n = len(loop.angles), loop.n
+    errors = loop.start[count : count + n]
+    signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
+    parts |= {
+        "Lq": exact(Fraction(1) if loop.m == 1 else _four_digits(loop.member.L)),
+        "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
+        "signs": f"[{signs}]",
+        "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
+        "hI": _range("h", loop.m),
+        "dhI": _range("dh", loop.m),
+        "more": f"{MORE_HALVINGS}%nat",
+        "tree": _text(_finer(loop, proof.rate.tree)),
+    }
+    return _applied("certified_by_boxes", parts)
 
 
 def _finer(loop: ClosedLoop, tree: str) -> str:
@@ -96,17 +117,6 @@ def _finer(loop: ClosedLoop, tree: str) -> str:
     return cover(np.array(loop.start).T[None], problem.proved, sides, MOST_BOXES).tree or tree
 
 
-def _by_state(loop: ClosedLoop, state: StateWitness) -> str:
-    parts = _robot(loop) | {
-        "q": exact_list(state.q),
-        "e": exact_list(state.e),
-        "w": exact_list(state.w),
-        "hI": "h1_I" if loop.m == 1 else f"(h_I {loop.m} 0)",
-        "dhI": "dh1_I" if loop.m == 1 else f"(dh_I {loop.m} 0)",
-    }
-    return _applied("falsified_by_state", parts)
-
-
 def by_norms(loop: ClosedLoop, moving: bool = False) -> str:
     """The tactics for ``certified``, or for a goal that moves, where norms alone show it."""
     return _applied("certified_tracking_by_norms" if moving else "certified_by_norms", _parts(loop))
@@ -119,24 +129,6 @@ def _parts(loop: ClosedLoop) -> dict[str, str]:
         "c1": exact(min(loop.kp) * LITTLE),
         "c2": exact(min(loop.arm.viscous) * LITTLE),
     }
-
-
-def _by_boxes(loop: ClosedLoop, tree: str) -> str:
-    parts = _parts(loop)
-    count, n = len(loop.angles), loop.n
-    errors = loop.start[count : count + n]
-    signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
-    parts |= {
-        "Lq": exact(Fraction(1) if loop.m == 1 else _four_digits(loop.member.L)),
-        "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
-        "signs": f"[{signs}]",
-        "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
-        "hI": _range("h", loop.m),
-        "dhI": _range("dh", loop.m),
-        "more": f"{MORE_HALVINGS}%nat",
-        "tree": _text(_finer(loop, tree)),
-    }
-    return _applied("certified_by_boxes", parts)
 
 
 def property_script(statement: OfArm, proof: Proof) -> str:

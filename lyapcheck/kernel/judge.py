@@ -58,7 +58,6 @@ def judged(outcome: Outcome, folder: Path, seconds: int, progress: Callable[[str
         outcome: of the small checker.
         folder: where the files for Coq are written.
         seconds: the most that one of them may take.
-        progress: receives a note on what is going on.
 
     Raises:
         InputError: there is no Coq.

@@ -64,7 +64,13 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     if isinstance(statement, Decreasing) and (verdict == "proved" or isinstance(proof, StateWitness)):
         return arm_script(statement, proof)
     if isinstance(statement, DampingBelow) and isinstance(proof, DampingAbove):
-        return _above(statement, proof)
+        # gains that break the bound, for which dV/dt < 0 is proved
+        decreasing = arm_script(statement.with_damping(proof.factor, proof.eps0), proof.decreasing)
+        numbers = f"{exact(proof.factor)} {exact(proof.eps0)}"
+        return (
+            f"{facts(statement)}apply (damping_above _ _ _ _ _ _ {numbers}); "
+            f"[reflexivity|reflexivity|{decreasing.rstrip('.')}|open_rationals; numbers]."
+        )
     if verdict == "proved":
         return facts(statement) + proved(statement, proof)
     if isinstance(statement, AllOf) and isinstance(proof, OnePart):
@@ -72,16 +78,6 @@ def script(statement: Statement, proof: Proof, verdict: str) -> str:
     if isinstance(statement, GateAccepted):
         return gate_refutation_script(statement, proof)
     return facts(statement) + _refuted(statement, proof)
-
-
-def _above(statement: DampingBelow, proof: DampingAbove) -> str:
-    """Gains that break the bound, for which dV/dt < 0 is proved."""
-    decreasing = arm_script(statement.with_damping(proof.factor, proof.eps0), proof.decreasing)
-    numbers = f"{exact(proof.factor)} {exact(proof.eps0)}"
-    return (
-        f"{facts(statement)}apply (damping_above _ _ _ _ _ _ {numbers}); "
-        f"[reflexivity|reflexivity|{decreasing.rstrip('.')}|open_rationals; numbers]."
-    )
 
 
 @singledispatch

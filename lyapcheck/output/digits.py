@@ -109,7 +109,12 @@ def _safe(x: Exact, digits: int, *, upward: bool) -> str:
     units = math.ceil(scaled) if upward else math.floor(scaled)
     while units % 10 == 0:
         units, power = units // 10, power + 1
-    return _written(units, power)
+    # ``units`` times 10^power, with an exponent only where the number is very large or small
+    last = len(str(abs(units))) - 1
+    if power + last in PLAIN:
+        return _decimal(units, -power) if power < 0 else str(units * 10**power)
+    text = _decimal(units, last)
+    return f"{text}e{power + last:+d}"
 
 
 def _end(x: Exact, upward: bool) -> Fraction | float:
@@ -124,7 +129,10 @@ def _end(x: Exact, upward: bool) -> Fraction | float:
         if x.is_nan():
             raise ValueError("a ball that is not a number has no decimal")
         if not x.is_finite():
-            return _infinite_end(x, upward)
+            # the infinity that such a ball reaches on that side
+            if x.mid().is_finite():
+                return math.inf if upward else -math.inf
+            return math.inf if x > 0 else -math.inf
         ends = Enclosure.from_arb(x)
         return ends.upper if upward else ends.lower
     if isinstance(x, float) and not math.isfinite(x):
@@ -132,22 +140,6 @@ def _end(x: Exact, upward: bool) -> Fraction | float:
             raise ValueError("nan has no decimal")
         return x
     return Fraction(x)
-
-
-def _infinite_end(x: arb, upward: bool) -> float:
-    """The infinity that such a ball reaches on that side."""
-    if x.mid().is_finite():
-        return math.inf if upward else -math.inf
-    return math.inf if x > 0 else -math.inf
-
-
-def _written(units: int, power: int) -> str:
-    """``units`` times 10^power, with an exponent only where the number is very large or small."""
-    last = len(str(abs(units))) - 1
-    if power + last in PLAIN:
-        return _decimal(units, -power) if power < 0 else str(units * 10**power)
-    text = _decimal(units, last)
-    return f"{text}e{power + last:+d}"
 
 
 def _places(number: Enclosure, digits: int) -> int:

@@ -4,17 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from lyapcheck.output.document import (
-    Block,
-    Bullets,
-    Code,
-    Document,
-    Equation,
-    Figure,
-    Paragraph,
-    Section,
-    Table,
-)
+from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import latex_text, printable
 
 LONGEST = 40
@@ -23,57 +13,49 @@ PARAGRAPH = 0.4
 HEADINGS = (r"\section*", r"\subsection*", r"\subsubsection*", r"\paragraph*")
 
 
-def render(document: Document) -> str:
+def render(document: doc.Document) -> str:
     """The whole document; signs beyond letters and formulas need a typesetter that knows Unicode."""
     lines = [f"{HEADINGS[0]}{{{latex_text(document.title)}}}", *_blocks(document.body, 1)]
     return "\n".join(lines) + "\n"
 
 
-def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
+def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
     for block in blocks:
         yield ""
         yield from _block(block, level)
 
 
-def _block(block: Block, level: int) -> Iterator[str]:
+def _block(block: doc.Block, level: int) -> Iterator[str]:
     match block:
-        case Paragraph(text):
+        case doc.Paragraph(text):
             yield latex_text(text)
-        case Bullets(items):
-            yield from _bullets(items)
-        case Code(text):
+        case doc.Bullets(items):
+            yield r"\begin{itemize}"
+            yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
+            yield r"\end{itemize}"
+        case doc.Code(text):
             yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
-        case Equation(_, latex):
+        case doc.Equation(_, latex):
             yield from (r"\[", printable(latex), r"\]")
-        case Figure(path, caption):
+        case doc.Figure(path, caption):
             yield from (latex_text(caption), r"\begin{quote}\ttfamily", latex_text(path), r"\end{quote}")
-        case Section(title, blocks):
+        case doc.Section(title, blocks):
             yield f"{HEADINGS[min(level, len(HEADINGS) - 1)]}{{{latex_text(title)}}}"
             yield from _blocks(blocks, level + 1)
-        case Table():
-            yield from _table(block)
+        case doc.Table():
+            if block.caption:
+                yield from (latex_text(block.caption), "")
+            columns = map(_column, zip(block.heads, *block.rows, strict=True), block.align)
+            yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
+            yield r"\hline"
+            yield _row(block.heads)
+            yield r"\hline"
+            yield from map(_row, block.rows)
+            yield from (r"\hline", r"\end{tabular}")
 
 
 def _lines(text: str) -> Iterator[str]:
     return (rf"{latex_text(printable(line))}\\" for line in text.splitlines() if line.strip())
-
-
-def _bullets(items: Iterable[str]) -> Iterator[str]:
-    yield r"\begin{itemize}"
-    yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
-    yield r"\end{itemize}"
-
-
-def _table(table: Table) -> Iterator[str]:
-    if table.caption:
-        yield from (latex_text(table.caption), "")
-    columns = map(_column, zip(table.heads, *table.rows, strict=True), table.align)
-    yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
-    yield r"\hline"
-    yield _row(table.heads)
-    yield r"\hline"
-    yield from map(_row, table.rows)
-    yield from (r"\hline", r"\end{tabular}")
 
 
 def _column(cells: Sequence[str], side: str) -> str:

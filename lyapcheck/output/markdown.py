@@ -6,48 +6,38 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from urllib.parse import quote
 
-from lyapcheck.output.document import (
-    Block,
-    Bullets,
-    Code,
-    Document,
-    Equation,
-    Figure,
-    Paragraph,
-    Section,
-    Table,
-)
+from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import markdown_text, printable
 
 
-def render(document: Document, level: int = 1) -> str:
+def render(document: doc.Document, level: int = 1) -> str:
     """The whole document, its title a heading of a level."""
     lines = [f"{'#' * level} {markdown_text(document.title)}", *_blocks(document.body, level + 1)]
     return "\n".join(lines) + "\n"
 
 
-def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
+def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
     for block in blocks:
         yield ""
         yield from _block(block, level)
 
 
-def _block(block: Block, level: int) -> Iterator[str]:
+def _block(block: doc.Block, level: int) -> Iterator[str]:
     match block:
-        case Paragraph(text):
+        case doc.Paragraph(text):
             yield markdown_text(text)
-        case Bullets(items):
+        case doc.Bullets(items):
             yield from _bullets(items)
-        case Code(text):
+        case doc.Code(text):
             yield from _fenced(text)
-        case Equation(_, latex):
+        case doc.Equation(_, latex):
             yield from _fenced(latex, "math")
-        case Figure(path, caption):
+        case doc.Figure(path, caption):
             yield from (f"![{markdown_text(caption)}]({quote(path)})", "", markdown_text(caption))
-        case Section(title, blocks):
+        case doc.Section(title, blocks):
             yield f"{'#' * min(level, 6)} {markdown_text(title)}"
             yield from _blocks(blocks, level + 1)
-        case Table():
+        case doc.Table():
             if block.caption:
                 yield from (markdown_text(block.caption), "")
             yield _row(block.heads)

@@ -32,7 +32,6 @@ def element(name: str, /, *children: Child, **attributes: str | int | float | bo
     """An element, its text and attributes escaped.
 
     Args:
-        name: of the element.
         children: text, markup, or any nesting of both; ``None`` is nothing.
         attributes: ``class_`` is class, ``data_m`` is data-m; ``True`` stands without a value, ``None`` and
             ``False`` not at all.

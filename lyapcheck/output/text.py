@@ -8,17 +8,7 @@ from itertools import zip_longest
 from textwrap import wrap
 from unicodedata import combining, east_asian_width
 
-from lyapcheck.output.document import (
-    Block,
-    Bullets,
-    Code,
-    Document,
-    Equation,
-    Figure,
-    Paragraph,
-    Section,
-    Table,
-)
+from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import printable
 
 WIDTH = 80
@@ -37,7 +27,7 @@ COLOURS = {
 """Of cells that are one of these words, and of titles that begin with one."""
 
 
-def render(document: Document, colour: bool = False) -> str:
+def render(document: doc.Document, colour: bool = False) -> str:
     """The whole document; lines end where they must, also within words that no line could hold."""
     writer = _Writer(colour)
     lines = [writer.title(document.title, "═"), *writer.blocks(document.body)]
@@ -63,25 +53,25 @@ class _Writer:
             else self._in(BOLD, line)
         )
 
-    def blocks(self, blocks: Iterable[Block]) -> Iterator[str]:
+    def blocks(self, blocks: Iterable[doc.Block]) -> Iterator[str]:
         for block in blocks:
             yield ""
             yield from self.block(block)
 
-    def block(self, block: Block) -> Iterator[str]:
+    def block(self, block: doc.Block) -> Iterator[str]:
         match block:
-            case Paragraph(text):
+            case doc.Paragraph(text):
                 yield from _wrapped(text)
-            case Bullets(items):
+            case doc.Bullets(items):
                 yield from self.bullets(items)
-            case Code(text) | Equation(text):
+            case doc.Code(text) | doc.Equation(text):
                 yield from (f"    {printable(line)}" for line in text.splitlines())
-            case Figure(path, caption):
+            case doc.Figure(path, caption):
                 yield from _wrapped(f"{caption} [{path}]")
-            case Section(title, blocks):
+            case doc.Section(title, blocks):
                 yield self.title(title, "─")
                 yield from self.blocks(blocks)
-            case Table():
+            case doc.Table():
                 yield from self.table(block)
 
     def bullets(self, items: Iterable[str]) -> Iterator[str]:
@@ -90,7 +80,7 @@ class _Writer:
             yield f"- {first}"
             yield from (f"  {line}" for line in rest)
 
-    def table(self, table: Table) -> Iterator[str]:
+    def table(self, table: doc.Table) -> Iterator[str]:
         if table.caption:
             yield from _wrapped(table.caption)
         cells = [tuple(map(printable, row)) for row in (table.heads, *table.rows)]
@@ -137,7 +127,7 @@ class _Writer:
         return f"{style}{text}{PLAIN}" if self.colour and style and text else text
 
 
-def _sheets(table: Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
+def _sheets(table: doc.Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
     """The columns that fit side by side, the keys with each lot of them."""
     least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), table.align, strict=True)]
     keys = list(range(min(table.keys, len(least))))

@@ -7,17 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from lyapcheck.output.document import (
-    Block,
-    Bullets,
-    Code,
-    Document,
-    Equation,
-    Figure,
-    Paragraph,
-    Section,
-    Table,
-)
+from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import printable
 
 LAYOUT = """#set document(title: {title}, date: none)
@@ -41,7 +31,7 @@ WIDE = 9
 """A column of words that is longer than this many characters shares the width that others leave."""
 
 
-def markup(document: Document, running: str) -> str:
+def markup(document: doc.Document, running: str) -> str:
     """The whole document.
 
     Args:
@@ -58,38 +48,38 @@ def quoted(text: str) -> str:
     return '"' + printable(text).replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
-def _blocks(blocks: Iterable[Block], level: int) -> Iterator[str]:
+def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
     for block in blocks:
         yield ""
         match block:
-            case Paragraph(text):
+            case doc.Paragraph(text):
                 yield f"#par[#{quoted(text)}]"
-            case Bullets(items):
+            case doc.Bullets(items):
                 yield from (f"- #{quoted(item)}" for item in items)
-            case Code(text) | Equation(text):
+            case doc.Code(text) | doc.Equation(text):
                 yield f"#raw(block: true, {quoted_lines(text)})"
-            case Figure(path, caption):
+            case doc.Figure(path, caption):
                 words = f"caption: [#{quoted(caption)}]"
                 image = f"image({quoted(path)}, height: 28mm)"
                 yield f"#figure({image}, {words}, numbering: none)"
-            case Section(title, inner):
+            case doc.Section(title, inner):
                 yield f"#heading(level: {level}, {quoted(title)})"
                 yield from _beside(inner) if _ends_drawn(inner) else _blocks(inner, level + 1)
-            case Table():
+            case doc.Table():
                 yield from _table(block)
 
 
-def _ends_drawn(blocks: tuple[Block, ...]) -> bool:
+def _ends_drawn(blocks: tuple[doc.Block, ...]) -> bool:
     """Whether words, and nothing wide, end with a drawing."""
     *words, last = blocks or (None,)
     return (
         bool(words)
-        and isinstance(last, Figure)
-        and all(isinstance(one, Paragraph | Bullets) for one in words)
+        and isinstance(last, doc.Figure)
+        and all(isinstance(one, doc.Paragraph | doc.Bullets) for one in words)
     )
 
 
-def _beside(blocks: tuple[Block, ...]) -> Iterator[str]:
+def _beside(blocks: tuple[doc.Block, ...]) -> Iterator[str]:
     """Words on the left, the drawing that ends them on the right."""
     yield "#grid(columns: (1fr, 62mm), column-gutter: 5mm, ["
     yield from _blocks(blocks[:-1], 0)
@@ -103,7 +93,7 @@ def quoted_lines(text: str) -> str:
     return ' + "\\n" + '.join(map(quoted, text.splitlines())) or '""'
 
 
-def _table(table: Table) -> Iterator[str]:
+def _table(table: doc.Table) -> Iterator[str]:
     columns = zip(table.heads, *table.rows, strict=True)
     widths = (
         "1fr" if side == "l" and max(map(len, cells)) > 3 * WIDE else "auto"

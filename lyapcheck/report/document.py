@@ -69,7 +69,7 @@ class ReportAnswer(Answer):
             "epsilon": [plain(row) for row in report.epsilon],
             "claims": [row.data() for row in report.claims],
             "others": [row.data() for row in report.others],
-            "runs": [plain(row) for row in report.runs],
+            "runs": [vars(row) for row in report.runs],
             "sensitivity": report.sensitivity and plain(report.sensitivity),
             "figures": sorted(report.figures),
             "certificates": sorted(report.certificates),
@@ -81,7 +81,10 @@ class ReportAnswer(Answer):
         """A row a claim."""
         keys = ("proof", "id", "m", "n", "verdict", "grade", "comment")
         rows = [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
-        return [data | {"verdict": row.word} for data, row in zip(rows, self.report.every_claim, strict=True)]
+        return [
+            data | {"verdict": row.decision.word}
+            for data, row in zip(rows, self.report.every_claim, strict=True)
+        ]
 
 
 def _robot(model: RobotModel) -> dict[str, Any]:
@@ -161,12 +164,12 @@ def _claims(report: Report) -> Iterator[Section]:
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
             shown = ", ".join(
-                f"{SYMBOLS[row.verdict]} {row.word}" + (f" ({row.about})" if row.about else "")
+                f"{SYMBOLS[row.verdict]} {row.decision.word}" + (f" ({row.about})" if row.about else "")
                 for row in result
             )
             if len({row.verdict for row in result}) == 1:
                 ms = [str(row.m) for row in result if row.m is not None]
-                shown = f"{SYMBOLS[result[0].verdict]} {result[0].word}" + (
+                shown = f"{SYMBOLS[result[0].verdict]} {result[0].decision.word}" + (
                     f" (m = {', '.join(ms)})" if ms else ""
                 )
             grades = ", ".join(sorted({row.grade for row in result}))
@@ -194,7 +197,6 @@ def render(report: Report, appendix: bool = False) -> bytes:
     """A PDF of a few pages; the same report gives the same bytes.
 
     Args:
-        report: what it says.
         appendix: whether claims, gate, runs and the experiment follow one by one.
     """
     import typst

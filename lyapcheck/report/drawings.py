@@ -10,16 +10,16 @@ from lyapcheck.report.gain_rows import KINDS
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
+    from lyapcheck.report.experiment import StudyRow
     from lyapcheck.report.figures.style import Files
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.jobs import GainData
-    from lyapcheck.report.study import StudyRow
 
 
 def draw_family(ms: Sequence[int]) -> Files:
     """The functions h of the members and their derivatives."""
     from lyapcheck.family import hyperbolic
-    from lyapcheck.report.figures.family import family_plot
+    from lyapcheck.report.figures.constants import family_plot
 
     return family_plot([(f"m = {m}", hyperbolic(m)) for m in ms]).files("family")
 
@@ -110,7 +110,7 @@ def _indices(runs: Sequence[RunRow], sensitivity: StudyRow | None) -> dict[str, 
     bars = {
         "simulation of (11)": [run.L2 for run in runs],
         "bench with dry friction": [bench.get(run.name) for run in runs],
-        "measured in the paper": [run.printed.L2 if run.printed else None for run in runs],
+        "measured in the paper": [run.printed["L2"] if run.printed else None for run in runs],
     }
     return {source: values for source, values in bars.items() if any(value is not None for value in values)}
 

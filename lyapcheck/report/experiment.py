@@ -1,17 +1,20 @@
-"""What the study of the printed experiment found, for the gains and the arm of a report."""
+"""What the study of the printed experiment found, for the gains and the arm of a report.
+
+The study is read as it is written: angles in °, times in s, torques in N·m, to six digits; ``None`` for a
+joint that does not settle.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.report.plain import read
-from lyapcheck.report.study import Ends, NumberRow, SetRow, StudyRow, TogetherRow
 from lyapcheck.simulate.printed import PRINTED, printed_entry
 
 if TYPE_CHECKING:
@@ -19,12 +22,142 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 
+Ends = tuple[float | None, float | None]
+
+
+@dataclass(frozen=True)
+class AssumedRow:
+    """A number of the arm that no source prints, in its SI unit; ``words`` as it stands in a sentence."""
+
+    name: str
+    words: str
+    unit: str
+    low: float
+    nominal: float
+    high: float
+
+
+@dataclass(frozen=True)
+class NumberRow:
+    """One printed number of one gain set.
+
+    Args:
+        quantity: ``L2``, ``settling``, ``final_error`` or ``start_torque``.
+        joint: its name; none where the number is about all.
+        unit: of all values here.
+        printed, at_most: the number, and whether it is printed as a bound.
+        source: where it is printed.
+        nominal: with all assumptions as they are taken.
+        low, high: the least and the largest value seen at any arm in range.
+        typical: from where to where the middle 90 % of the arms spread over the ranges lie.
+        unsettled: the share of those arms at which the joint does not settle within the run.
+        alone: for each assumption the least and the largest value when it alone is changed.
+        shares: of the variance, by assumption; none where the arm has no influence.
+        answer: whether an arm in range explains it: ``yes``, ``between``, ``no`` or ``no part``.
+        nearest: the value seen that is nearest to the printed one.
+        at: the assumed numbers of that arm; none where the arm has no part in it.
+        runs: how many runs that rests on.
+    """
+
+    quantity: str
+    joint: str | None
+    unit: str
+    printed: float
+    at_most: bool
+    source: str
+    nominal: float | None
+    low: float | None
+    high: float | None
+    typical: Ends
+    unsettled: float
+    alone: Mapping[str, Ends]
+    shares: Mapping[str, float] | None
+    answer: str
+    nearest: float | None
+    at: Mapping[str, float] | None
+    runs: int
+
+
+@dataclass(frozen=True)
+class NearestRow:
+    """The arm that comes nearest to several printed numbers at once: what it does, and what it is.
+
+    Args:
+        values: one a number.
+        worst: the largest relative difference among them.
+        arms: how many were tried.
+        at: the assumed numbers of the arm.
+    """
+
+    values: tuple[float | None, ...]
+    worst: float
+    arms: int
+    at: Mapping[str, float] | None
+
+
+@dataclass(frozen=True)
+class TogetherRow(NearestRow):
+    """The L2 indices of all gain sets at one arm; ``ordered``: the share of arms with the printed order."""
+
+    ordered: float
+
+
+@dataclass(frozen=True)
+class FigureGainsRow:
+    """The gains with which the paper's figure starts, as gain files write them, and their L2 index, °."""
+
+    kp: tuple[float, ...]
+    L2: float
+
+
+@dataclass(frozen=True)
+class SetRow:
+    """All printed numbers of one gain set; ``m`` is none for PD."""
+
+    name: str
+    m: int | None
+    numbers: tuple[NumberRow, ...]
+    at_once: NearestRow
+    figure_gains: FigureGainsRow
+
+    def of(self, quantity: str) -> list[NumberRow]:
+        """The numbers of one quantity."""
+        return [number for number in self.numbers if number.quantity == quantity]
+
+
+@dataclass(frozen=True)
+class StudyRow:
+    """A whole study.
+
+    Args:
+        robot: the arm.
+        model: how the bench is modelled, in words.
+        seed: of all random choices.
+        spread, corners: sizes of the sample.
+        search: whether arms were looked for beyond the sample.
+        runs: bench runs in all.
+        assumed: what was varied.
+        sets: one a gain set.
+        together: for two gain sets or more.
+    """
+
+    robot: str
+    model: str
+    seed: int
+    spread: int
+    corners: int
+    search: bool
+    runs: int
+    assumed: tuple[AssumedRow, ...]
+    sets: tuple[SetRow, ...]
+    together: TogetherRow | None
+
+
 def printed_experiment(gain_sets: Iterable[GainSet], model: RobotModel) -> StudyRow | None:
     """The part of the study that is about these gains, under their names.
 
     Args:
         gain_sets: those of the report; what the paper did not run is left out.
-        model: the arm.
 
     Returns:
         None where the paper ran none of the gains on this arm, or where the arm is another by now.
@@ -110,18 +243,6 @@ def answer_words(number: NumberRow) -> str:
     return f"no arm in range among {number.runs} does it: nearest {nearest}"
 
 
-def answer_cell(number: NumberRow) -> str:
-    """The same in a cell of a table."""
-    nearest = value_words(number.nearest, number.unit)
-    cells = {
-        "yes": "yes",
-        "no part": "no part in it",
-        "between": f"more and less: nearest {nearest}",
-        "no": f"no: nearest {nearest}",
-    }
-    return cells[number.answer]
-
-
 def tally_words(study: StudyRow) -> str:
     """How many printed numbers some arm in range explains, each by itself."""
     numbers = [number for one in study.sets for number in one.numbers]
@@ -136,18 +257,12 @@ def tally_words(study: StudyRow) -> str:
 
 
 def hangs_words(number: NumberRow, study: StudyRow) -> str:
-    """Which assumptions a number hangs on, by their share of the variance."""
-    result = leading(number, study)
-    return f"it hangs on {result}" if result else "it hangs on no assumption by itself"
-
-
-def leading(number: NumberRow, study: StudyRow, most: int = 2) -> str:
-    """The assumptions with the largest shares, ``elbow viscous friction 45 %``."""
+    """The assumptions that a number hangs on, by share of the variance: ``elbow viscous friction 45 %``."""
     shares = number.shares or {}
     words = {one.name: one.words for one in study.assumed}
-    first = sorted(shares, key=lambda name: -shares[name])[:most]
-    large = [name for name in first if shares[name] >= LEAST_SHARE]
-    return ", ".join(f"{words[name]} {percent(shares[name], '')}" for name in large)
+    first = sorted(shares, key=lambda name: -shares[name])[:2]
+    large = [f"{words[name]} {percent(shares[name], '')}" for name in first if shares[name] >= LEAST_SHARE]
+    return f"it hangs on {', '.join(large) or 'no assumption by itself'}"
 
 
 def together_words(study: StudyRow, result: TogetherRow) -> str:
@@ -184,14 +299,14 @@ def figure_gains_words(one: SetRow) -> str:
     )
 
 
-def span(ends: Ends, unit: str = "") -> str:
+def span(ends: Ends) -> str:
     """Two ends of a range; open where a joint does not settle."""
     low, high = ends
     if low is None:
         return "not settled"
     if low == high:
-        return f"{_short(low)}{unit}"
-    return f"{_short(low)} to {'not settled' if high is None else _short(high)}{unit}"
+        return _short(low)
+    return f"{_short(low)} to {'not settled' if high is None else _short(high)}"
 
 
 def percent(share: float, sign: str = "+") -> str:

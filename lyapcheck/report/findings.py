@@ -22,9 +22,9 @@ from lyapcheck.report.text import witness_words
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
+    from lyapcheck.report.experiment import NumberRow, StudyRow
     from lyapcheck.report.gain_rows import EpsilonRow
     from lyapcheck.report.notes import Notes
-    from lyapcheck.report.study import NumberRow, StudyRow
 
 SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
@@ -130,7 +130,7 @@ def sides_name(own: RefutedBelow) -> str:
 
 def _length(row: ClaimRow) -> int:
     """Of the numbers of a witness, written out: the roundest is the shortest."""
-    return sum(map(len, (row.witness or {}).get("point", {}).values()))
+    return sum(map(len, (row.decision.witness or {}).get("point", {}).values()))
 
 
 def small_path(claim: str) -> str:
@@ -139,7 +139,7 @@ def small_path(claim: str) -> str:
 
 
 def _ordinary(row: ClaimRow) -> WitnessRow | None:
-    data = row.witness
+    data = row.decision.witness
     if data is None or "point" not in data:
         return None
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])

@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -28,24 +28,15 @@ BOXES = 30_000
 DIGITS = 3
 
 
-@dataclass(frozen=True)
-class JudgedCell:
-    """A place, and the text of the certificate of its ε₀ if one is proved."""
-
-    cell: MapCell
-    certificate: str | None
-
-
 def gain_map(
     model: RobotModel,
     sets: Mapping[int, GainSet],
     goal: Sequence[float],
     scales: Sequence[str] = SCALES,
-) -> list[JudgedCell]:
+) -> list[MapCell]:
     """For each m and k_v the ε₀ that is proved, and what the reference simulation does.
 
     Args:
-        model: the arm.
         sets: a gain set for each m, whose K_p is kept.
         goal: (n,) the step of each joint from rest at home, rad.
         scales: k_v, N·m, the same in every joint.
@@ -53,7 +44,7 @@ def gain_map(
     return [cell for _, one in sorted(sets.items()) for cell in _row(model, one, scales, goal)]
 
 
-def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[float]) -> list[JudgedCell]:
+def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[float]) -> list[MapCell]:
     """The places of one m: what is proved for a k_v serves smaller ones that have no larger ε₀ of their own.
 
     So one tree of boxes is judged for many places.
@@ -62,7 +53,7 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
     from lyapcheck.answers.epsilon.kept import kept_epsilon
     from lyapcheck.answers.epsilon.options import Options
 
-    cells: list[JudgedCell] = []
+    cells: list[MapCell] = []
     served: DecreaseProof | None = None
     for kv in sorted(map(Fraction, scales), reverse=True):
         gains = _at(one, kv, model)
@@ -81,7 +72,7 @@ def _digits(result: EpsilonResult) -> Fraction:
     return Fraction(0) if result.certified is None else Fraction(map_eps0(result.certified))
 
 
-def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence[float]) -> JudgedCell:
+def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence[float]) -> MapCell:
     from lyapcheck.answers.epsilon.certificates import certificates
     from lyapcheck.simulate.closed_loop import simulate
 
@@ -92,17 +83,15 @@ def _cell(result: EpsilonResult, model: RobotModel, kv: Fraction, goal: Sequence
     peaks = zip(run.peak_torque, model.torque_limit, strict=True)
     shares = [float(peak) / float(limit.value) for peak, limit in peaks if limit is not None]
     assert gains.m is not None
-    cell = MapCell(
+    made = certificates(result).items()
+    return MapCell(
         m=gains.m,
         kv=f"{float(kv):g}",
         eps0=None if result.certified is None else map_eps0(result.certified),
         settling=None if settling is None else float(f"{settling:.{DIGITS}g}"),
         share=float(f"{max(shares):.{DIGITS}g}") if shares else None,
         within_19=result.published is not None,
-    )
-    made = certificates(result).items()
-    return JudgedCell(
-        cell, next((one.text() for name, one in made if name.endswith(".certified.json")), None)
+        certificate=next((one.text() for name, one in made if name.endswith(".certified.json")), None),
     )
 
 
@@ -111,13 +100,12 @@ def map_eps0(value: Fraction) -> str:
     return at_least(value, DIGITS)
 
 
-def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[JudgedCell]:
+def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[MapCell]:
     """The map of the paper's arm as the study wrote it, where the checker accepts what it rests on.
 
     None for another arm or K_p; as of all gains, no ε₀ is shown that is not proved.
 
     Args:
-        model: the arm.
         sets: a gain set for each m, as for ``gain_map``.
     """
     from lyapcheck.check.certificate import judged
@@ -127,17 +115,16 @@ def kept_map(model: RobotModel, sets: Mapping[int, GainSet]) -> list[JudgedCell]
     result = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
     if not result or result["arm"] != arm_digest(model):
         return []
-    places = [read(MapCell, data) for data in result["map"] if data["m"] in sets]
-    cells = [JudgedCell(place, result["certificates"].get(place.path)) for place in places]
+    cells = [read(MapCell, data) for data in result["map"] if data["m"] in sets]
     holds = all(
-        holds_of(one.cell, one.certificate, model, sets)
+        holds_of(one, model, sets)
         and (one.certificate is None or judged(one.certificate.encode()).verdict == "proved")
         for one in cells
     )
     return cells if holds else []
 
 
-def for_the_sets(cells: Sequence[JudgedCell], sets: Mapping[int, GainSet]) -> dict[str, Certificate]:
+def for_the_sets(cells: Sequence[MapCell], sets: Mapping[int, GainSet]) -> dict[str, Certificate]:
     """By names of gain sets the ε₀ that the map proves with a larger k_v: no tree of boxes is judged twice.
 
     Args:
@@ -150,11 +137,11 @@ def for_the_sets(cells: Sequence[JudgedCell], sets: Mapping[int, GainSet]) -> di
     from lyapcheck.check.refusal import Refused
 
     result: dict[str, Certificate] = {}
-    for judged_cell in cells:
-        one = sets[judged_cell.cell.m]
-        if judged_cell.certificate is None or one.name in result:
+    for cell in cells:
+        one = sets[cell.m]
+        if cell.certificate is None or one.name in result:
             continue
-        of_cell, _ = certificate_of(judged_cell.certificate.encode())
+        of_cell, _ = certificate_of(cell.certificate.encode())
         stated, proof = of_cell.statement, of_cell.proof
         if isinstance(stated, Decreasing) and isinstance(proof, PositiveAndDecreasing):
             for_set = replace(of_cell, statement=replace(stated, kv=one.kv), proof=LargerKv(stated.kv, proof))
@@ -164,15 +151,15 @@ def for_the_sets(cells: Sequence[JudgedCell], sets: Mapping[int, GainSet]) -> di
     return result
 
 
-def holds_of(cell: MapCell, certificate: str | None, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:
-    """Whether a certificate, if it is one, is of the ε₀ that a place shows, for this arm and these gains."""
+def holds_of(cell: MapCell, model: RobotModel, sets: Mapping[int, GainSet]) -> bool:
+    """Whether the certificate of a place, if it has one, is of its ε₀, for this arm and these gains."""
     from lyapcheck.certificate import to_json
     from lyapcheck.check.kinds.decreasing import statement_of
     from lyapcheck.search.controlled_arm import ControlledArm
 
-    if certificate is None or cell.m not in sets:
+    if cell.certificate is None or cell.m not in sets:
         return cell.eps0 is None
-    stated = json.loads(certificate)["statement"]
+    stated = json.loads(cell.certificate)["statement"]
     eps0 = Fraction(stated["eps0"])
     loop = ControlledArm(_at(sets[cell.m], Fraction(cell.kv), model), model).loop(eps0)
     return bool(map_eps0(eps0) == cell.eps0 and to_json(statement_of(loop)) == stated)

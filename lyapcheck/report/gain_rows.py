@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from types import SimpleNamespace
 
 from lyapcheck.promise import Promise
 
@@ -53,52 +53,7 @@ class EpsilonRow:
         return value
 
 
-@dataclass(frozen=True)
-class PrintedRow:
-    """What the paper measured of the same: L2 and final errors in °, settling times in s."""
-
-    L2: float
-    settling: tuple[float, ...] | None
-    final_error: tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class RunRow:
-    """A simulated run as `lyapcheck simulate` writes it, and beyond that two numbers of the bench.
-
-    Args:
-        top_speed: the largest |q̇_i|, rad/s.
-        rest: how far off, °, dry friction may hold a joint; none where it may hold it anywhere.
-    """
-
-    name: str
-    m: int | None
-    robot: str
-    kind: str
-    complete: bool
-    time: float
-    reached: float
-    start: tuple[float, ...]
-    target: tuple[float, ...]
-    joints: tuple[str, ...]
-    L2: float | None
-    settling_band: float
-    settling: tuple[float | None, ...]
-    overshoot: tuple[float | None, ...]
-    final_error: tuple[float | None, ...]
-    peak_torque: tuple[float, ...]
-    torque_limit: tuple[float | None, ...]
-    inside_limits: tuple[bool | None, ...]
-    joint_bounds: tuple[float | None, ...] | None
-    torque_norm: float
-    torque_bound: float | None
-    inside_bound: bool | None
-    eps0: float
-    V_start: float | None
-    V_end: float | None
-    V_decreases: bool | None
-    V_rises_at: float | None
-    breach: Mapping[str, Any] | None
-    printed: PrintedRow | None
-    top_speed: float
-    rest: float | None
+RunRow = SimpleNamespace
+"""A simulated run as `lyapcheck simulate` writes it, to six digits. Beyond that two numbers of the bench:
+``top_speed``, the largest |q̇_i| in rad/s, and ``rest``, how far off, °, dry friction may hold a joint; none
+where it may hold it anywhere."""

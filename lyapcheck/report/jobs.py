@@ -15,7 +15,6 @@ from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.gain_rows import KINDS, LINKED, EpsilonRow, RunRow
-from lyapcheck.report.plain import read
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
@@ -23,10 +22,14 @@ if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.report.gain_map import JudgedCell
+    from lyapcheck.report.model import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
+
+    Proofs = tuple[list["ProofData"], dict[str, RefutedBelow]]
+    """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
+    Map = tuple[list[MapCell], dict[str, Certificate]]
 
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
@@ -95,15 +98,12 @@ def _claims(
     """The claims of a proof, with what their verdicts rest on.
 
     Args:
-        proof: the script.
-        ms: the members.
-        robot: the arm.
         gains: with the gain set of each m first.
         only: the claims wanted; all if empty.
         more: whether only those about gains are, as the others are known.
     """
     from lyapcheck.answers.check.run import run_proof
-    from lyapcheck.claims.certificates import file_name
+    from lyapcheck.claims.decision import file_name
 
     result = run_proof(proof, ms, robot, None, gains, only)
     names = {one.m: one.name for one in reversed(gains.gains) if one.m is not None}
@@ -139,15 +139,7 @@ def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only
     return ProofData(tuple(sorted(rows, key=lambda row: order.index(row.id))), certificates)
 
 
-@dataclass(frozen=True)
-class ProofsData:
-    """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
-
-    proofs: tuple[ProofData, ...]
-    small: Mapping[str, RefutedBelow]
-
-
-def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> ProofsData:
+def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> Proofs:
     """Every claim; what is refuted in the paper again with few joints and numbers of the arm at hand.
 
     About an arm of one's own: only proofs that say something about it, and nothing about the paper.
@@ -161,8 +153,8 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
     wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
     if own:
         chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
-        return ProofsData(tuple(_own_claims(proof, ms, robot, file, only) for proof, only in chosen), {})
-    proofs = tuple(_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items())
+        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], {}
+    proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
     wanted: dict[str, list[int]] = {}
     for row in proofs[0].rows:
         if row.verdict == "refuted" and row.section.startswith(CHAIN):
@@ -172,7 +164,7 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
         if note.ask and sets and not wanted.keys() & set(note.claims):
             wanted |= {name: [note.ask["m"]] for name in note.claims}
             sets.setdefault(note.ask["m"], next(iter(sets.values())))
-    return ProofsData(proofs, smallest_witnesses(PROOF, wanted, load(robot), sets))
+    return proofs, smallest_witnesses(PROOF, wanted, load(robot), sets)
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
@@ -257,10 +249,9 @@ def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.task import PAPER_TASK
 
-    if model.n == len(PAPER_TASK.q_d):
-        task = PAPER_TASK
-        return simulate(gain_set, model, task.q_d, task.q0, task.w0, task.T, eps0=eps0, stop=False)
-    return simulate(gain_set, model, goal_of(model), eps0=eps0, stop=False)
+    task, goal = PAPER_TASK, goal_of(model)
+    more = (task.q0, task.w0, task.T) if model.n == len(task.q_d) else ()
+    return simulate(gain_set, model, goal, *more, eps0=eps0, stop=False)
 
 
 def goal_of(model: RobotModel) -> list[float]:
@@ -268,14 +259,6 @@ def goal_of(model: RobotModel) -> list[float]:
     from lyapcheck.simulate.task import PAPER_TASK
 
     return list(PAPER_TASK.q_d) if model.n == len(PAPER_TASK.q_d) else [REST] * model.n
-
-
-@dataclass(frozen=True)
-class MapData:
-    """The places of the map, and by names of gain sets the certificates of ε₀ that it proves for them."""
-
-    cells: list[JudgedCell]
-    for_sets: Mapping[str, Certificate]
 
 
 def derive_job(ms: Sequence[int], robot: str) -> Derivation:
@@ -286,8 +269,8 @@ def derive_job(ms: Sequence[int], robot: str) -> Derivation:
     return derivation([m for m in ms if m <= LARGEST_M], min(load(robot).n, MOST_JOINTS))
 
 
-def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:
-    """The map over m and k_v, computed or that of the study."""
+def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> Map:
+    """The map over m and k_v, computed or that of the study; by gain sets the certificates that it has."""
     from lyapcheck.check.verify import each_once
     from lyapcheck.report.gain_map import for_the_sets, gain_map, kept_map
     from lyapcheck.robots import load
@@ -296,7 +279,7 @@ def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> MapData:
     with each_once():
         sets = {m: one for m, one in sets.items() if not without_friction(one, model)}
         cells = gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
-        return MapData(cells, for_the_sets(cells, sets))
+        return cells, for_the_sets(cells, sets)
 
 
 def with_the_map(part: GainData, known: Mapping[str, Certificate]) -> GainData:
@@ -318,7 +301,7 @@ def _run_row(run: Run, rest: float | None) -> RunRow:
     for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
         del facts[name]
     facts |= {"top_speed": float(abs(run.w).max()), "rest": rest}
-    return read(RunRow, shortened(facts))
+    return RunRow(**shortened(facts))
 
 
 def shortened(value: Any) -> Any:

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
     from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.report.experiment import StudyRow
     from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.notes import Notes
-    from lyapcheck.report.study import StudyRow
     from lyapcheck.robots import RobotModel
 
 WEIGHTS = {
@@ -242,6 +242,7 @@ class MapCell:
         settling: of the slowest joint, s; none where one does not settle.
         share: the largest share of a motor's torque; none where no motor has a limit.
         within_19: whether (19) holds.
+        certificate: the text of that of the ε₀, if one is proved.
     """
 
     m: int
@@ -250,6 +251,7 @@ class MapCell:
     settling: float | None
     share: float | None
     within_19: bool
+    certificate: str | None = field(default=None, repr=False)
 
     @property
     def path(self) -> str:

@@ -8,8 +8,6 @@ from functools import cache
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from lyapcheck.verdicts import Verdict
-
 T = TypeVar("T")
 _hints: Any = cache(get_type_hints)
 
@@ -44,4 +42,4 @@ def _value(hint: Any, value: Any) -> Any:
         return {key: _value(args[1], part) for key, part in value.items()}
     if isinstance(hint, type) and is_dataclass(hint):
         return read(hint, value)
-    return Verdict(value) if hint is Verdict else value
+    return value

@@ -26,7 +26,7 @@ def sampled_word(report: Report) -> tuple[str, bool] | None:
     rows = sampled_rows(report, members=True)
     shown = [row for row in rows if row.verdict is Verdict.PROVED]
     left = [row for row in rows if row not in shown]
-    stable = all_say((row.promise for row in shown), "stable at 2.5 ms")
+    stable = all_say((row.decision.promise for row in shown), "stable at 2.5 ms")
     parts = [f"{_members(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
     return ("; ".join(parts), not left) if rows else None
 
@@ -40,8 +40,8 @@ def sampled_section(report: Report) -> Iterator[Section]:
     rows = sampled_rows(report)
     if not rows:
         return
-    first = next((row for row in rows if row.granted), rows[0])
-    became = ("; ".join(filter(None, (row.word, row.reason))) for row in rows)
+    first = next((row for row in rows if row.decision.granted), rows[0])
+    became = ("; ".join(filter(None, (row.decision.word, row.decision.reason))) for row in rows)
     table = tuple((row.id, f"“{row.comment}”", word) for row, word in zip(rows, became, strict=True))
     words = (
         "The theorem is about a torque that changes all the time; a computer holds it between readings. "
@@ -50,7 +50,7 @@ def sampled_section(report: Report) -> Iterator[Section]:
     )
     blocks = (
         Paragraph(words),
-        Bullets(first.granted),
+        Bullets(first.decision.granted),
         Table(("claim", "the author's words", "became"), table, align="lll"),
     )
     yield Section("On the computer that runs it", blocks)

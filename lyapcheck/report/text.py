@@ -14,31 +14,9 @@ from lyapcheck.report.model import WitnessRow
 SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
 
 
-def number(value: Any, digits: int = 5) -> str:
-    """A number to a few significant digits; a dash where there is none."""
-    if value is None:
-        return "–"
-    return shown(float(value), f".{digits}g")
-
-
 def fixed(value: Any, places: int = 2) -> str:
     """A number to some decimal places; a dash where there is none."""
     return "–" if value is None or math.isnan(float(value)) else shown(float(value), f".{places}f")
-
-
-def bracket(ends: tuple[str, str] | None, digits: int = 12) -> str:
-    """The digits that both ends of an enclosure share, cut off; a dash where there is none."""
-    if ends is None:
-        return "–"
-    low, high = ends
-    if low == high:
-        return str(low)
-    shared = ""
-    for a, b in zip(low, high, strict=False):
-        if a != b:
-            break
-        shared += a
-    return shared[: digits + 2] if len(shared) > 3 else f"[{low}, {high}]"
 
 
 def joined(values: Sequence[Any], places: int = 2) -> str:
@@ -57,7 +35,7 @@ MOST_COORDINATES = 3
 
 def witness_words(row: ClaimRow) -> str:
     """Both sides of a refuted relation, in as few digits as tell them apart, and where: for an overview."""
-    witness = row.witness or {}
+    witness = row.decision.witness or {}
     if "point" not in witness:
         return "; ".join(f"{name}: {value}" for name, value in witness.items())
     point = [f"{name} = {value}" for name, value in witness["point"].items()]

@@ -119,7 +119,7 @@ def _step(box: Box, report: Report, carrying: set[str]) -> VerdictBox:
 
 def _say(rows: Sequence[ClaimRow], words: str) -> str:
     """Words that rest on the promises of some claims."""
-    return all_say((row.promise for row in rows), words)
+    return all_say((row.decision.promise for row in rows), words)
 
 
 def _is_true(report: Report) -> bool:

@@ -133,9 +133,6 @@ class CentredProblem:
             known[..., k] = value
         return known[..., index.ravel()]
 
-    def _at(self, boxes: Array) -> _At:
-        return _At(self, boxes)
-
 
 class _At:
     """P over some boxes."""

@@ -13,7 +13,7 @@ from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.branch_and_bound import boxes_shared, certify
+from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
 from lyapcheck.search.link_bounds import linked_epsilon
@@ -67,9 +67,8 @@ def certified_epsilon(
         controlled: gains and arm, with its ranges where the setting has them.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
         max_boxes: the budget of all attempts together.
-        jobs: processes that share the boxes, of the search and of the checker; they change no answer.
+        jobs: processes that share the boxes of the checker; they change no answer.
         seconds: of computing time, after which no new boxes are looked at; the answer depends on the machine.
-        on_progress: receives the share of the attempts done.
 
     Returns:
         no proof where nothing was proved; ``reason`` says why the next share was not.
@@ -84,12 +83,11 @@ def certified_epsilon(
         return CertifiedEpsilon(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
     search = _Search(controlled, ceiling, progress)
     began, seconds = computing_time(), math.inf if seconds is None else seconds
-    with boxes_shared(jobs):
-        # no more than half of everything for what may be too much
-        first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
-        result = search.climb([first], max_boxes // 2, began + seconds / 2)
-        otherwise = SHARES if more else (*SHARES, HOPED[0])
-        result += search.climb(more if result else otherwise, max_boxes, began + seconds)
+    # no more than half of everything for what may be too much
+    first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
+    result = search.climb([first], max_boxes // 2, began + seconds / 2)
+    otherwise = SHARES if more else (*SHARES, HOPED[0])
+    result += search.climb(more if result else otherwise, max_boxes, began + seconds)
     while result:
         proof = result.pop()
         progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
@@ -116,7 +114,6 @@ def linked_otherwise(
         boxes: what was proved without.
         max_boxes: of errors e alone, of all attempts together.
         seconds: of computing time, after which no attempt begins.
-        on_progress: receives the share of the attempts done.
 
     Soundness: as for `certified_epsilon`.
     """

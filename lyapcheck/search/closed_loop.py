@@ -10,19 +10,11 @@ from lyapcheck.check.kinds.inertia import Bisection, Links, Mass
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.states import Arm
 from lyapcheck.robots.dynamics import TooManyTerms
-from lyapcheck.robots.trig import fraction, to_terms
+from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
-    from flint import fmpq_mpoly
-
-    from lyapcheck.check.loop.states import Term
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots.plant import Plant
-
-
-def terms(entry: fmpq_mpoly) -> tuple[Term, ...]:
-    """A polynomial as statements have it."""
-    return tuple((tuple(int(p) for p in powers), fraction(value)) for powers, value in entry.terms())
 
 
 def closed_loop_of(
@@ -36,13 +28,12 @@ def closed_loop_of(
     """(11) with V of (13), or of y = w − εΛh where a diagonal of Λ is given, at one ε₀.
 
     Args:
-        gains: the controller.
         model: the arm; its parameters range where it has some.
         eps0: ε₀.
         ranges: whether the friction of joints ranges.
         coupling: diagonal of Λ.
     """
-    mass = tuple(tuple(terms(entry) for entry in row) for row in model.mass)
+    mass = mass_of(model)
     # what M does not depend on, gravity for one, is no side of the boxes
     first = 2 * model.n
     used = {

@@ -17,7 +17,7 @@ from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.plant import Plant
-from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember, terms
+from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
 from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
@@ -107,8 +107,7 @@ class ControlledArm:
     @cached_property
     def arm(self) -> Arm:
         """M and B, exactly."""
-        mass = tuple(tuple(terms(entry) for entry in row) for row in self.fixed.mass)
-        return Arm(mass, tuple(number.value for number in self.fixed.viscous))
+        return Arm(mass_of(self.fixed), tuple(number.value for number in self.fixed.viscous))
 
     @cached_property
     def controller(self) -> Controller:

@@ -1,4 +1,4 @@
-"""The cuts of boxes into halves: what was found below some boxes, and the whole as a tree."""
+"""The cuts of boxes into halves: as a tree, and which side of a box is cut."""
 
 from __future__ import annotations
 
@@ -15,26 +15,6 @@ from lyapcheck.search.schur import SchurProblem
 Boxes = Array
 """(count, 2, dimensions): lower and upper ends."""
 Indices = NDArray[np.intp]
-
-
-@dataclass(frozen=True, eq=False)
-class Branches:
-    """What was found below some boxes.
-
-    Args:
-        levels: how many boxes were looked at, level by level, from theirs on.
-        cuts: of each level the boxes that were cut, the sides, and the halves; the first boxes have the
-            first numbers.
-        late: whether the time was up.
-        point: the point of the last level that resisted; none where all of it was proved or cut.
-        waiting: the boxes of a level that was left, with their numbers.
-    """
-
-    levels: list[int]
-    cuts: list[tuple[Indices, Indices, Indices]]
-    late: bool = False
-    point: Array | None = None
-    waiting: tuple[Boxes, Indices] | None = None
 
 
 class Nodes:
@@ -54,13 +34,6 @@ class Nodes:
         halves = self.add(2 * len(names))
         self.parts.append((names, sides, halves))
         return halves
-
-    def graft(self, names: Indices, below: Branches) -> Indices:
-        """Take over the cuts that others made below the boxes with these names; the names of all theirs."""
-        new = max((int(halves[-1]) + 1 for _, _, halves in below.cuts), default=len(names)) - len(names)
-        renamed = np.concatenate([names, self.add(new)])
-        self.parts += [(renamed[cut], sides, renamed[halves]) for cut, sides, halves in below.cuts]
-        return renamed
 
     def preorder(self) -> tuple[str, list[int]]:
         """The tree as text, and the names of its leaves in their order."""

@@ -73,11 +73,8 @@ def falsify(
     """The smallest ε₀ for which a state with dV/dt > 0 was found and confirmed, with that state.
 
     Args:
-        controlled: gains and arm.
         starts: how many starts for each of the optimised programs.
         samples: how many random states they are chosen from.
-        seed: of the random numbers.
-        on_progress: receives how far the search is.
         quick: look at fast states alone, from a third of the starts; what slow states refute is then missed.
 
     Returns:
@@ -100,10 +97,8 @@ def smallest_refuted(
     """The witness of the smallest ε₀ that some candidates refute.
 
     Args:
-        controlled: gains and arm.
         candidates: a word for each kind of states, and the states.
         steps: about how many kinds there are.
-        on_progress: receives how far the search is.
     """
     progress = on_progress or silent
     result: list[tuple[float, str, State]] = []

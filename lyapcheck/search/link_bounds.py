@@ -43,11 +43,8 @@ def linked_epsilon(
     """The proof of the largest share of a ceiling, by bounds along the links; boxes looked at; why no more.
 
     Args:
-        controlled: gains and arm.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
-        max_boxes: budget of all attempts together.
         deadline: by the computing time of `lyapcheck.computing`, s; no attempt begins after it.
-        progress: receives the share of the attempts done.
 
     Soundness: every proof has been accepted by ``lyapcheck.check.verify``.
     """
@@ -106,7 +103,6 @@ def fitted(controlled: ControlledArm, bounds: LinkBounds, ceiling: Fraction) -> 
     """Bounds that allow more at single errors, as far as such are found, and the ε₀ at which one resists.
 
     Args:
-        controlled: gains and arm.
         bounds: where the search begins.
         ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
     """

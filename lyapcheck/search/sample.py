@@ -92,7 +92,6 @@ def sample(controlled: ControlledArm, count: int, seed: int) -> States:
     it is log-uniform from 0.001 to 10 rad.
 
     Args:
-        controlled: gains and arm.
         count: how many states.
         seed: of the random numbers; the same seed gives the same states.
     """
@@ -154,22 +153,18 @@ def spread(states: States, merit: Array, count: int) -> Array:
     and its mirror image counts as the same. The best state of every corner comes before the second best of
     any, so that many good states in one valley do not hide another valley.
     """
-    corners = _corners(states)
-    order = np.argsort(-merit, kind="stable")
-    grouped = order[np.argsort(corners[order], kind="stable")]
-    _, first, members = np.unique(corners[grouped], return_index=True, return_counts=True)
-    rank = np.arange(len(grouped)) - np.repeat(first, members)
-    return np.asarray(grouped[np.lexsort((-merit[grouped], rank))][:count])
-
-
-def _corners(states: States) -> Array:
-    """A number for the corner that each state lies in."""
+    # A number for the corner that each state lies in
     size = np.where(np.abs(states.e) > _LARGE_ERROR, np.sign(states.e), 0).astype(int)
     errors = size @ 3 ** np.arange(size.shape[1])
     turned = states.q[:, 1:]
     mirror = np.where(errors < 0, -1, 1)[:, None]
     quarters = (mirror * np.sin(turned) > 0) + 2 * (np.cos(turned) > 0)
-    return np.asarray(np.abs(errors) * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
+    corners = np.asarray(np.abs(errors) * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
+    order = np.argsort(-merit, kind="stable")
+    grouped = order[np.argsort(corners[order], kind="stable")]
+    _, first, members = np.unique(corners[grouped], return_index=True, return_counts=True)
+    rank = np.arange(len(grouped)) - np.repeat(first, members)
+    return np.asarray(grouped[np.lexsort((-merit[grouped], rank))][:count])
 
 
 def size(controlled: ControlledArm, eps0: float, states: States) -> Array:

@@ -90,7 +90,6 @@ def norm_epsilon(
     """A proof that the checker has accepted, or why there is none.
 
     Args:
-        controlled: gains and arm.
         viscous: the range of each diagonal entry of B that replaces the arm's, N·m·s/rad.
     """
     if not controlled.family.bounded:
@@ -111,7 +110,6 @@ def norm_proof(
     """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
 
     Args:
-        loop: the loop.
         inertia: what shows M(q) ≻ 0.
     """
     result = scalar_epsilon(loop.tail)

@@ -11,14 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
+from lyapcheck.check.loop.arithmetic import Ring
 from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop.schur import Errors, form
 from lyapcheck.family import Family, named
 from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
-from lyapcheck.intervals.arm import ArmIntervals, coriolis, dh_range, h_range
+from lyapcheck.intervals.arm import ArmIntervals, dh_range, h_range
 from lyapcheck.intervals.interval import positive_definite
 
-Entry = Interval | float
-Rows = list[list[Interval]]
+RING = Ring(float, Interval.square)
+"""Intervals beside exact numbers."""
 
 
 @dataclass(frozen=True)
@@ -71,65 +73,22 @@ class SchurProblem:
         count = len(self.loop.parameters)
         return BoxSides(q, columns[first:last], filled[:count], filled[count:])
 
-    def schur(self, sides: BoxSides) -> Rows:
+    def schur(self, sides: BoxSides) -> list[list[Interval]]:
         """P: the entries on and below the diagonal."""
-        shrink = inverse_one_plus(norm(sides.e))
+        box, shrink = self.arm.at(sides.q, sides.parameters), inverse_one_plus(norm(sides.e))
         eps = shrink * Interval.of(self.loop.eps0)
-        S = self._coupling(sides, shrink)
-        X = _plus(sides.viscous, S, eps)
         quarter = eps * 0.25
-        inverse = [quarter * Interval.of(k).reciprocal() for k in self.loop.stiffness]
-        joints = range(self.loop.n)
-        return [[_entry(i, j, sides.viscous, S, X, eps, inverse) for j in joints[: i + 1]] for i in joints]
-
-    def _coupling(self, sides: BoxSides, shrink: Interval) -> list[list[Entry]]:
-        """S = C(q,h) + (M h) êᵀ/(1+r) − M H'."""
-        box = self.arm.at(sides.q, sides.parameters)
-        M = box.mass()
         weights = [Interval.of(scale) for scale in self.loop.Lambda]
         h, dh = (
             [f(self.family, x) * scale for x, scale in zip(sides.e, weights, strict=True)]
             for f in (h_range, dh_range)
         )
-        Ch = coriolis(box.symbols(), h)
-        pushed = [_dot(row, h) for row in M]
-        direction = [unit * shrink for unit in unit_vector(sides.e)]
-        joints = range(self.loop.n)
-        return [
-            [Ch[i][j] + pushed[i] * direction[j] - _product(M[i][j], dh[j]) for j in joints] for i in joints
-        ]
-
-
-def _plus(B: list[Interval], S: list[list[Entry]], eps: Interval) -> Rows:
-    joints = range(len(B))
-    return [[eps * S[i][j] + B[i] if i == j else eps * S[i][j] for j in joints] for i in joints]
-
-
-def _entry(
-    i: int,
-    j: int,
-    B: list[Interval],
-    S: list[list[Entry]],
-    X: Rows,
-    eps: Interval,
-    inverse: list[Interval],
-) -> Interval:
-    if i == j:
-        fast = eps * S[i][i] + B[i]
-        slow = [x[i].square() * k for x, k in zip(X, inverse, strict=True)]
-    else:
-        fast = eps * (S[i][j] + S[j][i]) * 0.5
-        slow = [x[i] * x[j] * k for x, k in zip(X, inverse, strict=True)]
-    return fast - sum(slow[1:], slow[0])
-
-
-def _dot(row: list[Entry], h: list[Interval]) -> Entry:
-    total: Entry = 0.0
-    for entry, x in zip(row, h, strict=True):
-        if isinstance(entry, Interval):
-            total = entry * x + total
-    return total
-
-
-def _product(entry: Entry, x: Interval) -> Entry:
-    return entry * x if isinstance(entry, Interval) else 0.0
+        errors = Errors(
+            None,
+            eps,
+            [quarter * Interval.of(k).reciprocal() for k in self.loop.stiffness],
+            h,
+            dh,
+            [unit * shrink for unit in unit_vector(sides.e)],
+        )
+        return form(box.mass(), box.symbols(), errors, sides.viscous, RING)

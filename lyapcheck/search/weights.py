@@ -108,7 +108,6 @@ def weighted_epsilon(
     certified: DecreaseProof,
     effort: Effort = Effort(),
     jobs: int = 1,
-    seed: int = SEED,
     on_progress: Progress | None = None,
 ) -> Weighted:
     """The weights with a proof whose ε₀Λ has the largest product.
@@ -118,13 +117,11 @@ def weighted_epsilon(
         certified: what is proved with Λ = I, where the search begins.
         effort: how long to search.
         jobs: processes for the checker.
-        seed: of the sampled states.
-        on_progress: receives the share done.
 
     Soundness: ``lyapcheck.check.verify`` has accepted what is handed back, if it has accepted ``certified``.
     """
     progress = on_progress or silent
-    proposal = _Proposal(controlled, seed)
+    proposal = _Proposal(controlled)
     weights, states = proposal.made(float(certified.loop.eps0), effort.turns, part(progress, 0, 0.5))
     found: list[DecreaseProof] = []
     looked_at, reason = 0, ""
@@ -169,10 +166,10 @@ def _rounded(weights: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
 class _Proposal:
     """λ = ε₀Λ by turns of the convex program and of looking for states where its answer fails."""
 
-    def __init__(self, controlled: ControlledArm, seed: int) -> None:
+    def __init__(self, controlled: ControlledArm) -> None:
         self.controlled, self.n = controlled, controlled.n
         self.B, self.root = np.diag(controlled.viscous), np.sqrt(controlled.viscous)
-        random, shape = np.random.default_rng(seed), (SAMPLES, self.n)
+        random, shape = np.random.default_rng(SEED), (SAMPLES, self.n)
         e = random.choice([-1.0, 1.0], shape) * 10 ** random.uniform(-3, 0.7, shape)
         self.sampled = States(random.uniform(-np.pi, np.pi, shape), e, np.zeros(shape))
         self.resisting = resisting_program(controlled)

@@ -20,9 +20,10 @@ from lyapcheck.claims import (
     for_all,
     form,
     identity,
-    loops,
+    matrix,
     positive,
     var,
+    vector,
 )
 
 proof = Proof("must_fail", "A proof that must not be accepted")
@@ -42,9 +43,11 @@ def _():
 
 @proof.claim("sign", "½yᵀMy = ½q̇ᵀMq̇ + ε hᵀMq̇ + ½ε² hᵀMh (the second sign must be −)")
 def _(n):
-    s = loops.loop(n)
-    expanded = form(s.w, s.M, s.w) / 2 + s.eps * form(s.h, s.M, s.w) + s.eps**2 * form(s.h, s.M, s.h) / 2
-    return identity(form(s.y, s.M, s.y) / 2, expanded, positive("r"))
+    w, h, M = vector("w", n), vector("h", n), matrix("M", n, symmetric=True)
+    ε = var("eps0") / (1 + var("r"))
+    y = [w_i + -ε * h_i for w_i, h_i in zip(w, h, strict=True)]
+    expanded = form(w, M, w) / 2 + ε * form(h, M, w) + ε**2 * form(h, M, h) / 2
+    return identity(form(y, M, y) / 2, expanded, positive("r"))
 
 
 @proof.claim("large", "dV/dt < 0 at every state but the origin with ε₀ = 2")

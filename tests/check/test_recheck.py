@@ -26,7 +26,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
-from lyapcheck.claims.certificates import file_name
+from lyapcheck.claims.decision import file_name
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.rechecking.command import as_json, text
 from lyapcheck.rechecking.trusted import GENERAL

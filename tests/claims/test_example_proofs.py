@@ -52,7 +52,7 @@ def test_the_wrong_claims_are_refuted_and_what_rests_on_them_is_open():
 def test_both_sides_of_a_refuted_inequality_look_different():
     result = run_proof(MUST_FAIL, ms=(1,), only=("wrong",))
     row = ClaimRow.of(result.claims[0], result.name, result.title, None, None)
-    left, right = (row.witness[side] for side in ("left", "right"))
+    left, right = (row.decision.witness[side] for side in ("left", "right"))
     assert Fraction(left[0]) > Fraction(right[1])
     shown = witness_words(row)
     first, second = shown.split(" at ")[0].split(" is not ≤ ")
@@ -100,7 +100,7 @@ def test_a_changed_statement_changes_the_verdict(tmp_path, path, claim, right, w
 
 REPAIRS = [
     ("wrong", "x - x**3 / 3, 0)", "x, 0)"),
-    ("sign", "s.w) / 2 + s.eps", "s.w) / 2 - s.eps"),
+    ("sign", "w) / 2 + ε", "w) / 2 - ε"),
     ("large", "robot, gains, 2)", 'robot, gains, "0.02")'),
 ]
 

@@ -17,7 +17,7 @@ OURS = {
     ("compiled/loop.py", "source"): "source of the package",
     ("export/controller.py", "texts"): "source of the package",
     ("cli/commands/export.py", "_free"): "what export has written before, whose size is looked at first",
-    ("compiled/compiler.py", "_fetch"): "what the compiler has just written to a folder of ours",
+    ("compiled/compiler.py", "library"): "what the compiler has just written to a folder of ours",
     ("kernel/coq.py", "_compile_library"): "the library of the package",
     ("kernel/coq.py", "sources"): "the library of the package",
     ("kernel/coq.py", "golden"): "the library of the package",

@@ -342,7 +342,7 @@ def test_false_statements_of_the_table_are_no_theorems_of_coqs(folder, name):
 
 @needs_coq
 @pytest.mark.slow
-def test_gains_on_a_computer_are_theorems_of_coqs_and_those_beyond_the_border_are_none(folder: Path) -> None:
+def test_gains_on_a_computer_are_theorems_of_coqs_and_those_beyond_the_border_are_none(folder):
     ours = Coq(folder, 600)
     for name in ("printed", "printed-border", "printed-rest", "potential"):
         ours.accept("runs", theorem_file(certificate_of((GOOD / f"{name}.sam.json").read_bytes())[0]))
@@ -366,7 +366,7 @@ def test_gains_on_a_computer_are_theorems_of_coqs_and_those_beyond_the_border_ar
 
 @needs_coq
 @pytest.mark.slow
-def test_an_axiom_of_its_own_is_no_proof(folder: Path) -> None:
+def test_an_axiom_of_its_own_is_no_proof(folder):
     ours = Coq(folder, 600)
     ours.accept("cheat", "Theorem claim : 0 = 1. Admitted.\n")
     printed = ours.accept("ask", "Require Printed.cheat.\nPrint Assumptions Printed.cheat.claim.\n")

@@ -8,7 +8,7 @@ import pytest
 from lyapcheck.answers.check import run
 from lyapcheck.answers.check.run import run_proof
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
-from lyapcheck.report import compute
+from lyapcheck.report import build as building
 from lyapcheck.report.build import build, render, write
 from lyapcheck.report.model import Subject
 from tests.helpers import small_proofs
@@ -53,7 +53,7 @@ def report(subject, tmp_path_factory):
 
     def made():
         with one_process() as patch:
-            patch.setattr(compute, "ProcessPoolExecutor", AtOnce)
+            patch.setattr(building, "ProcessPoolExecutor", AtOnce)
             patch.setattr(run, "run_proof", kept)
             return build(subject)
 

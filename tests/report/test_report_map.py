@@ -21,15 +21,15 @@ def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path):
     """Each place that names an ε₀: the checker proves it, for that m and that k_v."""
     model, gains = load("pendulum1"), {1: GainSet("g", 1, (Fraction(4),), (Fraction(1),))}
     cells = gain_map(model, gains, [0.5], scales=("0.2", "1"))
-    assert [(one.cell.m, one.cell.kv, one.cell.within_19) for one in cells] == [
+    assert [(one.m, one.kv, one.within_19) for one in cells] == [
         (1, "0.2", True), (1, "1", False)
     ]  # fmt: skip
     for one in cells:
         assert one.certificate is not None
-        (tmp_path / Path(one.cell.path).name).write_text(one.certificate, encoding="utf-8")
+        (tmp_path / Path(one.path).name).write_text(one.certificate, encoding="utf-8")
         statement = json.loads(one.certificate)["statement"]
-        assert [Fraction(kv) for kv in statement["kv"]] == [Fraction(one.cell.kv)]
-        assert map_eps0(Fraction(statement["eps0"])) == one.cell.eps0
+        assert [Fraction(kv) for kv in statement["kv"]] == [Fraction(one.kv)]
+        assert map_eps0(Fraction(statement["eps0"])) == one.eps0
     outcome = recheck(gather([str(tmp_path)]))
     assert [one.verdict for one in outcome.checked] == ["proved", "proved"]
 
@@ -40,7 +40,7 @@ def test_the_map_of_the_papers_arm_is_shown_where_the_checker_accepts_it(monkeyp
     model = load("buap3")
     sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}
     cells = kept_map(model, sets)
-    assert {one.cell.m for one in cells} == {1, 2, 3}
+    assert {one.m for one in cells} == {1, 2, 3}
     assert all(cell.certificate for cell in cells)
     other = {1: replace(sets[1], kp=sets[2].kp)}
     assert kept_map(model, other) == []

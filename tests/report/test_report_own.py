@@ -8,7 +8,7 @@ import pytest
 
 from lyapcheck.answers.gate.judge import judged_sets
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
-from lyapcheck.report import compute
+from lyapcheck.report import build as building
 from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.build import build, render
 from lyapcheck.report.model import Report, Subject
@@ -40,7 +40,7 @@ def built(folder, gains, robot="pendulum1"):
     path = folder / "mine.toml"
     path.write_text(gains, encoding="utf-8")
     with one_process() as patch:
-        patch.setattr(compute, "ProcessPoolExecutor", AtOnce)
+        patch.setattr(building, "ProcessPoolExecutor", AtOnce)
         return build(Subject(robot, (1,), (read_gain_file(path),), own=True))
 
 

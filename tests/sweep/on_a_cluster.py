@@ -110,51 +110,6 @@ def test_a_worker_is_killed_in_the_middle_and_no_byte_changes(plan: Path, tmp_pa
     assert [{**row, "answer": json.loads(row["answer"])} for row in table] == rows
 
 
-HARD = """
-robots = ["buap3"]
-questions = ["epsilon"]
-[[gains]]
-name = "hard"
-m = 3
-kp = [25, 50, 5]
-kv = [0.223, 0.223, 0.223]
-[epsilon]
-max_boxes = 600000
-starts = 2
-"""
-"""One question with levels of more boxes than are worth sharing."""
-
-
-def tasks(address: str) -> list[str]:
-    """The functions of the tasks that the scheduler knows."""
-    from distributed import Client
-
-    def known(dask_scheduler) -> list[str]:
-        return [str(key).partition("-")[0] for key in dask_scheduler.tasks]
-
-    with Client(address, set_as_default=False) as client:
-        return client.run_on_scheduler(known)
-
-
-@pytest.mark.parametrize("killed", [0, 1])
-def test_one_hard_question_is_shared_and_a_worker_killed(tmp_path: Path, cluster, killed: int) -> None:
-    """Once the worker that asks it, and once one that looks below some of its boxes."""
-    address, workers = cluster
-    until(lambda: workers_of(address) == 2)
-    plan, out = tmp_path / "plan.toml", tmp_path / "out"
-    plan.write_text(HARD, encoding="utf-8")
-    words = program("sweep", plan, "--out", out, "--scheduler", address)
-    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
-        until(lambda: process.poll() is not None or tasks(address).count("branches_of") > 2)
-        assert process.poll() is None, "it was over before anything was shared"
-        workers[killed].send_signal(signal.SIGKILL)
-        errors = process.communicate(timeout=PATIENCE)[1].decode()
-    assert process.returncode == 0, errors
-    (row,) = rows_after(["sweep", plan, "--out", tmp_path / "alone", "--jobs", 1], tmp_path / "alone")
-    assert row["verdict"] == "proved"
-    assert contents(out) == contents(tmp_path / "alone")
-
-
 def test_rows_become_a_data_frame(plan: Path) -> None:
     plan.write_text(PLAN, encoding="utf-8")
     frame = lyapcheck.sweep(plan, workers=1).frame()

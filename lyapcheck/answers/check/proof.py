@@ -77,10 +77,13 @@ class ClaimResult:
     seconds: float
 
     @cached_property
+    def _text(self) -> str:
+        return statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
+
+    @property
     def statement(self) -> str:
         """What was decided, rendered by the checker from its data; cut where it is long, with a digest."""
-        text = statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
-        return self.decision.says(text)
+        return self.decision.says(self._text)
 
     @property
     def verdict(self) -> Verdict:

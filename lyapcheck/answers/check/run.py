@@ -13,9 +13,8 @@ from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About, digest_of
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.certificates import certificates, file_name
 from lyapcheck.claims.claim import Case, in_order
-from lyapcheck.claims.decision import Proposal, chained, decided, rests_on, undecided
+from lyapcheck.claims.decision import Proposal, certificates, chained, decided, file_name, rests_on, undecided
 from lyapcheck.claims.fresh_check import Judged, judge_afresh
 from lyapcheck.claims.handover import CaseData, Handover, Key, ScriptRequest
 from lyapcheck.claims.procedures import propose

@@ -27,9 +27,9 @@ def asked(plan: Plan, workers: int, scheduler: str | None = None) -> Iterator[An
     """
     work = batches(plan.questions())
     if scheduler is not None:
-        results = answers_of_cluster(work, scheduler, plan.count)
+        results = answers_of_cluster(work, scheduler)
     else:
-        fewer = min(workers, plan.count)  # cores that are left share the boxes of one question
+        fewer = min(workers, plan.count)  # cores that are left share what the checker judges
         results = answers_here(work, fewer, jobs=workers // max(1, fewer))
     for result in results:
         yield from result

@@ -17,7 +17,6 @@ from lyapcheck.computing import main_unnamed
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.extensions import modules
 from lyapcheck.libraries import missing
-from lyapcheck.search.branch_and_bound import boxes_shared
 from lyapcheck.temporary import temporary_folder, work_in
 
 PACKAGE = "lyapcheck.answers.sweep.asks"
@@ -173,13 +172,12 @@ def _pool(workers: int, place: str) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(workers, get_context("spawn"), work_in, (place,))
 
 
-def answers_of_cluster(batches: Iterable[Batch], scheduler: str, count: int) -> Iterator[list[Answered]]:
+def answers_of_cluster(batches: Iterable[Batch], scheduler: str) -> Iterator[list[Answered]]:
     """What comes of each batch, in their order.
 
     Args:
         batches: taken as they are needed.
         scheduler: the address, ``tcp://host:port``.
-        count: how many questions; threads beyond that share the boxes of each.
 
     Raises:
         InputError: distributed is not installed, no scheduler answers, or a worker has another lyapcheck.
@@ -198,10 +196,9 @@ def answers_of_cluster(batches: Iterable[Batch], scheduler: str, count: int) -> 
     under_way: deque[Any] = deque()
     with client:
         while True:
-            threads = max(1, sum(client.nthreads().values()))
-            capacity, jobs = AHEAD * threads, threads // min(threads, max(1, count))
+            capacity = AHEAD * max(1, sum(client.nthreads().values()))
             while len(under_way) < capacity and (batch := next(left, None)) is not None:
-                under_way.append(client.submit(_ask, batch, jobs, pure=False, retries=RETRIES))
+                under_way.append(client.submit(_ask, batch, pure=False, retries=RETRIES))
             if not under_way:
                 return
             made_with, result = under_way[0].result()
@@ -212,14 +209,6 @@ def answers_of_cluster(batches: Iterable[Batch], scheduler: str, count: int) -> 
             yield result
 
 
-def _ask(batch: Batch, jobs: int) -> tuple[str, list[Answered]]:
-    """What comes of a batch, and what the worker is made of.
-
-    With more than one job the boxes of a hard question go to the other workers; the checker stays here.
-    """
-    if jobs <= 1:
-        return store.made_with(), ask(batch)
-    from distributed import worker_client
-
-    with worker_client() as client, boxes_shared(jobs, client.get_executor()):
-        return store.made_with(), ask(batch)
+def _ask(batch: Batch) -> tuple[str, list[Answered]]:
+    """What comes of a batch, and what the worker is made of."""
+    return store.made_with(), ask(batch)

@@ -1,4 +1,4 @@
-"""How small and how large M(q) and the Coriolis matrix of one arm are.
+"""How small and how large M(q), the Coriolis matrix and gravity of one arm are.
 
 M ≻ 0 by its links where they are known, else by boxes of angles that are cut until each shows it; upper
 bounds by the sizes of harmonics; against any of them the worst of many random postures.
@@ -14,6 +14,7 @@ import numpy as np
 
 from lyapcheck._types import SEED
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
+from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     HarmonicSizes,
@@ -132,3 +133,32 @@ def _witness(statement: OfArm, proof: PostureWitness) -> dict[str, object]:
     if isinstance(statement, MassAbove):
         return failing(point, statement.low, "<", between(statement.low - Fraction(value), 6))
     return failing(point, between(Fraction(value) + statement.high, 6), "<=", statement.high)
+
+
+# --- How large the torque of gravity is: sizes of harmonics, else a posture against it, else boxes of angles.
+
+
+GRAVITY = "gravity"
+
+
+@procedure(GravityBelow)
+def find_gravity_below(statement: GravityBelow) -> SearchResult:
+    """A bound of the sizes of harmonics, a posture that refutes it, or boxes."""
+    if proves(statement, HarmonicSizes()):
+        return shown(HarmonicSizes(), f"{GRAVITY}: {HarmonicSizes.rule}")
+    worst = max((_sampled(statement, k) for k in range(SAMPLES)), key=lambda row: row[0])
+    if refutes(statement, worst[1]):
+        point = entries(q=worst[1].q, p=worst[1].parameters)
+        witness = failing(point, between(Fraction(worst[0]), 6), "<=", statement.high)
+        return broken(worst[1], f"{GRAVITY}: a posture", witness)
+    if proves(statement, Bisection()):
+        return shown(Bisection(), f"{GRAVITY}: {Bisection.rule}")
+    return still_open("it is not shown, and no posture breaks it; take a larger bound", GRAVITY)
+
+
+def _sampled(statement: GravityBelow, k: int) -> tuple[float, PostureWitness]:
+    random = np.random.default_rng(SEED + k)
+    q = tuple(Fraction(int(step), 64) for step in random.integers(-201, 202, statement.joints))
+    ends = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
+    values = [float(value) for value in statement.at(q, ends)]
+    return float(np.linalg.norm(values)), PostureWitness(q, ends, ())

@@ -14,13 +14,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
+import numpy as np
+
 from lyapcheck.check.kinds import norm_bound as rules
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.norm_bound import EqualEntries, NormBound, OneEntry, Supremum
 from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.procedures.constants import find_relation
 from lyapcheck.claims.procedures.one_variable import find_for_all, sample
-from lyapcheck.claims.procedures.search import Point, first_refutation, witness_data, witness_of
+from lyapcheck.claims.procedures.search import Point, first_refutation, values_of, witness_data, witness_of
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "norm inequality"
@@ -41,25 +43,17 @@ def find_norm_bound(statement: NormBound) -> SearchResult:
 def vector_points(statement: NormBound) -> list[Point]:
     """The vectors that the reductions say are worst: all entries equal, or one entry alone."""
     grid = sample(ForAll(Relation(statement.component, "<=", ("num", "0"))))
-    peaks = _peaks(statement)
+    # where |f(t)| (or |f(t)/t|) is largest on a fine grid of floating point
+    x = np.linspace(1e-3, 12.0, 24_000)
+    with np.errstate(all="ignore"):
+        size = np.abs(values_of(statement.component, {"x": x})) / x**statement.power
+    best = float(x[int(np.nanargmax(size))])
+    peaks = [Fraction(best).limit_denominator(10**6)]
     names = rules.entries(statement)
     if statement.power == 0:
         return [dict.fromkeys(names, t) for t in [*peaks, *grid]]
     zero = dict.fromkeys(names, Fraction(0))
     return [zero, *({**zero, "x1": t} for t in [*peaks, *grid])]
-
-
-def _peaks(statement: NormBound) -> list[Fraction]:
-    """Where |f(t)| (or |f(t)/t|) is largest on a fine grid of floating point, as exact rationals."""
-    import numpy as np
-
-    from lyapcheck.claims.procedures.search import values_of
-
-    x = np.linspace(1e-3, 12.0, 24_000)
-    with np.errstate(all="ignore"):
-        size = np.abs(values_of(statement.component, {"x": x})) / x**statement.power
-    best = float(x[int(np.nanargmax(size))])
-    return [Fraction(best).limit_denominator(10**6)]
 
 
 def _by_supremum(statement: NormBound) -> SearchResult | None:

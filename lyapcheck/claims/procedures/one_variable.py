@@ -99,10 +99,6 @@ def _prove(statement: ForAll, domain: Stretch) -> Piece:
         )
     if at_zero and not positive_at(tree, statement.variable, low):
         raise _Open("equality at 0 is not excluded; say open_low, or use <= instead of <")
-    return _boxes(statement, domain)
-
-
-def _boxes(statement: ForAll, domain: Stretch) -> Boxes:
     tree, low, high = domain
     name, start, end = statement.variable, low, high
     if low == 0:

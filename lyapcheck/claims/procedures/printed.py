@@ -50,21 +50,17 @@ def find_agrees(statement: Agrees) -> SearchResult:
     if whole.upper < target.lower or whole.lower > target.upper:
         method = f"{METHOD}: no inputs within their rounding give it"
         return broken(OutsideRounding(BITS), method, _witness(statement, exact, target))
-    corners = _corners(statement, target)
+    # A corner of the roundings with a result below the printed one, and one above
+    all_ends = list(product((0, 1), repeat=len(statement.inputs)))
+    values = [(ends, at_corner(statement, ends, BITS)) for ends in all_ends]
+    below = next((ends for ends, value in values if value.upper <= target.upper), None)
+    above = next((ends for ends, value in values if value.lower >= target.lower), None)
+    corners = None if below is None or above is None else Corners(below, above, BITS)
     if corners is not None:
         return shown(corners, f"{METHOD}: within the rounding of the inputs", **computed)
     return still_open(
         "the rounding of the inputs leaves it open; use more digits of the inputs", METHOD, **computed
     )
-
-
-def _corners(statement: Agrees, target: Enclosure) -> Corners | None:
-    """A corner of the roundings with a result below the printed one, and one above."""
-    all_ends = list(product((0, 1), repeat=len(statement.inputs)))
-    values = [(ends, at_corner(statement, ends, BITS)) for ends in all_ends]
-    below = next((ends for ends, value in values if value.upper <= target.upper), None)
-    above = next((ends for ends, value in values if value.lower >= target.lower), None)
-    return None if below is None or above is None else Corners(below, above, BITS)
 
 
 def _witness(statement: Agrees, exact: Enclosure, target: Enclosure) -> dict[str, object]:

@@ -157,8 +157,8 @@ def _by_boxes(statement: Decreasing) -> SearchResult:
     return shown(tree, f"{METHOD}: branch and bound", boxes=outcome.tree.count("."))
 
 
-def controlled_arm_of(statement: Decreasing, *, ranges: bool = False) -> ControlledArm:
-    """The arm at the middle of its ranges, or over them, under the controller, for a search."""
+def controlled_arm_of(statement: Decreasing) -> ControlledArm:
+    """The arm at the middle of its ranges under the controller, for a search."""
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
 
@@ -170,8 +170,19 @@ def controlled_arm_of(statement: Decreasing, *, ranges: bool = False) -> Control
         kv=statement.kv,
         angle_unit="rad",
     )
-    plant = _plant(statement)
-    return ControlledArm(gains, plant if ranges else plant.fixed(), ranges)
+    # what the statement says of the arm
+    n, (viscous, parameters) = len(statement.kp), _middles(statement)
+    names = tuple(f"p{k + 1}" for k in range(len(parameters)))
+    ring = trig.trig_ring(n, names)
+    mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
+    plant = Plant(
+        name="the arm",
+        joints=tuple(f"joint {i + 1}" for i in range(n)),
+        dynamics=Polynomials(mass, trig.constant(ring, 0), names),
+        viscous=_numbers(viscous, statement.viscous),
+        parameters=dict(zip(names, _numbers(parameters, statement.parameters), strict=True)),
+    )
+    return ControlledArm(gains, plant.fixed())
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
@@ -179,21 +190,6 @@ def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fractio
     ranges = (statement.viscous, statement.parameters)
     viscous, parameters = (tuple((low + high) / 2 for low, high in ends) for ends in ranges)
     return viscous, parameters
-
-
-def _plant(statement: Decreasing) -> Plant:
-    """What the statement says of the arm."""
-    n, (viscous, parameters) = len(statement.kp), _middles(statement)
-    names = tuple(f"p{k + 1}" for k in range(len(parameters)))
-    ring = trig.trig_ring(n, names)
-    mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
-    return Plant(
-        name="the arm",
-        joints=tuple(f"joint {i + 1}" for i in range(n)),
-        dynamics=Polynomials(mass, trig.constant(ring, 0), names),
-        viscous=_numbers(viscous, statement.viscous),
-        parameters=dict(zip(names, _numbers(parameters, statement.parameters), strict=True)),
-    )
 
 
 def _numbers(middles: tuple[Fraction, ...], ranges: tuple[Ends, ...]) -> tuple[Number, ...]:

@@ -45,7 +45,7 @@ def arguments(parser: Parser) -> None:
     parser.add_number(
         "--jobs",
         int,
-        "Processes that share the boxes, of the search and of the checker.",
+        "Processes that share the boxes of the checker.",
         default=2,
         least=1,
         most=64,

@@ -1,14 +1,42 @@
-"""γ_m, ρ_m and L_m against m, beside what they tend to."""
+"""The functions of the family, and γ_m, ρ_m and L_m against m, beside what they tend to."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from lyapcheck.answers.table import Table
 from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.family import Family
 from lyapcheck.family.asymptotes import asymptotes, limits
-from lyapcheck.report.figures.style import COLOURS, panels, png, styled, svg
+from lyapcheck.report.figures.style import COLOURS, DASHES, Plot, panels, png, styled, svg
+
+
+def family_plot(families: Sequence[tuple[str, Family]]) -> Plot:
+    """h and h' of each labelled family over x ∈ [−4, 4] rad, with γ as a thin line.
+
+    References: Fig. 1 of reyes2019family.
+    """
+    x = np.linspace(-4.0, 4.0, 801)
+    header, columns = ["x [rad]"], [x]
+    with styled():
+        figure, axes = panels(1, 2)
+        for index, (label, family) in enumerate(families):
+            look = {"color": COLOURS[index % len(COLOURS)], "linestyle": DASHES[index % len(DASHES)]}
+            h, dh = family.h(x), family.dh(x)
+            axes[0, 0].plot(x, h, label=label, **look)
+            axes[0, 1].plot(x, dh, label=label, **look)
+            header, columns = [*header, f"h ({label})", f"h' ({label})"], [*columns, h, dh]
+            gamma = family.constants().gamma
+            if gamma is not None:
+                axes[0, 0].axhline(float(gamma.mid), color=look["color"], linewidth=0.6)
+        axes[0, 0].set(xlabel="x [rad]", ylabel="h(x)", title="The family; thin lines: γ")
+        axes[0, 1].set(xlabel="x [rad]", ylabel="h′(x)", title="Its derivative")
+        axes[0, 0].legend()
+    return Plot(figure, header, np.column_stack(columns))
+
 
 MOST_MARKERS = 40
 """With more members than these the points would run together: a line instead."""

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from lyapcheck.output.escapes import plot_text
+from lyapcheck.report.experiment import NumberRow, SetRow
 from lyapcheck.report.figures.motion import TICK
 from lyapcheck.report.figures.style import COLOURS, Plot, panels, styled
-from lyapcheck.report.study import NumberRow, SetRow
 
 TITLES = {"L2": "L2 index [°]", "settling": "settling time [s]", "final_error": "error after 5 s [°]"}
 UNITS = {"L2": "deg", "settling": "s", "final_error": "deg", "start_torque": "N·m"}
@@ -98,7 +98,6 @@ def alone_plot(sets: Sequence[SetRow], words: dict[str, str]) -> Plot:
     """The range of L2 when one assumption alone runs over its range, widest first, beside the print.
 
     Args:
-        sets: of the study.
         words: the assumptions as they stand in a sentence, by name.
     """
     columns = min(2, len(sets))

@@ -64,7 +64,7 @@ def _line_graph(start: Place, end: Place, used: str, row: ClaimRow) -> Markup:
 def _box(place: Place, row: ClaimRow, short: str) -> Markup:
     x, y = place
     rests = f"Rests on {', '.join(row.uses)}." if row.uses else "Rests on no other claim."
-    title = element("title", f"{row.id}, {row.word} [{row.grade}]: {row.comment} {rests}")
+    title = element("title", f"{row.id}, {row.decision.word} [{row.grade}]: {row.comment} {rests}")
     shape = element("rect", x=f"{x:g}", y=f"{y - HIGH / 2:g}", width=WIDE, height=HIGH, rx=4)
     middle = f"{x + WIDE / 2:g}"
     words = [
@@ -243,7 +243,7 @@ def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str
 
 
 def _chip(row: ClaimRow) -> Markup:
-    word, verdict = row.word, row.verdict
+    word, verdict = row.decision.word, row.verdict
     member = " ".join([*filter(None, [row.gains]), *([] if row.m is None else [f"m={row.m}"]), ""])
     shown = [element("span", member, class_="m"), f"{SYMBOLS[verdict]} {word}"]
     return element("span", shown, class_=f"chip {verdict}", data_m=row.m)
@@ -266,15 +266,15 @@ def _member(row: ClaimRow) -> Markup:
     """What was decided for one m, on what evidence."""
     head = f"{row.about}: " if row.about else ""
     lines = [
-        element("p", element("b", head, row.word), f" [{row.grade}: {GRADES.get(row.grade, '')}]"),
-        element("p", row.says(row.statement), class_="decided"),
-        [element("p", row.says(text)) for text in row.details[1:]],
+        element("p", element("b", head, row.decision.word), f" [{row.grade}: {GRADES.get(row.grade, '')}]"),
+        element("p", row.statement, class_="decided"),
+        [element("p", text) for text in row.details[1:]],
     ]
     if row.certificate and row.digest:
         link = element("a", "certificate", href=row.certificate)
-        trust = [" Trusts the rules: ", ", ".join(row.rules), "."] if row.rules else None
+        trust = [" Trusts the rules: ", ", ".join(row.decision.rules), "."] if row.decision.rules else None
         lines.append(element("p", link, " ", element("code", row.digest[:12]), ".", trust, class_="trust"))
-        lines += [element("p", "Takes for granted: ", text) for text in row.granted]
+        lines += [element("p", "Takes for granted: ", text) for text in row.decision.granted]
     return element("div", lines, class_=f"member {row.verdict}", data_m=row.m)
 
 

@@ -21,19 +21,19 @@ from lyapcheck.report.sampled import sampled_section
 FORMS = ("svg", "png", "csv")
 
 
-def figure(report: Report, name: str, caption: str, class_: str = "") -> Markup | None:
-    """A figure by its name with a caption and links to its forms; nothing where there is none."""
+def figure(report: Report, name: str, caption: str) -> Markup | None:
+    """A figure by its name; nothing where there is none."""
     text = report.figures.get(f"{name}.svg")
-    return drawn(name, text, caption, class_) if isinstance(text, str) else None
+    return drawn(name, text, caption) if isinstance(text, str) else None
 
 
-def drawn(name: str, text: str, caption: str, class_: str = "") -> Markup:
+def drawn(name: str, text: str, caption: str) -> Markup:
     """A figure by its SVG, with a caption and links to its forms in ``figures``."""
     links = [element("a", form.upper(), href=f"figures/{name}.{form}") for form in FORMS]
     words = element(
         "figcaption", caption, " ", element("span", [[" ", link] for link in links], class_="forms")
     )
-    return element("figure", inline(text, caption), words, class_=f"drawing {class_}".strip())
+    return element("figure", inline(text, caption), words, class_="drawing")
 
 
 def inline(svg: str, words: str) -> Markup:
@@ -94,9 +94,7 @@ def _map(report: Report) -> Markup | None:
     largest = max((float(cell.eps0 or 0) for cell in cells), default=0.0) or 1.0
     heads = [element("th", f"k_v = {kv}", scope="col") for kv in scales]
     rows = [
-        element(
-            "tr", element("th", f"m = {m}", scope="row"), [_cell(report, at[m, kv], largest) for kv in scales]
-        )
+        element("tr", element("th", f"m = {m}", scope="row"), [_cell(at[m, kv], largest) for kv in scales])
         for m in ms
     ]
     caption = (
@@ -115,9 +113,9 @@ def _map(report: Report) -> Markup | None:
     return element("div", element("h3", "The map of m and k_v"), element("div", table, class_="scroll"))
 
 
-def _cell(report: Report, cell: MapCell, largest: float) -> Markup:
+def _cell(cell: MapCell, largest: float) -> Markup:
     eps0 = element("b", cell.eps0 or "none proved")
-    if cell.path in report.certificates:
+    if cell.certificate:
         eps0 = element("a", eps0, href=cell.path)
     settling = "not settled" if cell.settling is None else f"{cell.settling:.2f} s"
     share = "" if cell.share is None else f", {100 * cell.share:.0f} %"
