@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from lyapcheck.files.decimals import of_physical_size
 from lyapcheck.files.fields import Fields
 
 VELOCITIES = ("difference", "measured")
@@ -116,7 +117,7 @@ def _taps(table: Fields) -> tuple[Fraction, ...] | None:
     if value is None:
         return None
     numbers = isinstance(value, list) and all(
-        isinstance(x, int | Fraction) and not isinstance(x, bool) and abs(x) <= MOST_ERROR for x in value
+        isinstance(x, int | Fraction) and not isinstance(x, bool) and of_physical_size(x) for x in value
     )
     if not numbers or not 1 <= len(value) <= MOST_TAPS or not any(value):
         rule = f"must be 1 to {MOST_TAPS} taps of a filter, numbers that are not all 0"
@@ -131,8 +132,8 @@ def _encoder(table: Fields) -> int | None:
     if value is None:
         return None
     match = _BITS.fullmatch(value.strip()) if isinstance(value, str) else None
-    counts = 2 ** int(match[1]) if match else value
-    if not isinstance(counts, int) or isinstance(counts, bool) or not 2 <= counts <= MOST_COUNTS:
+    counts: object = 1 << int(match[1]) if match else value
+    if isinstance(counts, bool) or not isinstance(counts, int) or not 2 <= counts <= MOST_COUNTS:
         rule = "must be bits or counts a turn, from 1 bit to 40 bits"
         table.fail("encoder", rule, 'give it as "17 bits", or as 131072')
         return None
