@@ -67,11 +67,15 @@ class LoopRecord:
                 parts.append(f"low-pass of {decimal_text(self.lowpass)} Hz")
             elif self.filter != ONE:
                 parts.append(f"filter of {len(self.filter)} taps")
-        if self.unknown_payload:
-            parts.append(f"unknown payload up to {decimal_text(self.unknown_payload)} kg")
-        if self.gravity_error:
-            parts.append(f"gravity wrong by up to {decimal_text(100 * self.gravity_error)} %")
         return ", ".join(parts)
+
+    @property
+    def unknown_text(self) -> str:
+        """What the controller does not know: ``a payload of up to 2 kg``."""
+        kg, percent = decimal_text(self.unknown_payload), decimal_text(100 * self.gravity_error)
+        parts = [f"a payload of up to {kg} kg"] if self.unknown_payload else []
+        parts += [f"gravity wrong by up to {percent} %"] if self.gravity_error else []
+        return " and ".join(parts)
 
 
 def time_text(seconds: Fraction) -> str:
