@@ -79,10 +79,9 @@ class LoopRecord:
 
 
 def time_text(seconds: Fraction) -> str:
-    """A period in ms, exactly where it has a short decimal, else to four digits."""
-    milli = 1000 * seconds
-    text = decimal_text(milli)
-    return f"{text if '/' not in text and len(text) <= 8 else f'{float(milli):.4g}'} ms"
+    """A period exactly: in ms where it is a decimal, else as 1/600 s."""
+    text = decimal_text(1000 * seconds)
+    return f"{decimal_text(seconds)} s" if "/" in text else f"{text} ms"
 
 
 def record_of(

@@ -1,1 +1,61 @@
 """Gains as a computer runs them, on an arm of which the controller does not know all that pulls at it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, holds_checks, holds_sentences
+from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, sampled_check
+from lyapcheck.control.conditions import ACCEPTED, Check
+from lyapcheck.control.gains import GainSet
+from lyapcheck.control.limits import Limits
+from lyapcheck.control.sampling import LoopRecord
+
+INFINITE = "No rate is known: what is said is of (11), for a controller of infinite rate; see [loop]."
+
+__all__ = [
+    "HOLDS",
+    "INFINITE",
+    "SAMPLED",
+    "HoldsCheck",
+    "SampledCheck",
+    "running_checks",
+    "running_sentences",
+]
+
+
+def running_checks(
+    gains: GainSet,
+    limits: Limits,
+    record: LoopRecord | None,
+    viscous_min: Fraction | None = None,
+    deciding: Sequence[str] = (),
+    others: Sequence[Check] = (),
+    searched: bool = True,
+) -> tuple[Check, ...]:
+    """The one place where an arm, gains and a record become statements that are judged.
+
+    Args:
+        gains: the controller.
+        limits: of the arm.
+        record: how a computer runs it, and what it does not know.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        deciding: conditions that must hold, whether the record speaks of them or not.
+        others: the checks of (10i) and (10p), of which one has to pass for `sampled` to count.
+        searched: whether to look for a refutation of what is not shown.
+    """
+    checks: list[Check] = []
+    if SAMPLED in deciding or (record is not None and record.period is not None):
+        kept = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
+        inside = any(each and all(each) for each in kept)
+        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched))
+    if HOLDS in deciding or (record is not None and not record.knows_gravity):
+        checks += holds_checks(gains, limits.model, record)
+    return tuple(checks)
+
+
+def running_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]:
+    """What these checks show and refute."""
+    said = [text for check in checks if isinstance(check, SampledCheck) for text in check.sentences]
+    return [*said, *holds_sentences(checks, joints)]

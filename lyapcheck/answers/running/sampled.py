@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.asked import sampled, viscous_of
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
+from lyapcheck.control.conditions import Check
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.control.sampled import SampledLoop, judged_sampled, sampled_proof
 from lyapcheck.control.sampling import LoopRecord, time_text
@@ -40,6 +40,7 @@ SAMPLED = "sampled"
 NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off where they are small"
 SATURATES = "(S) supposes that no motor saturates: it counts together with (10i) or (10p) only"
+UNSAID = LoopRecord()
 LONGEST = 20
 """Times the period asked: how far a refuted one is looked for."""
 
@@ -56,7 +57,7 @@ class SampledCheck(Check):
         counts: whether (10i) or (10p) holds.
     """
 
-    record: LoopRecord = LoopRecord()
+    record: LoopRecord = UNSAID
     up_to: Promise | None = None
     refuted: JudgedStatement | None = None
     rests: bool = False
@@ -174,7 +175,7 @@ def question(
 def largest(
     asked: SampledStable, arm: RobotModel | None, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
-    """The largest period to state and the supremum of those that (S) shows, s; the tightest joint, or why not."""
+    """The largest period to state and the supremum of all that (S) shows, s; the tightest joint, or why not."""
     k_g = asked.k_g or sampled_proof(asked, arm).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
     rows = list(zip(asked.viscous_min, still, now, strict=True))
