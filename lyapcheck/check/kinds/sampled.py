@@ -149,7 +149,9 @@ class SampledStable(Total):
     def granted(self) -> tuple[str, ...]:
         arm = "M(q) ≻ 0, C by Christoffel symbols and B diagonal"
         late = f"{self.delay} readings later" if self.delay else "at once"
-        beside = "and no friction beside B acts" if self.conclusion == GOAL else "and other friction only brakes"
+        beside = (
+            "and no friction beside B acts" if self.conclusion == GOAL else "and other friction only brakes"
+        )
         known = "is that of the arm" if self.conclusion == GOAL else "need not be that of the arm"
         premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at every posture; no g is given"
         return (
