@@ -20,6 +20,7 @@ from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import weakest
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
+from lyapcheck.control.gains import RUNNING
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import file_stem
@@ -37,19 +38,20 @@ REST = "how far from the goal dry friction may leave the joints"
 
 
 def whole(result: GateResult) -> Certificate | None:
-    """The certificate of the verdict on a gain set; none where it is undecided.
+    """The certificate of the verdict on a gain set, of (11); none where it is undecided.
 
     One statement about the arm, its ranges and the gains where there is one, else one on numbers alone.
 
     Soundness: every part is a judgement of ``lyapcheck.check.verify``.
     """
-    checks = [check for check in result.checks if result.decides(check)]
+    checks = [check for check in result.checks if result.decides(check) and check.id not in RUNNING]
     known = [(check, check.judgement) for check in checks if check.judgement is not None]
     if result.verdict not in (ACCEPTED, REJECTED) or len(known) < len(checks):
         return None  # without a limit there is no statement to certify
-    about = About(
-        result.name, f"{result.name}: {', '.join(result.deciding)}", result.m, result.limits.n, PROOF
-    )
+    if not checks or (result.verdict == REJECTED and REJECTED not in {check.verdict for check in checks}):
+        return None  # what decides has a certificate of its own
+    decided = ", ".join(name for name in result.deciding if name not in RUNNING)
+    about = About(result.name, f"{result.name}: {decided}", result.m, result.limits.n, PROOF)
     one = verdict_statement(result)
     if one is not None:
         kept = one.statement

@@ -23,7 +23,7 @@ from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.control.sampled import SampledLoop, judged_sampled, sampled_proof
 from lyapcheck.control.sampling import LoopRecord, time_text
 from lyapcheck.family.registry import named
-from lyapcheck.files.decimals import significant_down
+from lyapcheck.files.decimals import decimal_text, exact_decimal, significant_down
 from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.dynamics import TooManyTerms
@@ -41,6 +41,8 @@ NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off where they are small"
 SATURATES = "(S) supposes that no motor saturates: it counts together with (10i) or (10p) only"
 UNSAID = LoopRecord()
+DIGITS = 9
+"""Of the largest period in data."""
 LONGEST = 20
 """Times the period asked: how far a refuted one is looked for."""
 
@@ -134,7 +136,8 @@ def sampled_check(
     if most is not None:
         shown = judged_sampled(replace(asked, period=most[0]), arm)
         up_to, why_not = promised(replace(asked, period=most[0]), shown)
-        known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to)
+        fits = exact_decimal(decimal_text(significant_down(most[0], DIGITS)))
+        known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to, largest_admissible=fits)
         if up_to is not None and asked.period <= most[0]:
             promise, _ = promised(asked, shown)
             if promise is not None and inside:
@@ -175,7 +178,7 @@ def question(
 def largest(
     asked: SampledStable, arm: RobotModel | None, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
-    """The largest period to state and the supremum of all that (S) shows, s; the tightest joint, or why not."""
+    """The largest period to state and the supremum of all shown, s; the tightest joint, or why there is none."""
     k_g = asked.k_g or sampled_proof(asked, arm).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
     rows = list(zip(asked.viscous_min, still, now, strict=True))
