@@ -34,7 +34,8 @@ class LoopRecord:
         lowpass: cut-off of a first-order filter of the velocity in place of the taps, Hz.
         encoder: counts a turn of every joint; ``None`` for those of the arm.
         unknown_payload: the most at the tip that the controller does not know, kg.
-        gravity_error: the largest share of g_i(q) by which the controller's may be wrong.
+        gravity_error: the largest share of the g_i(q) of the arm file, which the controller uses, by which
+            that of the real arm may differ.
     """
 
     period: Fraction | None = None

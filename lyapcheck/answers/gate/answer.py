@@ -25,7 +25,7 @@ from lyapcheck.answers.gate.words import (
     spoken_verdict,
     value_text,
 )
-from lyapcheck.answers.running import INFINITE, running_sentences
+from lyapcheck.answers.running import INFINITE, farthest_unknown, open_as_run, running_sentences
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
@@ -54,7 +54,7 @@ NO_DECISION = "* shown, but does not decide; --condition chooses what does"
 
 def remarks(result: GateResult) -> list[str]:
     """What the conditions say about each other, and the bench about the gains, a sentence each."""
-    run = running_sentences(result.checks, result.limits.joints)
+    run = running_sentences(result.checks, result.limits.joints, result.failures)
     damping, joints = result.verdict_of(("19",)), result.verdict_of(("10p",))
     missing = [check for check in result.checks if check.id in CERTIFICATES and check.verdict != ACCEPTED]
     outcome = _without_19(result) if damping == REJECTED else []
@@ -181,11 +181,15 @@ class GateAnswer(tuple[GateResult, ...], Answer):
 
 
 def _fact(result: GateResult) -> Fact | None:
-    """What dry friction, which no condition is about, makes of a set that is accepted."""
+    """What decides nothing of a set that is accepted: rest beside the goal, and the loop as it is run."""
     model = result.limits.model
     if model is None or not result.explained or result.verdict != ACCEPTED:
         return None
-    return farthest(result.gains, model)
+    unknown, open_ = farthest_unknown(result.checks), open_as_run(result.checks)
+    far = farthest(result.gains, model) if unknown is None else unknown
+    if not open_:
+        return far
+    return (Fraction(0), open_) if far is None else (far[0], f"{far[1]}; {open_}")
 
 
 def _weight(fact: Fact) -> Fraction:

@@ -15,7 +15,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.sampling import time_text
 from lyapcheck.files.decimals import decimal_text, scaled_text
-from lyapcheck.output.digits import at_least, correct_digits, decimals
+from lyapcheck.output.digits import at_least, at_most, correct_digits, decimals
 from lyapcheck.promise import promised
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
@@ -29,8 +29,8 @@ RULES = {
     "global": "dV/dt < 0 at each state but the goal with the ε₀ shown, box by box",
     "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
     "with or without friction (Khalil 2002, corollary 4.2)",
-    SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), whatever the "
-    "inertia; values are periods",
+    SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
+    "whatever the inertia; values are periods",
     HOLDS: "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }
@@ -76,6 +76,8 @@ def value_text(check: Check) -> str:
         return ""
     if check.id == SAMPLED and check.value is not None:
         return time_text(check.value)
+    if check.id == HOLDS and check.value is not None:
+        return at_most(check.value, 6)
     return "none" if check.value is None else decimal_text(check.value)
 
 

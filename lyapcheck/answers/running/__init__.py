@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, holds_checks, holds_sentences
+from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, farthest_unknown, holds_checks, holds_sentences
 from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, sampled_check
 from lyapcheck.control.conditions import ACCEPTED, Check
 from lyapcheck.control.gains import GainSet
@@ -20,6 +20,8 @@ __all__ = [
     "SAMPLED",
     "HoldsCheck",
     "SampledCheck",
+    "farthest_unknown",
+    "open_as_run",
     "running_checks",
     "running_sentences",
 ]
@@ -55,7 +57,18 @@ def running_checks(
     return tuple(checks)
 
 
-def running_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]:
-    """What these checks show and refute."""
-    said = [text for check in checks if isinstance(check, SampledCheck) for text in check.sentences]
-    return [*said, *holds_sentences(checks, joints)]
+def running_sentences(
+    checks: Sequence[Check], joints: Sequence[str], told: Sequence[Check] = ()
+) -> list[str]:
+    """What these checks show and refute, and why one does neither, unless that was told."""
+    runs = [check for check in checks if check.id in (SAMPLED, HOLDS)]
+    said = [text for check in runs if isinstance(check, SampledCheck) for text in check.sentences]
+    said += holds_sentences(runs, joints)
+    said += [f"({check.id}) {check.reason}" for check in runs if check.reason and check not in told]
+    return said
+
+
+def open_as_run(checks: Sequence[Check]) -> str:
+    """Which of these is not decided, for a headline; empty where none is."""
+    open_ = dict.fromkeys(check.id for check in checks if check.id in (SAMPLED, HOLDS) and check.reason)
+    return f"open: {', '.join(open_)}" if open_ else ""

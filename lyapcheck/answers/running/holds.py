@@ -30,7 +30,7 @@ from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitne
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
+from lyapcheck.control.conditions import Check
 from lyapcheck.control.gravity import computed_bounds, exceeded, levers
 from lyapcheck.control.judgement import (
     DEGREES,
@@ -247,18 +247,32 @@ def _rests(gains: GainSet, ratio: float) -> list[float]:
 
 
 def holds_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]:
-    """What is shown of the joints, a sentence for all that hold and one for each that falls."""
-    known = [check for check in checks if isinstance(check, HoldsCheck) and check.joint is not None]
-    held = [check for check in known if check.verdict == ACCEPTED and check.error is not None]
-    said = []
-    if held:
-        far = ", ".join(f"{joints[one.joint or 0]} {degrees_above(one.error or Fraction(0))}" for one in held)
-        dry = " with dry friction" if any(one.friction for one in held) else ""
-        words = (
-            f"{held[0].unknown}, unknown to the controller,{dry} leaves at most {far}, at every state of rest"
-        )
-        said.append(all_say((one.promise for one in held), words))
-    return [*said, *(falls(one, joints) for one in known if one.verdict == REJECTED)]
+    """How far from the goal the joints may rest that hold; `falls` says what is shown of others."""
+    held = _held(checks)
+    if not held:
+        return []
+    far = ", ".join(f"{joints[one.joint or 0]} {degrees_above(one.error or Fraction(0))}" for one in held)
+    words = f"{_cause(held)} leaves at most {far}, at every state of rest"
+    return [all_say((one.promise for one in held), words)]
+
+
+def farthest_unknown(checks: Sequence[Check]) -> tuple[Fraction, str] | None:
+    """How far from the goal what is unknown may leave a joint, in degrees and in words; ``None`` if open."""
+    held = _held(checks)
+    if not held or len(held) < sum(check.id == HOLDS for check in checks):
+        return None
+    most = max(one.error or Fraction(0) for one in held)
+    words = f"{_cause(held)} leaves at most {degrees_above(most)}"
+    return most * DEGREES, all_say((one.promise for one in held), words)
+
+
+def _held(checks: Sequence[Check]) -> list[HoldsCheck]:
+    return [check for check in checks if isinstance(check, HoldsCheck) and check.error is not None]
+
+
+def _cause(held: Sequence[HoldsCheck]) -> str:
+    dry = " with dry friction" if any(one.friction for one in held) else ""
+    return f"{held[0].unknown} unknown to the controller{dry}"
 
 
 def falls(check: HoldsCheck, joints: Sequence[str]) -> str:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.asked import sampled, viscous_of
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.control.conditions import Check
+from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.control.sampled import SampledLoop, judged_sampled, sampled_proof
 from lyapcheck.control.sampling import LoopRecord, time_text
@@ -87,7 +87,7 @@ class SampledCheck(Check):
             if not self.counts:
                 words += ", while no motor saturates, which nothing shows"
             said.append(self.up_to.says(words))
-        if self.refuted is not None:
+        if self.refuted is not None and self.verdict != REJECTED:
             said.append(unstable_text(self.refuted, self.rests))
         return said
 
@@ -178,7 +178,7 @@ def question(
 def largest(
     asked: SampledStable, arm: RobotModel | None, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
-    """The largest period to state and the supremum of all shown, s; the tightest joint, or why there is none."""
+    """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
     k_g = asked.k_g or sampled_proof(asked, arm).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
     rows = list(zip(asked.viscous_min, still, now, strict=True))
