@@ -56,18 +56,22 @@ class LoopRecord:
     @property
     def text(self) -> str:
         """The loop in words: ``2.5 ms, 1 sample late, velocity by differences``."""
-        parts = []
-        if self.period is not None:
-            parts.append(time_text(self.period))
-            if self.longest is not None and self.longest > self.period:
-                parts.append(f"at most {time_text(self.longest)}")
-            late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
-            parts.append(late if self.delay else "no delay")
-            parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
-            if self.lowpass is not None:
-                parts.append(f"low-pass of {decimal_text(self.lowpass)} Hz")
-            elif self.filter != ONE:
-                parts.append(f"filter of {len(self.filter)} taps")
+        if self.period is None:
+            return self.unknown_text
+        jitter = self.longest is not None and self.longest > self.period
+        longest = f", no interval above {time_text(self.longest or self.period)}" if jitter else ""
+        return f"{time_text(self.period)}{longest}, {self.how}"
+
+    @property
+    def how(self) -> str:
+        """The same without the period."""
+        late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
+        parts = [late if self.delay else "no delay"]
+        parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
+        if self.lowpass is not None:
+            parts.append(f"low-pass of {decimal_text(self.lowpass)} Hz")
+        elif self.filter != ONE:
+            parts.append(f"filter of {len(self.filter)} taps")
         return ", ".join(parts)
 
     @property

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.files.decimals import of_physical_size
+from lyapcheck.files.decimals import decimal_text, of_physical_size
 from lyapcheck.files.fields import Fields
 
 VELOCITIES = ("difference", "measured")
@@ -53,6 +53,22 @@ class LoopEntry:
             dropped |= {"filter": None, "lowpass": None}
         given = {name: value for name, value in vars(self).items() if value is not None}
         return replace(other, **(dropped | given))
+
+    @property
+    def toml(self) -> str:
+        """The table ``[loop]`` that says it."""
+        periods = {name: getattr(self, name) for name in ("period", "longest")}
+        lines = [f'{name} = "{decimal_text(10**6 * x)} us"' for name, x in periods.items() if x is not None]
+        if self.period is not None and "/" in lines[0]:
+            lines[0] = f"rate = {decimal_text(1 / self.period)}"
+        for name in ("delay", "lowpass", "encoder", "unknown_payload"):
+            value = getattr(self, name)
+            lines += [] if value is None else [f"{name} = {decimal_text(value)}"]
+        lines += [] if self.velocity is None else [f'velocity = "{self.velocity}"']
+        lines += [] if self.filter is None else [f"filter = [{', '.join(map(decimal_text, self.filter))}]"]
+        error = self.gravity_error
+        lines += [] if error is None else [f"gravity_error = {decimal_text(100 * error)}"]
+        return "\n".join(["[loop]", *lines])
 
 
 NOTHING = LoopEntry()

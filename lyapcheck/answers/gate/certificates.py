@@ -141,9 +141,9 @@ def _of_periods(result: GateResult) -> Iterator[Certificate]:
     for check in result.checks:
         if isinstance(check, SampledCheck) and check.judgement is None:
             shown = None if check.up_to is None else check.up_to.shown
-            for name, one in (("shown", shown), ("refuted", check.refuted)):
+            for name, one in (("shown", shown), ("unstable", check.refuted)):
                 if isinstance(one, JudgedStatement) and one.proof is not None:
-                    says = f"{result.name}: a period that is {name}"
+                    says = f"{result.name}: what is {name} of its periods"
                     about = About(f"{result.name}.sampled.{name}", says, result.m, result.limits.n, PROOF)
                     yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
 

@@ -75,7 +75,7 @@ class GateResult:
 
         Without a promise about the arm as it was given, checks that all pass are ``undecided``.
         """
-        result = REJECTED if any(map(_refuted, self.checks)) else self.verdict_of((*self.deciding, GRAVITY))
+        result = self.verdict_of((*self.deciding, GRAVITY, *self.broken))
         return UNDECIDED if result == ACCEPTED and not self.grounds.promises else result
 
     @property
@@ -87,12 +87,7 @@ class GateResult:
     def standing(self) -> str:
         """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
-        if (
-            self.verdict != REJECTED
-            or self.stable is None
-            or self.saturates
-            or any(map(_refuted, self.checks))
-        ):
+        if self.verdict != REJECTED or self.stable is None or self.saturates or self.broken:
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
@@ -144,12 +139,15 @@ class GateResult:
 
     def decides(self, check: Check) -> bool:
         """Whether the verdict follows from a check."""
-        return check.id in self.deciding or check.id == GRAVITY or _refuted(check)
+        return check.id in (*self.deciding, GRAVITY) or (
+            check.id in self.broken and check.verdict == REJECTED
+        )
 
-
-def _refuted(check: Check) -> bool:
-    """Whether a check is rejected that decides nothing else, unless it is asked for."""
-    return check.id in (GRAVITY, *RUNNING) and check.verdict == REJECTED
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """What decides without being asked for, since it is rejected."""
+        names = (GRAVITY, *RUNNING)
+        return tuple(check.id for check in self.checks if check.id in names and check.verdict == REJECTED)
 
 
 def judged_sets(

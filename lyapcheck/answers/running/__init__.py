@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, farthest_unknown, holds_checks, holds_sentences
+from lyapcheck.answers.running.holds import (
+    HOLDS,
+    HoldsCheck,
+    falls,
+    farthest_unknown,
+    holds_checks,
+    holds_sentences,
+)
 from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, sampled_check
-from lyapcheck.control.conditions import ACCEPTED, Check
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.sampling import LoopRecord
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
 
 INFINITE = "No rate is known: what is said is of (11), for a controller of infinite rate; see [loop]."
 
@@ -21,9 +33,11 @@ __all__ = [
     "HoldsCheck",
     "SampledCheck",
     "farthest_unknown",
+    "holds_checks",
     "open_as_run",
     "running_checks",
     "running_sentences",
+    "runs_of",
 ]
 
 
@@ -57,13 +71,30 @@ def running_checks(
     return tuple(checks)
 
 
+SUPPOSED = LoopRecord(period=Fraction(1, 1000))
+"""What is supposed where no rate is known: one sample late, velocities by differences."""
+
+
+def runs_of(result: GateResult) -> tuple[Check, ...]:
+    """The checks of the loop of a result of the gate; without a rate what periods a supposed one serves."""
+    known = tuple(check for check in result.checks if check.id in (SAMPLED, HOLDS))
+    if any(check.id == SAMPLED for check in known):
+        return known
+    record = replace(SUPPOSED if result.record is None else result.record, period=SUPPOSED.period)
+    viscous_min = result.file.bounds.viscous_min
+    check = running_checks(result.gains, result.limits, record, viscous_min, (), result.checks)[0]
+    return (replace(check, named=False) if isinstance(check, SampledCheck) else check, *known)
+
+
 def running_sentences(
     checks: Sequence[Check], joints: Sequence[str], told: Sequence[Check] = ()
 ) -> list[str]:
     """What these checks show and refute, and why one does neither, unless that was told."""
     runs = [check for check in checks if check.id in (SAMPLED, HOLDS)]
-    said = [text for check in runs if isinstance(check, SampledCheck) for text in check.sentences]
+    said = [text for one in runs if isinstance(one, SampledCheck) for text in one.sentences(one in told)]
     said += holds_sentences(runs, joints)
+    fallen = [one for one in runs if isinstance(one, HoldsCheck) and one.verdict == REJECTED]
+    said += [falls(one, joints) for one in fallen if one not in told]
     said += [f"({check.id}) {check.reason}" for check in runs if check.reason and check not in told]
     return said
 

@@ -88,13 +88,19 @@ class HoldsCheck(Check):
         return rest.errors[0]
 
 
-def holds_checks(gains: GainSet, model: RobotModel | None, record: LoopRecord | None) -> tuple[Check, ...]:
+def holds_checks(
+    gains: GainSet,
+    model: RobotModel | None,
+    record: LoopRecord | None,
+    dry: Sequence[Fraction] | None = None,
+) -> tuple[Check, ...]:
     """The check of each joint on which something unknown may act; one without a joint where none can be made.
 
     Args:
         gains: the controller.
         model: the arm, of which all values of its ranges are meant.
         record: what the controller does not know.
+        dry: (n,) bounds of dry friction in place of the arm's, N·m.
 
     Soundness: bounds of Δg and of the errors are accepted by ``lyapcheck.check.verify``; a posture at which a
         joint falls refutes that |Δg_i| stays below γ k_pi + f_i.
@@ -110,7 +116,8 @@ def holds_checks(gains: GainSet, model: RobotModel | None, record: LoopRecord | 
         parts = list(_parts(model, record))
     except TooManyTerms as error:
         return (Check(HOLDS, reason=str(error)),)
-    checks = (_check(gains, model, record, i, parts) for i in range(model.n))
+    friction = dry_friction(model) if dry is None else dry
+    checks = (_check(gains, model, record, (i, friction[i]), parts) for i in range(model.n))
     return tuple(check for check in checks if check is not None)
 
 
@@ -144,12 +151,13 @@ def payload_alone(model: RobotModel, payload: Fraction) -> RobotModel:
 
 
 def _check(
-    gains: GainSet, model: RobotModel, record: LoopRecord, i: int, parts: Sequence[_Part]
+    gains: GainSet, model: RobotModel, record: LoopRecord, joint: tuple[int, Fraction], parts: Sequence[_Part]
 ) -> HoldsCheck | None:
+    i, friction = joint
     most = sum((part.share * part.bounds[i] for part in parts), Fraction(0))
     if not most:
         return None
-    kp, friction = Fraction(gains.kp[i]), dry_friction(model)[i]
+    kp = Fraction(gains.kp[i])
     total = most + friction
     known = HoldsCheck(
         HOLDS,
@@ -271,7 +279,7 @@ def _held(checks: Sequence[Check]) -> list[HoldsCheck]:
 
 
 def _cause(held: Sequence[HoldsCheck]) -> str:
-    dry = " with dry friction" if any(one.friction for one in held) else ""
+    dry = " with dry friction" if any(one.friction for one in held) else ", without dry friction,"
     return f"{held[0].unknown} unknown to the controller{dry}"
 
 

@@ -56,6 +56,7 @@ class SampledCheck(Check):
         up_to: that the largest period shown, and each shorter one, will do; ``None`` where none is shown.
         refuted: that stability is refuted at a period, of the arm without dry friction or unknown gravity.
         rests: whether it is shown that the arm comes to rest, not that it does so at the goal.
+        named: whether the period of the record is one that somebody asked about.
         counts: whether (10i) or (10p) holds.
     """
 
@@ -63,6 +64,7 @@ class SampledCheck(Check):
     up_to: Promise | None = None
     refuted: JudgedStatement | None = None
     rests: bool = False
+    named: bool = True
     counts: bool = True
 
     @property
@@ -76,18 +78,15 @@ class SampledCheck(Check):
         asked: SampledStable = self.up_to.asked  # type: ignore[assignment]
         return asked
 
-    @property
-    def sentences(self) -> list[str]:
-        """What is shown and what is refuted of the periods."""
+    def sentences(self, told: bool) -> list[str]:
+        """What is shown and what is refuted of the periods, unless a rejection was told."""
         said = []
         if self.up_to is not None and self.most is not None:
-            words = f"as run ({self.record.text}): "
-            words += "comes to rest" if self.rests else "stable"
-            words += f" for every period up to {time_text(self.most)}"
-            if not self.counts:
-                words += ", while no motor saturates, which nothing shows"
-            said.append(self.up_to.says(words))
-        if self.refuted is not None and self.verdict != REJECTED:
+            words = f"as run ({self.record.text if self.named else self.record.how}): "
+            end = "" if self.counts else ", while no motor saturates, which nothing shows"
+            end = f"for every period up to {time_text(self.most)}{end}"
+            said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
+        if self.refuted is not None and not (told and self.verdict == REJECTED):
             said.append(unstable_text(self.refuted, self.rests))
         return said
 
