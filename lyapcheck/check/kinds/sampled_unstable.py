@@ -57,12 +57,12 @@ class GrowingMotion(Proof):
 def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepted:
     """Soundness: one loop of the statement has a goal that is not stable.
 
-    The loop is that of b_i = ``viscous_min``, the parameters of the proof, and all intervals T. Near the fixed
-    point x = 0 its motion from one sample to the next is a map f of class C¹ with f'(0) = Φ, as M, C and g are
-    analytic, h is C¹ and M ≻ 0. With V = xᵀSx, μ²S − ΦᵀSΦ ≻ 0 gives an r with V(f(x)) ≤ μ²V(x) for |x| ≤ r. The
-    proof has a v with V(v) < 0. From x_0 = s v the motion has V(x_k) ≤ μ²ᵏ s² V(v) as long as |x_k| ≤ r, where
-    V is bounded: however small s > 0 is, it leaves that ball. So the goal is not stable. No other eigenvalue of
-    Φ matters, nor does h beyond h'(0): where that is 0, as for m ≥ 2, gravity and B alone would have to grow.
+    It is the one with b_i = ``viscous_min``, the parameters of the proof, and all intervals T. Near its fixed
+    point x = 0 the motion from a sample to the next is a C¹ map f with f'(0) = Φ: M, C and g are analytic, h
+    is C¹, M ≻ 0. With V = xᵀSx, μ²S − ΦᵀSΦ ≻ 0 gives an r with V(f(x)) ≤ μ²V(x) for |x| ≤ r. The proof has
+    a v with V(v) < 0. From x_0 = s v it is V(x_k) ≤ μ²ᵏ s² V(v) as long as all |x_k| ≤ r, where V is bounded:
+    however small s > 0, the motion leaves that ball. So the goal is not stable. No other eigenvalue of Φ
+    matters, nor does h beyond h'(0); where that is 0, as for m ≥ 2, late gravity alone must make it grow.
     """
     n, T = statement.n, proof.period
     require(statement.conclusion == GOAL, "conclusion", statement.conclusion, "is nothing about a goal")
