@@ -6,8 +6,8 @@ With F = Σ|f_j|, r = ``stretch`` and Γ_i = Σ_j min(k_gi, k_gj) it suffices th
 
 A held torque does the work τᵀδ over an interval, δ the change of q: the potentials rise by at most
 ½ (ρ k_pi + Γ_i) δ_i² above it, readings d apart cost the same d times, the velocity L k_vi |f_j| δ_i²/T, and
-friction takes b_i δ_i²/(r T). Each g_i of a serial revolute arm is a sum of a, b cos q_j, c sin q_j in each
-q_j alone, so that ∂g_i/∂q_j = ½ [g_i(q + ½π e_j) − g_i(q − ½π e_j)] is no larger than k_gi; ∂g_i/∂q_j = ∂g_j/∂q_i.
+friction takes b_i δ_i²/(r T). Each g_i of a serial revolute arm is a + b cos q_j + c sin q_j in each q_j:
+hence ∂g_i/∂q_j = ½ [g_i(q + ½π e_j) − g_i(q − ½π e_j)] is no larger than k_gi, and it is ∂g_j/∂q_i.
 
 References: ``colgate1994factors`` for one linear joint; ``formal/Sampled.v`` to ``formal/Goal.v`` for n.
 """
@@ -148,11 +148,9 @@ class SampledStable(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         arm = "M(q) ≻ 0, C by Christoffel symbols and B diagonal"
-        late = f"{self.delay} readings later" if self.delay else "at once"
-        beside = (
-            "and no friction beside B acts" if self.conclusion == GOAL else "and other friction only brakes"
-        )
-        known = "is that of the arm" if self.conclusion == GOAL else "need not be that of the arm"
+        goal, late = self.conclusion == GOAL, f"{self.delay} readings later" if self.delay else "at once"
+        beside = "and no friction beside B acts" if goal else "and other friction only brakes"
+        known = "is that of the arm" if goal else "need not be that of the arm"
         premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at every posture; no g is given"
         return (
             f"the arm is serial, its joints are revolute: (1) with {arm}",
