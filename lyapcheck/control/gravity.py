@@ -92,10 +92,10 @@ def levers(model: RobotModel) -> tuple[Levers, ...] | None:
     none, *units = ([link.mass for link in dynamics.fixed(values).links] for values in of)
     shares = tuple(tuple(map(Fraction.__sub__, unit, none)) for unit in units)
     links = tuple(replace(link, mass=mass) for link, mass in zip(heavy.links, none, strict=True))
-    return tuple(Levers(links, shares, heavy.fall, i, _along(heavy, i)) for i in range(model.n))
+    return tuple(Levers(links, shares, heavy.fall, i, least_along(heavy, i)) for i in range(model.n))
 
 
-def _along(chain: Chain, i: int) -> tuple[int, ...]:
+def least_along(chain: Chain, i: int) -> tuple[int, ...]:
     """For which joints behind one `lever_bound` is least; beyond a few all or none."""
     rough, fall = (_rough(chain.links), _rough(chain.fall))
     behind = range(i + 1, chain.n)

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
-from lyapcheck.check.loop.chain import pulls
+from lyapcheck.check.loop.chain import lever_bound, pulls
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.statement import Proof
-from lyapcheck.control.gravity import levers
+from lyapcheck.control.gravity import least_along
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
-
-if TYPE_CHECKING:
-    from lyapcheck.robots import RobotModel
+from lyapcheck.robots.dynamics import Chain
 
 
 @dataclass(frozen=True)
@@ -77,43 +73,35 @@ class SampledLoop:
         return Fraction(1) if self.longest is None or self.period <= 0 else self.longest / self.period
 
 
-def sampled_proof(statement: SampledStable, arm: RobotModel | None = None) -> ShortPeriod:
-    """What may show a statement by (S): a bound of each torque of gravity, with its proof.
-
-    Args:
-        statement: the question.
-        arm: that it is about; none where bounds are a premise.
-    """
-    if arm is None:
-        return ShortPeriod((), ())
-    known, rows = levers(arm), []
+def sampled_proof(statement: SampledStable) -> ShortPeriod:
+    """What may show a statement by (S): a bound of each torque of gravity, with its proof."""
+    chain, rows = Chain(statement.links, statement.fall), []
     for i, bound in enumerate(statement.bounds([Fraction(0)] * statement.n)):
-        ways: list[tuple[Fraction, Proof]] = []
+        way: tuple[Fraction, Proof] = Fraction(0), NoTorque()
         if isinstance(bound, GravityBelow):
-            sizes = sum((size_of(g, statement.parameters) for g in bound.entries), Fraction(0))
-            ways.append((sizes, HarmonicSizes()))
-        elif pulls(statement.links, statement.fall, i, ()):
-            ways.append((Fraction(0), NoTorque()))
-        if known is not None:
-            own = known[i] if isinstance(bound, GravityBelow) else OwnLevers(known[i].along)
-            ways.append((known[i].bound(statement.parameters), own))
-        rows.append(min(ways, key=lambda way: way[0]))
-    return ShortPeriod(tuple(k for k, _ in rows), tuple(way for _, way in rows))
+            sizes = (size_of(torque, statement.parameters) for torque in bound.entries)
+            way = sum(sizes, Fraction(0)), HarmonicSizes()
+        elif not pulls(statement.links, statement.fall, i, ()):
+            along = least_along(chain, i)
+            way = lever_bound(statement.links, statement.fall, i, along), OwnLevers(along)
+        rows.append(way)
+    return ShortPeriod(tuple(k for k, _ in rows), tuple(own for _, own in rows))
 
 
-def judged_sampled(statement: SampledStable, arm: RobotModel | None = None) -> JudgedStatement:
+def judged_sampled(statement: SampledStable) -> JudgedStatement:
     """What the checker says of gains on a computer, by (S).
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
-    return judged_statement(statement, [sampled_proof(statement, arm)])
+    return judged_statement(statement, [sampled_proof(statement)])
 
 
-def largest_period(statement: SampledStable, k_g: Sequence[Fraction]) -> Fraction | None:
-    """The supremum of the periods, s, that (S) shows with these bounds of gravity; ``None``: none.
+def largest_period(statement: SampledStable) -> Fraction | None:
+    """The supremum of the periods, s, that (S) shows; ``None``: none.
 
     Soundness: (S) is strict, and linear in T.
     """
+    k_g = statement.k_g or sampled_proof(statement).k_g
     still, now = (statement.needed(k_g, T) for T in (Fraction(0), statement.period))
     rows = zip(statement.viscous_min, still, now, strict=True)
     most = min(statement.period * (b - low) / (high - low) for b, low, high in rows)

@@ -1,4 +1,4 @@
-"""The loop on a computer before Coq's kernel: ``SampledStable`` in the words of ``formal/SampledDefinitions.v``."""
+"""``SampledStable`` before Coq's kernel, in the words of ``formal/SampledDefinitions.v``."""
 
 from __future__ import annotations
 

@@ -9,7 +9,8 @@ A held torque does the work τᵀδ over an interval, δ the change of q: the po
 friction takes b_i δ_i²/(r T). Each g_i of a serial revolute arm is a + b cos q_j + c sin q_j in each q_j:
 hence ∂g_i/∂q_j = ½ [g_i(q + ½π e_j) − g_i(q − ½π e_j)] is no larger than k_gi, and it is ∂g_j/∂q_i.
 
-References: ``colgate1994factors`` for one linear joint; ``formal/Sampled.v`` to ``formal/Goal.v`` for n.
+References: ``colgate1997passivity`` for one linear joint, ``stramigioli2005sampled`` for τᵀδ; for n joints
+``formal/Sampled.v`` to ``formal/Period.v``.
 """
 
 from __future__ import annotations
@@ -148,7 +149,7 @@ class SampledStable(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         arm = "M(q) ≻ 0, C by Christoffel symbols and B diagonal"
-        goal, late = self.conclusion == GOAL, f"{self.delay} readings later" if self.delay else "at once"
+        goal, late = self.conclusion == GOAL, f"{self.delay} samples later" if self.delay else "at once"
         beside = "and no friction beside B acts" if goal else "and other friction only brakes"
         known = "is that of the arm" if goal else "need not be that of the arm"
         premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at every posture; no g is given"
@@ -171,25 +172,24 @@ class SampledStable(Total):
         what = (
             "the goal is globally asymptotically stable"
             if self.conclusion == GOAL
-            else "q̇ → 0 in every motion, whatever bounded gravity of a serial revolute arm acts,"
+            else "all motions come to rest, whatever bounded gravity of a serial revolute arm acts,"
         )
         return (
-            f"for every T ≤ {number_text(self.period)} s {what} under the held torque "
-            f"τ_k = K_p h(q_d − p) − K_v h(v) + g(p), p the reading {self.delay} samples before, "
-            f"v = Σ_j f_j (difference j of readings)/T with f = {list_text(self.taps)}, "
-            f"intervals up to {self._longest}: for h = {function}, K_p = {diagonal_text(self.kp)}, "
-            f"K_v = {diagonal_text(self.kv)}, b_i ≥ {list_text(self.viscous_min)} and {self._arm_text()}"
+            f"for every T ≤ {number_text(self.period)} s {what} with torques (6) held between readings up to "
+            f"{self._longest} apart, {self.delay} samples late, q̇ from differences/T weighted "
+            f"{list_text(self.taps)}: h = {function}, K_p = {diagonal_text(self.kp)}, "
+            f"K_v = {diagonal_text(self.kv)}, b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
         )
 
     def _arm_text(self) -> str:
         if self.links:
             return f"the arm {ChainGravityBelow(self.links, self.fall, (1,), Fraction(0)).over}"
         if not self.mass:
-            return f"every serial revolute arm with |g_i(q)| ≤ {list_text(self.k_g)} for all q"
+            return f"any serial revolute arm with |g_i(q)| ≤ {list_text(self.k_g)}"
         names = variable_names(self.n, len(self.parameters))
         energy = [f"U = {polynomial_text(self.potential, names)}"]
         written = written_out(energy, "potential U(q)", self.potential, ())
-        return f"every arm with {mass_text(self.mass, self.parameters)} ≻ 0, {written}"
+        return f"any arm with {mass_text(self.mass, self.parameters)} ≻ 0, {written}"
 
 
 @dataclass(frozen=True)
