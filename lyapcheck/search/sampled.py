@@ -40,7 +40,7 @@ UNSTABLE = 1e-7
 """By how much a radius is to exceed 1 before the checker is asked."""
 SHARES = (0.95, 0.8, 0.6, 0.4, 0.2)
 """Of the growth beyond 1, of which the first that the checker accepts is shown."""
-DIGITS = 3
+DIGITS, SEEN = 3, 1e-9
 MOST_RANGING = 5
 STEP, HALVINGS, EACH = 0.7, 7, 3
 
@@ -174,13 +174,17 @@ def growth(step: Array, n: int, share: float) -> Data | None:
     axes = Z.T / scale
     a, b = axes[:count] + solve_sylvester(up, -down, T[:count, count:]) @ axes[count:], axes[count:]
     unstable, stable = a.T @ grown @ a, b.T @ fallen @ b
-    rest = np.tile(np.eye(n), (len(step) // n, 1))
-    rest[n : 2 * n] = 0
-    at_rest = [rest.T @ form @ rest for form in (unstable, stable)]
-    v = eigh(*at_rest)[1][:, -1]
-    v = np.round(v / np.abs(v).max(), DIGITS)
-    ratio = (v @ at_rest[1] @ v) / (v @ at_rest[0] @ v)
-    form = stable - 4 * ratio * unstable
+    moved = np.zeros((len(step), 2 * n))
+    moved[:, :n], moved[n : 2 * n] = np.tile(np.eye(n), (len(step) // n, 1)), np.eye(2 * n)[n:]
+    for entries in (n, 2 * n):  # from rest, unless that does not grow
+        grows, falls = (moved[:, :entries].T @ form @ moved[:, :entries] for form in (unstable, stable))
+        shares, starts = eigh(grows, falls)
+        v = np.zeros(2 * n)
+        v[:entries] = np.round(starts[:, -1] / np.abs(starts[:, -1]).max(), DIGITS)
+        if shares[-1] > SEEN:
+            break
+    x = moved @ v
+    form = stable - 4 * (x @ stable @ x) / (x @ unstable @ x) * unstable
     half = tuple(tuple(Fraction(float(x)) for x in row[: i + 1]) for i, row in enumerate(form))
     return mu, half, tuple(Fraction(repr(float(x))) for x in v)
 

@@ -39,7 +39,7 @@ class GrowingMotion(Proof):
         parameters: those of the arm, in their ranges.
         growth: μ > 1.
         form: S on and below the diagonal, for x of ``lyapcheck.check.loop.sampled``.
-        start: q − q_d up to a factor, in rad, of an arm that has been at rest for all its readings.
+        start: q − q_d, rad, and w, rad/s, up to a factor; all earlier readings were of this q.
         inertia: that M(q) of this arm is positive definite at all postures.
     """
 
@@ -73,7 +73,7 @@ def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepte
     require(size <= MOST_STATES, "states", size, f"must not exceed {MOST_STATES}")
     lengths = [len(row) for row in proof.form]
     require(lengths == [*range(1, size + 1)], "form", len(lengths), f"must be the lower half of {size} rows")
-    require(len(proof.start) == n, "start", len(proof.start), f"must be {n}, one a joint")
+    require(len(proof.start) == 2 * n, "start", len(proof.start), f"must be {2 * n} entries, q and w")
     with precision(BITS):
         mass, slope = _arm_at(statement, proof)
         steep = member(statement.family, statement.m).dh(arb(0))
@@ -82,8 +82,8 @@ def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepte
             mass, slope, statement.viscous_min, stiffness, damping, T, statement.delay, statement.taps
         )
         form = arb_mat([[to_arb(proof.form[max(i, k)][min(i, k)]) for k in range(size)] for i in range(size)])
-        still = [*proof.start, *[Fraction(0)] * n, *proof.start * (size // n - 2)]
-        v = arb_mat([[to_arb(x)] for x in still])
+        state = [*proof.start, *proof.start[:n] * (size // n - 2)]
+        v = arb_mat([[to_arb(x)] for x in state])
         require((v.transpose() * form * v)[0, 0] < 0, "start", "", "is not shown to have vᵀSv < 0")
         require(grows(step, form, proof.growth), "form", "", "does not show μ²S − ΦᵀSΦ ≻ 0")
     return Accepted("refuted", "enclosure")
