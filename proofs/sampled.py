@@ -8,9 +8,10 @@ the samples from a reading to its torque, and Γ_i = Σ_j min(k_gi, k_gj),
 
 makes the goal globally asymptotically stable, whatever the inertia. ``formal/`` proves it for every n.
 
-Each claim rests on six suppositions, which its certificate lists: torques go out as soon as a reading is
-taken; no interval is longer than 2.5 ms; readings are exact and unwrapped; g is known; b_i ≥ 0.406, the
-least viscous friction that is printed, and there is no dry friction; the arm is serial, its joints revolute.
+Each claim rests on six suppositions, which ``lyapcheck explain sampled.m1`` and its certificate list:
+torques go out as soon as a reading is taken; no interval is longer than 2.5 ms; readings are exact and
+unwrapped; g is known; b_i ≥ 0.406, the least viscous friction that is printed, and there is no dry friction;
+the arm is serial, its joints revolute.
 """
 
 from fractions import Fraction
@@ -42,7 +43,7 @@ proof.section("A reading every 2.5 ms, its torque at once")
 for m in GAINS:
     proof.add(
         f"sampled.m{m}",
-        f"read every {PERIOD} ms, the goal is globally asymptotically stable under m{m}, if six things hold",
+        f"m{m} of Table 2, read every {PERIOD} ms, is globally asymptotically stable if six things are so",
         loop(m),
         "Section 5",
     )
