@@ -6,7 +6,7 @@ References: ``reyes2019family`` (1), (6).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -31,18 +31,18 @@ from lyapcheck.robots.fields import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import Plant
 
-POSTURES, KEPT = 3000, 12
-"""At so many goals the inertia is looked at, at the lightest of them and a few others the eigenvalues."""
-OTHERS = 4
+POSTURES, SLOPES, LIGHT, STEEP = 3000, 300, 12, 4
+"""At so many goals M is looked at, at so many ∂g/∂q; of so many of each then the eigenvalues."""
 ROUNDS, TRIED, REACH, TENTHS = 6, 8, 30.0, 10
 """Steps from the worst goal, at first of about so many degrees, rounded to tenths."""
+TERMS = 12
 UNSTABLE = 1e-7
 """By how much a radius is to exceed 1 before the checker is asked."""
 SHARES = (0.95, 0.8, 0.6, 0.4, 0.2)
 """Of the growth beyond 1, of which the first that the checker accepts is shown."""
-DIGITS = 3
+DIGITS, SEEN = 3, 1e-9
 MOST_RANGING = 5
-STEP, HALVINGS, EACH = 0.35, 6, 3
+STEP, HALVINGS, EACH = 0.7, 7, 3
 
 
 @dataclass(frozen=True)
@@ -71,20 +71,15 @@ class LinearLoop:
 
     def transition(self, goals: Array, period: float) -> Array:
         """Φ of ``lyapcheck.check.loop.sampled`` at goals (N, n), degrees, in doubles: (N, s, s)."""
-        from scipy.linalg import expm
-
         q, n, d = np.radians(goals), self.arm.n, self.delay
         count, unit, readings = len(q), np.eye(n), d + len(self.taps)
-        # g has sines and cosines of each single angle alone, so that half the difference is the slope
-        quarter = 0.5 * np.pi * np.concatenate([unit, -unit])
-        torques = self.arm.gravity(q[:, None, :] + quarter)
-        slope = 0.5 * (torques[:, :n] - torques[:, n:]).swapaxes(1, 2)
+        slope = self._slope(q)
         rates = np.zeros((count, 3 * n, 3 * n))
         rates[:, :n, n : 2 * n] = unit
         rates[:, n : 2 * n, :n], rates[:, n : 2 * n, 2 * n :] = -slope, unit
         rates[:, n : 2 * n, n : 2 * n] = -np.diag(self.viscous)
         rates[:, n : 2 * n] = np.linalg.solve(self.arm.mass(q), rates[:, n : 2 * n])
-        step = expm(rates * period)[:, : 2 * n]
+        step = _exponentials(rates * period)[:, : 2 * n]
         torque = np.zeros((count, n, n * (2 + readings)))
         place = [slice(0, n), *(slice((2 + k) * n, (3 + k) * n) for k in range(readings))]
         torque[:, :, place[d]] += slope - np.diag(self.stiffness)
@@ -103,19 +98,28 @@ class LinearLoop:
         result: Array = np.abs(np.linalg.eigvals(self.transition(goals, period))).max(axis=-1)
         return result
 
-    @cached_property
-    def _drawn(self) -> tuple[Array, Array]:
-        """Goals, degrees, and M at them."""
-        goals = np.random.default_rng(SEED).integers(-180, 180, (POSTURES, self.arm.n)).astype(float)
-        return goals, self.arm.mass(np.radians(goals))
+    def _slope(self, q: Array) -> Array:
+        """∂g/∂q: each angle is in g by its sine and cosine alone, so that quarter turns show it."""
+        n, quarter = self.arm.n, 0.5 * np.pi * np.eye(self.arm.n)
+        torques = self.arm.gravity(q[:, None, :] + np.concatenate([quarter, -quarter]))
+        result: Array = 0.5 * (torques[:, :n] - torques[:, n:]).swapaxes(1, 2)
+        return result
 
-    def light_goals(self, period: float) -> Array:
-        """Goals, (N, n), degrees, at which M + T B is least beside the gains, and a few others."""
-        goals, mass = self._drawn
-        scale = np.sqrt(self.damping + period * self.stiffness)
+    @cached_property
+    def _drawn(self) -> tuple[Array, Array, Array]:
+        """Goals, degrees, M at them, and those of the first at which gravity pushes away most."""
+        goals = np.random.default_rng(SEED).integers(-180, 180, (POSTURES, self.arm.n)).astype(float)
+        slopes = self._slope(np.radians(goals[:: POSTURES // SLOPES]))
+        steep = np.argsort(np.linalg.eigvalsh(slopes)[:, 0])[:STEEP]
+        return goals, self.arm.mass(np.radians(goals)), goals[:: POSTURES // SLOPES][steep]
+
+    def suspects(self, period: float) -> Array:
+        """Goals, (N, n), degrees: where M + T B is least beside the gains, or gravity pushes away most."""
+        goals, mass, steep = self._drawn
+        scale = np.sqrt(self.damping + period * (1 + self.stiffness))  # h'(0) may be 0
         inertia = (mass + period * np.diag(self.viscous)) / np.outer(scale, scale)
-        order = np.argsort(np.linalg.eigvalsh(inertia)[:, 0])
-        return np.concatenate([goals[order[:KEPT]], goals[:OTHERS]])
+        light = np.argsort(np.linalg.eigvalsh(inertia)[:, 0])[:LIGHT]
+        return np.concatenate([goals[light], steep])
 
     def worst(self, goals: Array, period: float) -> tuple[Array, float]:
         """A goal near the worst of some at which the radius is about largest, and that radius."""
@@ -129,6 +133,21 @@ class LinearLoop:
             else:
                 reach *= 0.5
         return best, radius
+
+
+def _exponentials(matrices: Array) -> Array:
+    """e^A of many small matrices at once, (N, s, s): Taylor's series of A/2ᵏ, then squares.
+
+    That of SciPy takes one after the other, each by threads that wait for each other.
+    """
+    halvings = max(0, math.ceil(math.log2(max(float(np.abs(matrices).sum(axis=-1).max()), 1e-300)))) + 2
+    result = term = np.broadcast_to(np.eye(matrices.shape[-1]), matrices.shape)
+    for k in range(1, TERMS + 1):
+        term = term @ matrices / (k * 2**halvings)
+        result = result + term
+    for _ in range(halvings):
+        result = result @ result
+    return result
 
 
 Data = tuple[Fraction, tuple[tuple[Fraction, ...], ...], tuple[Fraction, ...]]
@@ -155,13 +174,17 @@ def growth(step: Array, n: int, share: float) -> Data | None:
     axes = Z.T / scale
     a, b = axes[:count] + solve_sylvester(up, -down, T[:count, count:]) @ axes[count:], axes[count:]
     unstable, stable = a.T @ grown @ a, b.T @ fallen @ b
-    rest = np.tile(np.eye(n), (len(step) // n, 1))
-    rest[n : 2 * n] = 0
-    at_rest = [rest.T @ form @ rest for form in (unstable, stable)]
-    v = eigh(*at_rest)[1][:, -1]
-    v = np.round(v / np.abs(v).max(), DIGITS)
-    ratio = (v @ at_rest[1] @ v) / (v @ at_rest[0] @ v)
-    form = stable - 4 * ratio * unstable
+    moved = np.zeros((len(step), 2 * n))
+    moved[:, :n], moved[n : 2 * n] = np.tile(np.eye(n), (len(step) // n, 1)), np.eye(2 * n)[n:]
+    for entries in (n, 2 * n):  # from rest, unless that does not grow
+        grows, falls = (moved[:, :entries].T @ form @ moved[:, :entries] for form in (unstable, stable))
+        shares, starts = eigh(grows, falls)
+        v = np.zeros(2 * n)
+        v[:entries] = np.round(starts[:, -1] / np.abs(starts[:, -1]).max(), DIGITS)
+        if shares[-1] > SEEN:
+            break
+    x = moved @ v
+    form = stable - 4 * (x @ stable @ x) / (x @ unstable @ x) * unstable
     half = tuple(tuple(Fraction(float(x)) for x in row[: i + 1]) for i, row in enumerate(form))
     return mu, half, tuple(Fraction(repr(float(x))) for x in v)
 
@@ -216,9 +239,9 @@ def refuted_at(statement: SampledStable, period: Fraction, arm: Plant | None = N
 
     Soundness: ``lyapcheck.check.verify`` has accepted it.
     """
-    T = float(period)
-    found = [(loop, *loop.worst(loop.light_goals(T), T)) for loop in loops(statement, arm)]
-    loop, goal, radius = max(found, key=lambda each: each[2])
+    T, known = float(period), list(loops(statement, arm))
+    loop, _ = _least_stable(known, T)
+    goal, radius = loop.worst(loop.suspects(T), T)
     return _accepted(statement, loop, goal, period) if radius > 1 + UNSTABLE else None
 
 
@@ -238,19 +261,24 @@ def smallest_refuted(
     periods = np.exp(np.linspace(*ends, 1 + math.ceil((ends[1] - ends[0]) / STEP)))
     known = list(loops(statement, arm))
     for low, high in pairwise(map(float, periods)):
-        goals = [loop.light_goals(high)[::EACH] for loop in known]
-        radius, k = max((float(known[k].radii(some, high).max()), k) for k, some in enumerate(goals))
+        loop, radius = _least_stable(known, high)
         if radius > 1 + UNSTABLE:
-            return _closed_in(statement, known[k], low, high)
+            return _closed_in(statement, loop, low, high)
     return None
+
+
+def _least_stable(known: Sequence[LinearLoop], period: float) -> tuple[LinearLoop, float]:
+    """The loop with the largest radius at some of its suspects."""
+    rows = ((loop, float(loop.radii(loop.suspects(period)[::EACH], period).max())) for loop in known)
+    return max(rows, key=lambda row: row[1])
 
 
 def _closed_in(statement: SampledStable, loop: LinearLoop, low: float, high: float) -> GrowingMotion | None:
     """From a period that a light goal refutes down to about the least that one near it does."""
-    goal, _ = loop.worst(loop.light_goals(high), high)
+    goal, _ = loop.worst(loop.suspects(high), high)
     for _ in range(HALVINGS):
         middle = math.sqrt(low * high)
-        other, radius = loop.worst(np.concatenate([goal[None], loop.light_goals(middle)]), middle)
+        other, radius = loop.worst(np.concatenate([goal[None], loop.suspects(middle)]), middle)
         goal, low, high = (other, low, middle) if radius > 1 + UNSTABLE else (goal, middle, high)
     period = min(significant_up(Fraction(high), DIGITS), statement.period)
     return _accepted(statement, loop, goal, period)

@@ -39,7 +39,7 @@ class GrowingMotion(Proof):
         parameters: those of the arm, in their ranges.
         growth: μ > 1.
         form: S on and below the diagonal, for x of ``lyapcheck.check.loop.sampled``.
-        start: q − q_d up to a factor, in rad, of an arm that has been at rest for all its readings.
+        start: q − q_d, rad, and w, rad/s, up to a factor; all earlier readings were of this q.
         inertia: that M(q) of this arm is positive definite at all postures.
     """
 
@@ -57,12 +57,12 @@ class GrowingMotion(Proof):
 def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepted:
     """Soundness: one loop of the statement has a goal that is not stable.
 
-    The loop is that of b_i = ``viscous_min``, the parameters of the proof, and all intervals T. Near the fixed
-    point x = 0 its motion from one sample to the next is a map f of class C¹ with f'(0) = Φ, as M, C and g are
-    analytic, h is C¹ and M ≻ 0. With V = xᵀSx, μ²S − ΦᵀSΦ ≻ 0 gives an r with V(f(x)) ≤ μ²V(x) for |x| ≤ r. The
-    proof has a v with V(v) < 0. From x_0 = s v the motion has V(x_k) ≤ μ²ᵏ s² V(v) as long as |x_k| ≤ r, where
-    V is bounded: however small s > 0 is, it leaves that ball. So the goal is not stable. No other eigenvalue of
-    Φ matters, nor does h beyond h'(0): where that is 0, as for m ≥ 2, gravity and B alone would have to grow.
+    It is the one with b_i = ``viscous_min``, the parameters of the proof, and all intervals T. Near its fixed
+    point x = 0 the motion from a sample to the next is a C¹ map f with f'(0) = Φ: M, C and g are analytic, h
+    is C¹, M ≻ 0. With V = xᵀSx, μ²S − ΦᵀSΦ ≻ 0 gives an r with V(f(x)) ≤ μ²V(x) for |x| ≤ r. The proof has
+    a v with V(v) < 0. From x_0 = s v it is V(x_k) ≤ μ²ᵏ s² V(v) as long as all |x_k| ≤ r, where V is bounded:
+    however small s > 0, the motion leaves that ball. So the goal is not stable. No other eigenvalue of Φ
+    matters, nor does h beyond h'(0); where that is 0, as for m ≥ 2, late gravity alone must make it grow.
     """
     n, T = statement.n, proof.period
     require(statement.conclusion == GOAL, "conclusion", statement.conclusion, "is nothing about a goal")
@@ -73,7 +73,7 @@ def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepte
     require(size <= MOST_STATES, "states", size, f"must not exceed {MOST_STATES}")
     lengths = [len(row) for row in proof.form]
     require(lengths == [*range(1, size + 1)], "form", len(lengths), f"must be the lower half of {size} rows")
-    require(len(proof.start) == n, "start", len(proof.start), f"must be {n}, one a joint")
+    require(len(proof.start) == 2 * n, "start", len(proof.start), f"must be {2 * n} entries, q and w")
     with precision(BITS):
         mass, slope = _arm_at(statement, proof)
         steep = member(statement.family, statement.m).dh(arb(0))
@@ -82,8 +82,8 @@ def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepte
             mass, slope, statement.viscous_min, stiffness, damping, T, statement.delay, statement.taps
         )
         form = arb_mat([[to_arb(proof.form[max(i, k)][min(i, k)]) for k in range(size)] for i in range(size)])
-        still = [*proof.start, *[Fraction(0)] * n, *proof.start * (size // n - 2)]
-        v = arb_mat([[to_arb(x)] for x in still])
+        state = [*proof.start, *proof.start[:n] * (size // n - 2)]
+        v = arb_mat([[to_arb(x)] for x in state])
         require((v.transpose() * form * v)[0, 0] < 0, "start", "", "is not shown to have vᵀSv < 0")
         require(grows(step, form, proof.growth), "form", "", "does not show μ²S − ΦᵀSΦ ≻ 0")
     return Accepted("refuted", "enclosure")
