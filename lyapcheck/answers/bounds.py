@@ -365,6 +365,9 @@ def title(results: Sequence[BoundsComparison]) -> str:
     whole = len(promises)
     if len(results) == 1:
         return _one(results[0])
+    fallen = sum(result.falls for result in results)
+    if fallen:
+        return f"✗ {robots} falls under {fallen} of {len(results)} gain sets, by gravity unknown to them"
     if whole == len(results) > 0:
         return all_say(promises, f"✓ the errors at rest under all {whole} gain sets are proved on {robots}")
     if not promises:
