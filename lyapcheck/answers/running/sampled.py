@@ -129,11 +129,10 @@ def sampled_check(
         asked = question(gains, limits, record, viscous_min)
     except ValueError as error:
         return replace(known, reason=str(error))
-    arm = limits.model if not asked.k_g else None
-    most, joint, why = largest(asked, arm, limits.joints)
+    most, joint, why = largest(asked, limits.joints)
     known = replace(known, joint=joint, rests=asked.conclusion == "rest")
     if most is not None:
-        shown = judged_sampled(replace(asked, period=most[0]), arm)
+        shown = judged_sampled(replace(asked, period=most[0]))
         up_to, why_not = promised(replace(asked, period=most[0]), shown)
         fits = exact_decimal(decimal_text(significant_down(most[0], DIGITS)))
         known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to, largest_admissible=fits)
@@ -175,10 +174,10 @@ def question(
 
 
 def largest(
-    asked: SampledStable, arm: RobotModel | None, joints: Sequence[str]
+    asked: SampledStable, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
     """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
-    k_g = asked.k_g or sampled_proof(asked, arm).k_g
+    k_g = asked.k_g or sampled_proof(asked).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
     rows = list(zip(asked.viscous_min, still, now, strict=True))
     short = [i for i, (b, low, _) in enumerate(rows) if low >= b]
