@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,10 @@ from lyapcheck._types import Array
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.simulate.confirm import Sample
 from lyapcheck.simulate.task import Gains, Task
+
+if TYPE_CHECKING:
+    from lyapcheck.simulate.bench import Bench
+    from lyapcheck.simulate.unrest import Unrest
 
 
 @dataclass(frozen=True)
@@ -186,6 +190,10 @@ class Run(Motion):
 
     Energies below a nanojoule are compared with a nanojoule.
     """
+    loop: Bench | None = None
+    """How a computer ran it; none for a run by the equations."""
+    unrest: Unrest | None = None
+    """What a sampled run shows against the gains."""
 
     @property
     def L2(self) -> float:
