@@ -4,56 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.output.digits import at_most, shown
 from lyapcheck.simulate.results import BAND
+from lyapcheck.simulate.run import FALLS, LIMIT_CYCLE, Run, Unrest
+from lyapcheck.simulate.task import Gains
 
-if TYPE_CHECKING:
-    from lyapcheck.simulate.run import Run
-    from lyapcheck.simulate.task import Gains
-
-LIMIT_CYCLE, FALLS = "limit cycle", "falls"
 LEAST_ANGLE, LEAST_SHARE = math.radians(0.05), 0.01
 """Peak to peak, rad, and as a share of a motor's limit: less is no limit cycle."""
 LASTS = 0.9
 """A limit cycle keeps at least this share of what it was a fifth of the run before."""
-
-
-@dataclass(frozen=True, order=True)
-class Unrest:
-    """What was seen, at the joint where it is worst.
-
-    Args:
-        kind: ``limit cycle`` or ``falls``.
-        joint: its name.
-        angle: degrees, peak to peak in the last fifth of the run; of a load that falls the error at the end.
-        torque: N·m, likewise; of a load that falls the most that it asked on the way.
-        most: N·m, what k_p h gives at most against that load.
-        others: how many other joints do the same.
-    """
-
-    kind: str
-    joint: str
-    angle: float
-    torque: float
-    most: float = math.inf
-    others: int = 0
-
-    @property
-    def sentence(self) -> str:
-        """In one line."""
-        also = f" (and {self.others} other{'s' if self.others > 1 else ''})" if self.others else ""
-        angle, torque = (shown(x, ".3g") for x in (self.angle, self.torque))
-        if self.kind == LIMIT_CYCLE:
-            swings = f"{self.joint}{also} swings by {angle}° and {torque} N·m, peak to peak"
-            return f"limit cycle seen: {swings} in the last fifth of the run, and does not die out"
-        load = f"the unknown load asked {torque} N·m, k_p h gives at most {at_most(self.most, 3)}"
-        return f"seen to fall: {self.joint}{also} ends {angle}° from the goal; on the way {load}"
 
 
 def unrest_of(run: Run, gains: Gains, unknown: Array) -> Unrest | None:
