@@ -83,7 +83,7 @@ class Bench(LoopRecord):
     @property
     def T(self) -> float:
         """The period in s."""
-        return float(self.period or UNSAMPLED)
+        return float(UNSAMPLED if self.period is None else self.period)
 
     @property
     def known(self) -> float:

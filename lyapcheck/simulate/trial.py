@@ -139,7 +139,7 @@ def _run(setup: Setup, bench: Bench, rough: tuple[Array, Array], fine: tuple[Arr
     if not complete:
         raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {t[-1]:.6g} s", run)
     e = goal - np.vstack((q[:1], turns(t, q, w)))
-    unrest = unrest_of(run, setup.gains, bench.unknown(setup.model, q))
+    unrest = unrest_of(run, setup.gains, bench.unknown(setup.model, np.vstack((q, goal))))
     return replace(run, unrest=unrest, indices=replace(run.indices, overshoot=overshoots(e)))
 
 

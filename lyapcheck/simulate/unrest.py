@@ -24,12 +24,12 @@ def unrest_of(run: Run, gains: Gains, unknown: Array) -> Unrest | None:
 
     A limit cycle: in the last fifth a joint turns back twice, its angle spans more than 0.05° or its torque
     more than 1 % of the motor's limit beside a steady drift, and not below 0.9 of the fifth before. A load
-    falls where on the way it asks no less than k_pi sup h, and the joint ends a degree away.
+    falls where on the way or at the goal it asks no less than k_pi sup h, and the joint ends a degree away.
 
     Args:
         run: sampled.
         gains: of the run.
-        unknown: (N, n) N·m, what gravity asks on the way beyond what the controller knows.
+        unknown: (N, n) N·m, what gravity asks on the way and at the goal beyond what the controller knows.
 
     Soundness: floating point, of one run: what is slower than a fifth of it is not seen.
     """
