@@ -30,14 +30,14 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 T, GOAL = 5.0, 0.7
 """s and rad: of every joint, from rest at home."""
 GAINS = {
-    "iiwa14": ("113.2 92.9 107.6 107.6 112.9 113 113.2", "0.188"),
+    "iiwa14": ("113.2 92.9 107.6 107.6 112.9 113 113.2", "3"),
     "panda": ("32.1 7.93 20.3 23.1 2.5 2.69 3.77", "0.755"),
     "ur5": ("60.4 36.2 53.9 10.5 10.6 10.6", "0.816"),
     "xarm6": ("20 8.31 7.76 12.2 12.2 7.75", "0.408"),
     "px150": ("3.53 7.19 5.45 2.1 0.398", "0.044"),
     "pelican2": ("30 7", "0.5"),
 }
-"""k_p and k_v, N·m, of each arm: as stiff as (10p) lets it be, and damped little."""
+"""k_p and k_v, N·m, of each arm: as stiff as (10p) lets it be, and damped less than critically."""
 
 STIFF = ("xarm6",)
 """Friction takes 1e-5 s to stop its last link: small steps of RK4, or an implicit method."""
