@@ -6,7 +6,8 @@ Require Export Definitions.
 Require Export Family Bounds Words Stability.
 Require Export Arm Boxes Bridge Certified Members Ranges Turns Sharp Falsified Damping Properties.
 Require Export GateDefinitions.
-Require Gate.
+Require SampledDefinitions.
+Require Gate Period Witness.
 Require Export String.
 Export ListNotations.
 Open Scope R_scope.

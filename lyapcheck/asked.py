@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
-from lyapcheck.robots.dynamics import TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.closed_loop import mass_of
 
@@ -24,8 +24,10 @@ if TYPE_CHECKING:
 
     from lyapcheck.check.kinds.decreasing import Decreasing
     from lyapcheck.check.kinds.resting import Resting
+    from lyapcheck.check.kinds.sampled import SampledStable
     from lyapcheck.check.statement import Ends, Statement
     from lyapcheck.control.gains import Bounds, GainSet
+    from lyapcheck.control.sampled import SampledLoop
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.plant import Plant
 
@@ -79,6 +81,51 @@ def resting(gains: GainSet, dry: Sequence[Fraction], errors: Sequence[Fraction |
     from lyapcheck.check.kinds.resting import Resting
 
     return Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), tuple(errors))
+
+
+def sampled(
+    gains: GainSet,
+    loop: SampledLoop,
+    viscous_min: Sequence[Fraction],
+    arm: RobotModel | None = None,
+    k_g: Sequence[Fraction] = (),
+    conclusion: str = "goal",
+) -> SampledStable:
+    """Are these gains on a computer stable, for all of the ranges of the arm? See `SampledStable`.
+
+    Args:
+        gains: the controller.
+        loop: how the computer runs it.
+        viscous_min: least friction of each joint, N·m·s/rad.
+        arm: without it any serial revolute arm with bounds ``k_g`` is asked about.
+        k_g: bounds of the torques of gravity, N·m, a premise.
+        conclusion: *goal*, or *rest* under any other gravity.
+
+    Raises:
+        TooManyTerms: M of the arm is too long to be written out, and its links are not exact.
+    """
+    from lyapcheck.check.kinds.sampled import SampledStable
+
+    chain = None if arm is None or arm.n <= FEW_JOINTS else arm.chain
+    model = arm if chain is None else None
+    return SampledStable(
+        family=gains.family,
+        m=gains.m,
+        kp=tuple(gains.kp),
+        kv=tuple(gains.kv),
+        viscous_min=tuple(viscous_min),
+        k_g=() if arm else tuple(k_g),
+        links=chain.links if chain else (),
+        fall=chain.fall if chain else (),
+        mass=mass_of(model) if model else (),
+        potential=tuple(to_terms(model.potential)) if model else (),
+        parameters=tuple(number.bounds for number in model.parameters.values()) if model else (),
+        period=loop.period,
+        stretch=loop.stretch,
+        delay=loop.delay,
+        taps=loop.filter,
+        conclusion=conclusion,
+    )
 
 
 def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -> Statement:

@@ -62,6 +62,7 @@ class Explanation(Answer):
         parts: what is decided.
         lacking: why nothing can be decided for the paper's arm, empty where it can.
         procedures: how it is decided, one paragraph a procedure.
+        granted: what a proof of it takes for granted.
         found: what came of it for the paper's arm, and on what evidence; empty where that was not asked.
     """
 
@@ -80,6 +81,7 @@ class Explanation(Answer):
     parts: tuple[Part, ...]
     lacking: str
     procedures: tuple[str, ...]
+    granted: tuple[str, ...] = ()
     found: tuple[str, ...] = ()
 
     def document(self) -> Document:
@@ -98,6 +100,7 @@ class Explanation(Answer):
             *((Section("What came of it", (Bullets(self.found),)),) if self.found else ()),
             Section(f"What is decided{f', for {self.case}' if self.case else ''}", tuple(decided)),
             Section("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
+            *((Section("What it takes for granted", (Bullets(self.granted),)),) if self.granted else ()),
             Section("What it uses", (_claims(self.uses),)),
             Section("What uses it", (_claims(self.used_by),)),
             *((Section(f"Also about {formulas}", (_claims(self.near),)),) if self.near else ()),
@@ -107,7 +110,7 @@ class Explanation(Answer):
 
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
-        result = asdict(self) | {"found": list(self.found)}
+        result = asdict(self) | {"granted": list(self.granted), "found": list(self.found)}
         for key in ("uses", "used_by", "near"):
             result[key] = [{"id": known, "says": says} for known, says in result[key]]
         return result | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
@@ -213,6 +216,7 @@ def explain(
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
+        granted=() if statement is None else statement.granted,
         found=_found(script_path, meant, on_progress) if decide else (),
     )
 

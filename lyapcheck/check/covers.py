@@ -74,6 +74,11 @@ ROWS: dict[str, dict[str, Row]] = {
     "GateAccepted": dict.fromkeys(("joints", "gravity", "potential", "k_g", "family", "m", "kp", "kv"), _same)
     | {"parameters": _wider, "viscous": _wider, "limits": _at_most, "stability": _each_covers}
     | {"conditions": lambda shown, asked: [one for one in shown if one in asked] == [*asked]},
+    # for every T up to the period; a bound of gravity and the least friction are hypotheses
+    "SampledStable": dict.fromkeys(("family", "m", "kp", "kv", "links", "fall", "mass", "potential"), _same)
+    | dict.fromkeys(("delay", "taps", "conclusion"), _same)
+    | dict.fromkeys(("k_g", "period", "stretch"), _at_least)
+    | {"viscous_min": _at_most, "parameters": _wider},
     "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),
 }
 """For each kind, how a field that is shown must stand to the one that was asked for.

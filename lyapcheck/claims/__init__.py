@@ -19,6 +19,7 @@ from lyapcheck.check.kinds.for_small import ForSmall as ForSmall
 from lyapcheck.check.kinds.identity import Identity as Identity
 from lyapcheck.check.kinds.implies import Implies as Implies
 from lyapcheck.check.kinds.norm_bound import NormBound as NormBound
+from lyapcheck.check.kinds.sampled import SampledStable as SampledStable
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound as TrigonometricBound
 from lyapcheck.check.kinds.trigonometric import TrigonometricPositive as TrigonometricPositive
 from lyapcheck.check.statement import Relation as Relation
@@ -117,6 +118,7 @@ from lyapcheck.claims.statements import nonnegative as nonnegative
 from lyapcheck.claims.statements import norm_bound as norm_bound
 from lyapcheck.claims.statements import positive as positive
 from lyapcheck.claims.statements import reals as reals
+from lyapcheck.claims.statements import sampled as sampled
 
 __all__ = [name for name, value in globals().items() if name[0] != "_" and not isinstance(value, _Module)]
 

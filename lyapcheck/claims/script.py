@@ -27,7 +27,7 @@ from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.reader import SCRIPT, read_bytes
 from lyapcheck.temporary import temporary_folder
 
-SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py")
+SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py", "sampled.py")
 """The proof scripts that come with lyapcheck."""
 
 MOST_NEAR = 8

@@ -16,6 +16,7 @@ from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.claims.claim import lacking
@@ -240,6 +241,51 @@ def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:
         Lacking: the gains are for another number of joints, or h is unbounded.
     """
     return DampingBelow.about(decreasing(robot, gains, 1).closed_loop, bound=expr(bound).tree)
+
+
+def sampled(
+    kp: Iterable[object],
+    kv: Iterable[object],
+    period: object,
+    *,
+    m: int | None,
+    family: str = "hyperbolic",
+    robot: Any = None,
+    viscous_min: Iterable[object] = (),
+    k_g: Iterable[object] = (),
+    conclusion: str = "goal",
+    longest: object | None = None,
+    filter: Iterable[object] = (1,),  # noqa: A002
+    **loop: Any,
+) -> SampledStable:
+    """The goal is globally asymptotically stable for gains on a computer, at every period up to this one.
+
+    Args:
+        kp, kv: diagonals of K_p and K_v, N·m.
+        period: s.
+        m, family: of h.
+        robot: for all of its ranges; without it every serial revolute arm with |g_i| ≤ k_gi.
+        viscous_min: least friction of each joint, N·m·s/rad; that of the robot unless it is given.
+        k_g: bounds of the torques of gravity, N·m.
+        conclusion: *rest*: every motion comes to rest, whatever gravity acts.
+        longest: interval between readings, s; the period unless it is given.
+        filter: weights of the differences of readings, the newest first.
+        loop: ``delay`` in whole samples, ``velocity`` and ``angles``; see `SampledLoop`.
+
+    Raises:
+        ValueError: the loop is one that (S) does not speak of.
+    """
+    from lyapcheck import asked
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.sampled import SampledLoop
+
+    stiffness, damping, friction, bounds, taps = (
+        tuple(map(exact_value, values)) for values in (kp, kv, viscous_min, k_g, filter)
+    )
+    least = friction or tuple(b.bounds[0] for b in getattr(robot, "viscous", ()))
+    runs = SampledLoop(exact_value(period), _end(longest), filter=taps, **loop)
+    gains = GainSet("", m, stiffness, damping, family)
+    return asked.sampled(gains, runs, least, robot, bounds, conclusion)
 
 
 # --- Whether the hypotheses of a proved statement hold anywhere: one that holds of nothing says nothing.

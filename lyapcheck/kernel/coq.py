@@ -179,7 +179,7 @@ def _first_error(text: str) -> str:
 
 # --- What Coq's kernel has accepted before, so that ``check`` and reports can say so without Coq.
 #
-# The record has digests: of the page of definitions, and of each printed proposition. Whatever changes a
+# The record has digests: of the pages of definitions, and of each printed proposition. Whatever changes a
 # claim, the way in which it is printed or what its words mean changes a digest, and the claim has no kernel
 # verdict until Coq has accepted it anew. ``recheck --kernel`` never looks here.
 
@@ -217,4 +217,5 @@ def _record() -> dict[str, str]:
 
 
 def _definitions() -> str:
-    return hashlib.sha256((formal() / "Definitions.v").read_bytes()).hexdigest()
+    pages = sorted(formal().glob("*Definitions.v"))
+    return hashlib.sha256(b"".join(page.read_bytes() for page in pages)).hexdigest()

@@ -14,9 +14,9 @@ from lyapcheck.check.kinds.gate_accepted import BrokenCondition, GateAccepted, G
 from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.members import member
-from lyapcheck.check.statement import Ends, Proof
+from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.spare import between, supremum
-from lyapcheck.kernel.terms import NotPrinted, exact, exact_list, monomials, rational
+from lyapcheck.kernel.terms import NotPrinted, exact, exact_list, monomials, ranges_of, rational
 
 ASKED = ("10p", "10i", "19")
 DIGITS = 10**4
@@ -138,11 +138,7 @@ def _gated(statement: GateAccepted) -> str:
     limits = exact_list(limit or Fraction(0) for limit in statement.limits)
     return (
         f"(Gated {statement.joints} [{torques}] {monomials(statement.potential)} "
-        f"{_ranges(statement.parameters)} {exact_list(statement.k_g)} {_ranges(statement.viscous)} "
+        f"{ranges_of(statement.parameters)} {exact_list(statement.k_g)} {ranges_of(statement.viscous)} "
         f"{limits} {_m(statement)} "
         f"{exact_list(statement.kp)} {exact_list(statement.kv)})"
     )
-
-
-def _ranges(ranges: tuple[Ends, ...]) -> str:
-    return f"[{'; '.join(f'({exact(low)}, {exact(high)})' for low, high in ranges)}]"

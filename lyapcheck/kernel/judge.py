@@ -32,6 +32,7 @@ COMPUTES = re.compile(r"\b(numbers|fails|interval|prove_\w+|signs|computed)\b")
 HEAD = f"""From Coq Require Import Floats.
 Require Import {LIBRARY}.Certificates.
 Import {LIBRARY}.GateDefinitions.
+Import {LIBRARY}.SampledDefinitions.
 Import {LIBRARY}.Definitions.
 Import ListNotations.
 Open Scope R_scope.

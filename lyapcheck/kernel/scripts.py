@@ -29,12 +29,14 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies, SignIdentity
 from lyapcheck.check.kinds.inertia import OfArm
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.stability import Property, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms, property_script
 from lyapcheck.kernel.gate import gate_refutation_script, gate_script
+from lyapcheck.kernel.sampled import sampled_script
 from lyapcheck.kernel.signs import for_small, implication
 from lyapcheck.kernel.spare import facts
 from lyapcheck.kernel.statements import proposition
@@ -114,6 +116,11 @@ def _(statement: GateAccepted, proof: Proof) -> str:
     each = zip(statement.stability, stability, strict=True)
     parts = [gate_script(statement, proof), *(proved(part, own) for part, own in each)]
     return "".join(f"split. {{ {part} }} " for part in parts[:-1]) + parts[-1]
+
+
+@proved.register
+def _(statement: SampledStable, proof: Proof) -> str:
+    return sampled_script(statement, proof)
 
 
 @proved.register

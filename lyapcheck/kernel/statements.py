@@ -29,6 +29,7 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound
+from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.stability import (
     AN_EQUILIBRIUM,
     DECRESCENT,
@@ -41,6 +42,7 @@ from lyapcheck.check.kinds.stability import (
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Relation, Statement
 from lyapcheck.kernel.gate import gate_proposition, gate_refuted
+from lyapcheck.kernel.sampled import sampled_proposition
 from lyapcheck.kernel.systems import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
     NotPrinted,
@@ -119,6 +121,11 @@ def _(statement: AllOf) -> str:
 def _(statement: GateAccepted) -> str:
     parts = [gate_proposition(statement), *map(proposition, statement.stability)]
     return " /\\ ".join(f"({part})" for part in parts)
+
+
+@proposition.register
+def _(statement: SampledStable) -> str:
+    return sampled_proposition(statement)
 
 
 @proposition.register

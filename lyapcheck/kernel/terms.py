@@ -170,6 +170,11 @@ NAMELESS = re.compile(rf"\b{identifier('')}\b")
 SORTS = {"var": "R", "vec": "vec", "mat": "mat"}
 
 
+def ranges_of(parameters: Iterable[Ends]) -> str:
+    """Ranges of parameters, or of friction, as a list."""
+    return f"[{'; '.join(f'({exact(low)}, {exact(high)})' for low, high in parameters)}]"
+
+
 def letters_of(statement: EveryN | BoundEveryN) -> dict[str, list[str]]:
     """The names of its numbers, vectors and matrices, in order.
 

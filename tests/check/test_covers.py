@@ -19,6 +19,8 @@ from lyapcheck.check.kinds.gate_accepted import GateAccepted, GateParts
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
+from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
@@ -31,6 +33,8 @@ SINE, COSINE = (1, 0, 0), (0, 1, 0)
 MASS = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1, 2))),),)
 """M(q) = p + ½ cos q."""
 RANGE = ((F(2), F(3)),)
+NONE, UNIT = (F(0),) * 3, tuple(tuple(F(i == k) for k in range(3)) for i in range(3))
+LINKS = (RigidLink(UNIT[2], NONE, F(1), UNIT[0], UNIT, UNIT),)
 SHOWN: dict[str, Statement] = {
     "MassAbove": MassAbove(MASS, RANGE, F(1)),
     "MassBelow": MassBelow(MASS, RANGE, F(4)),
@@ -53,6 +57,10 @@ SHOWN: dict[str, Statement] = {
     ),
     "Decreasing": Decreasing(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), F(1, 10), ()),
     "Resting": Resting("hyperbolic", 1, (F(5),), (F(1),), (F(1, 3),)),
+    "SampledStable": SampledStable(
+        *("hyperbolic", 1, (F(5),), (F(1, 10),), (F(1),), (), (), (), MASS, ((COSINE, F(-5)),), RANGE),
+        *(F(1, 38), F(2), 1, (F(1),), "goal"),
+    ),
 }
 EASIER: dict[str, Any] = {
     "parameters": ((F(9, 4), F(11, 4)),),
@@ -65,6 +73,9 @@ EASIER: dict[str, Any] = {
     "GateAccepted.stability": (MassAbove(MASS, RANGE, F(1, 2)),),
     "Resting.torque": (F(1, 2),),
     "Resting.errors": (F(1, 2),),
+    "viscous_min": (F(2),),
+    "period": F(1, 50),
+    "stretch": F(3, 2),
 }
 """Other values of a question that what is shown answers all the same."""
 HARDER: dict[str, Any] = {
@@ -74,6 +85,15 @@ HARDER: dict[str, Any] = {
     "MassBelow.high": F(3),
     "GravityBelow.high": F(5),
     "GateAccepted.limits": (F(19),),
+    "SampledStable.k_g": (F(6),),
+    "viscous_min": (F(1, 2),),
+    "links": LINKS,
+    "fall": (F(0), F(0), F(-9)),
+    "period": F(1, 10),
+    "stretch": F(3),
+    "delay": 0,
+    "taps": (F(1, 2),),
+    "conclusion": "rest",
     "k_g": (F(4),),
     "conditions": ("10p", "10i", "19"),
     "stability": (MassAbove(MASS, RANGE, F(2)),),
@@ -200,6 +220,23 @@ def test_the_directions_of_the_gate_are_those_of_its_proofs(field: str) -> None:
         shown = replace(shown, limits=(F(5) + F(599, 100),))
     with pytest.raises(Refused):
         verify(replace(shown, **{name: harder[field]}), border)
+
+
+@pytest.mark.parametrize("field", ["k_g", "viscous_min", "period", "stretch"])
+def test_the_directions_of_the_sampled_loop_are_those_of_its_proofs(field: str) -> None:
+    """At the border: (S) reads 1 > 2·(0.1 + 3/2·T·10), so that T < 2/75."""
+    shown: Any = SHOWN["SampledStable"]
+    border = ShortPeriod((F(5),), (HarmonicSizes(),))
+    if field == "k_g":  # a premise, of any arm
+        none: dict[str, Any] = dict.fromkeys(("mass", "potential", "parameters"), ())
+        shown, border = replace(shown, k_g=(F(5),), **none), ShortPeriod((), ())
+    easier = replace(shown, **{field: (F(4),) if field == "k_g" else EASIER[field]})
+    harder = replace(shown, **{field: HARDER.get(f"SampledStable.{field}", HARDER[field])})
+    require_covered(shown, easier)
+    assert verify(shown, border).verdict == verify(easier, border).verdict == "proved"
+    for refused in (lambda: require_covered(shown, harder), lambda: verify(harder, border)):
+        with pytest.raises(Refused):
+            refused()
 
 
 def test_each_part_of_a_conjunction_answers_the_part_of_its_name() -> None:

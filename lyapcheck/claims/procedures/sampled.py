@@ -1,0 +1,36 @@
+"""Gains on a computer: decided by (S), else said how far (S) reaches."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from lyapcheck.check.kinds.sampled import SampledStable
+from lyapcheck.claims.search_result import SearchResult, procedure, shown, still_open
+from lyapcheck.control.judgement import proves
+from lyapcheck.control.sampled import largest_period, sampled_proof
+from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
+
+METHOD = "friction above the held torque, (S)"
+DIGITS = 4
+
+
+@procedure(SampledStable)
+def find_sampled(statement: SampledStable) -> SearchResult:
+    """By (S); where that fails, up to which period it holds, and with how much friction it would."""
+    proof = sampled_proof(statement)
+    reach = _milliseconds(largest_period(statement))
+    if proves(statement, proof):
+        return shown(proof, METHOD, largest_period=reach)
+    rows = zip(statement.viscous_min, statement.needed(statement.k_g or proof.k_g), strict=True)
+    more = [
+        f"b_{i} > {decimal_text(significant_up(want, DIGITS))}"
+        for i, (have, want) in enumerate(rows, 1)
+        if have <= want
+    ]
+    far = f"holds for T < {reach}" if reach else "holds for no T"
+    return still_open(f"(S) {far}; {' and '.join(more)} N·m·s/rad would do", METHOD)
+
+
+def _milliseconds(period: Fraction | None) -> str:
+    """A period that (S) shows, in four digits; empty if there is none."""
+    return "" if period is None else f"{decimal_text(significant_down(1000 * period, DIGITS))} ms"
