@@ -41,8 +41,8 @@ class Bench(LoopRecord):
 
     Every period: read the encoders, estimate the velocity, compute (6), cut it at the motors' limits, and
     hold it from ``delay`` samples later on. Until then the motors hold what gravity asks at the start. The
-    arm carries the unknown payload at the centre of mass of its last link, and what the controller knows of
-    gravity is too little by the share of ``gravity_error``. Intervals are all equal.
+    arm carries the unknown payload at the centre of mass of its last link, and gravity is larger than the
+    controller's by the share of ``gravity_error``. Intervals are all equal.
 
     A float stands for its shortest decimal.
 
@@ -86,9 +86,9 @@ class Bench(LoopRecord):
         return float(UNSAMPLED if self.period is None else self.period)
 
     @property
-    def known(self) -> float:
-        """The share of g(q) that the controller knows."""
-        return 1.0 - float(self.gravity_error)
+    def pull(self) -> float:
+        """By which gravity is multiplied, to what the controller takes it for."""
+        return 1.0 + float(self.gravity_error)
 
     def carried(self, model: RobotModel) -> RobotModel:
         """The arm that moves: with the payload that the controller does not know.
@@ -108,7 +108,7 @@ class Bench(LoopRecord):
     def unknown(self, model: RobotModel, q: Array) -> Array:
         """Δg(q), N·m: gravity beyond what the controller knows, (…, n) angles in rad to (…, n)."""
         known, real = (NumericModel(arm).gravity(q) for arm in (model, self.carried(model)))
-        return np.asarray(real - self.known * known)
+        return np.asarray(self.pull * real - known)
 
     def counts(self, model: RobotModel) -> Sequence[int | None]:
         """Counts per turn of each encoder."""
@@ -145,8 +145,7 @@ def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
         smooth = before + (1 - math.exp(-2 * math.pi * float(bench.lowpass) * bench.T)) * (smooth - before)
         kept = [smooth]
     spring = ca.DM(gains.kp) * gains.family.casadi(goal - reading).h
-    gravity = bench.known * graph.gravity(model, reading)
-    wanted = spring - ca.DM(gains.kv) * gains.family.casadi(smooth).h + gravity
+    wanted = spring - ca.DM(gains.kv) * gains.family.casadi(smooth).h + graph.gravity(model, reading)
     most = ca.DM([math.inf if limit is None else limit for limit in torque_limits(model)])
     held, *later = [*rest[past + len(kept) :], ca.fmin(ca.fmax(wanted, -most), most)]
     new = ca.vertcat(reading, *velocity[:past], *kept, *later)
@@ -158,7 +157,7 @@ def memory_at(setup: Setup, bench: Bench) -> Array:
     q, w, counts = np.array(setup.task.q0), np.array(setup.task.w0), bench.counts(setup.model)
     last, now = (np.array(read_encoders(ca.DM(x), counts))[:, 0] for x in (q - bench.T * w, q))
     most = [math.inf if limit is None else limit for limit in torque_limits(setup.model)]
-    held = np.clip(bench.known * NumericModel(setup.model).gravity(now), np.negative(most), most)
+    held = np.clip(NumericModel(setup.model).gravity(now), np.negative(most), most)
     smooth = [] if bench.lowpass is None else [float(sum(bench.filter)) * w]
     return np.concatenate([last, *[w] * (len(bench.filter) - 1), *smooth, *[held] * bench.delay])
 
@@ -190,7 +189,8 @@ def _runge_kutta(model: RobotModel, bench: Bench, h: float) -> Any:
 def _acceleration(model: RobotModel, bench: Bench, q: Any, w: Any, torque: Any) -> Any:
     """M⁻¹(τ − C w − g − B w − f_c tanh(w/creep)), that is (1) with dry friction added."""
     dry = ca.DM(dry_friction(model)) * ca.tanh(w / bench.creep)
-    drift = graph.coriolis(model, q, w) @ w + graph.gravity(model, q) + graph.viscous(model) @ w
+    gravity = bench.pull * graph.gravity(model, q)
+    drift = graph.coriolis(model, q, w) @ w + gravity + graph.viscous(model) @ w
     return graph.solve(graph.mass(model, q), torque - drift - dry)
 
 

@@ -42,13 +42,13 @@ def by_hand(kp: float, kv: float, goal: float, bench: Bench, T: float) -> list[f
             smooth = fresh
         else:
             smooth += (1 - math.exp(-2 * math.pi * float(bench.lowpass) * period)) * (fresh - smooth)
-        known = (1 - float(bench.gravity_error)) * 9.81 * 0.5 * math.sin(read)
+        known = 9.81 * 0.5 * math.sin(read)
         wanted = kp * math.tanh(goal - read) - kv * math.tanh(smooth) + known
         under_way.append(min(max(wanted, -10.0), 10.0))
         tau = under_way.pop(0)
 
         def rate(_: float, y: list[float], tau: float = tau) -> list[float]:
-            pull = load * 9.81 * 0.5 * math.sin(y[0])
+            pull = (1 + float(bench.gravity_error)) * load * 9.81 * 0.5 * math.sin(y[0])
             return [y[1], (tau - pull - 0.5 * y[1]) / (load * 0.25)]
 
         state = solve_ivp(rate, (0, period), state, rtol=1e-10, atol=1e-12).y[:, -1].tolist()
