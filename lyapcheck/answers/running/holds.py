@@ -285,10 +285,9 @@ def _cause(held: Sequence[HoldsCheck]) -> str:
 
 def falls(check: HoldsCheck, joints: Sequence[str]) -> str:
     """What is asked of a joint at a posture, and what holds it."""
-    assert check.judgement is not None
-    proof = check.judgement.proof
-    assert isinstance(proof, PostureWitness)
-    place = ", ".join(f"{degrees(x):.6g}" for x in proof.q)
+    proof = None if check.judgement is None else check.judgement.proof
+    q = proof.q if isinstance(proof, PostureWitness) else ()
+    place = ", ".join(f"{degrees(x):.6g}" for x in q)
     holds = "γ k_p and dry friction hold" if check.friction else "γ k_p holds"
     return (
         f"{joints[check.joint or 0]} falls: {check.unknown} asks {at_least(check.reached)} N·m at "

@@ -42,8 +42,8 @@ NOTES = (
     "leaves the error e with k_p |h(e)| = f.",
     "The search is not exhaustive; better gains may exist.",
 )
-INSIDE = "The gate proves (10p) for the sets that were found: no motor saturates at any state of (11)."
-RULES = ("(10p)", "(19)")
+INSIDE = "The gate proves (10i) for the sets that were found: no motor saturates at any state of (11)."
+RULES = ("(10i)", "(19)")
 FLAT = (
     "For m ≥ 2 h is flat at the goal: less torque near it, a slower end, and dry friction holds the joint "
     "farther away."
@@ -282,7 +282,7 @@ class BenchTuning(Answer):
         if one.trial.worst(self.bench.wishes) > 1:
             for rule, joints in held.items():
                 if joints:
-                    gain = "k_p + k_v" if rule == "(10p)" else "k_v"
+                    gain = "k_p + k_v" if rule == "(10i)" else "k_v"
                     yield f"{rule} keeps {gain} of {', '.join(joints)} from being larger"
 
     def _given_up(self) -> Iterator[str]:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 CONDITIONS = {BY_19: ("19",), BY_PROOF: (SCALAR, LASALLE)}
-"""What shows stability beside (10p), by the way that is asked for; the first that the gate accepts counts."""
+"""What shows stability beside (10i), by the way that is asked for; the first that the gate accepts counts."""
 
 
 def tune_for(
@@ -59,7 +59,7 @@ def tune_for(
     Raises:
         InputError: the arm cannot be used.
 
-    Soundness: each set is accepted by the gate, with (10p) and the condition it names. What motions show is
+    Soundness: each set is accepted by the gate, with (10i) and the condition it names. What motions show is
         floating point, and that no better gains exist is not proved.
 
     References: (6), (10), (11), (19) of reyes2019family.
@@ -115,7 +115,7 @@ def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tupl
 def _none(m: int, way: str, limits: Limits) -> str:
     if way == BY_19 and not limits.viscous_min:
         return f"m = {m}: (19) admits no k_v without viscous friction; stability by proof does without it"
-    rule = "(19) admits no k_v" if way == BY_19 else "(10p) leaves no room for gains"
+    rule = "(19) admits no k_v" if way == BY_19 else "(10i) leaves no room for gains"
     return f"m = {m}: {rule} with so few decimal places; raise --digits"
 
 
@@ -129,7 +129,7 @@ def accepted(
 ) -> GateResult:
     """The set as the gate accepts it, with the conditions by which it does; else as it does not."""
     for condition in CONDITIONS[way]:
-        named = replace(gains, condition=("10p", condition))
+        named = replace(gains, condition=("10i", condition))
         file = GainFile("tuned gains", robot, (named,), bounds or Bounds(), loop=loop)
         (result,) = gate(file, robot, arms=ranges)
         if result.verdict == ACCEPTED:
@@ -140,7 +140,7 @@ def accepted(
 def _held(gains: GainSet, search: Search) -> Iterator[str]:
     rows = zip(gains.kp, gains.kv, search.most_sum, search.most_kv, strict=True)
     for kp, kv, most, most_kv in rows:
-        rules = ["(10p)"] if kp + kv == most * search.unit else []
+        rules = ["(10i)"] if kp + kv == most * search.unit else []
         if search.way == BY_19 and kv == most_kv * search.unit:
             rules.append("(19)")
         yield ", ".join(rules)
@@ -155,7 +155,7 @@ def _other(
     ranges: dict[str, ArmLimits] | None,
 ) -> Candidate:
     """A set from elsewhere, tried as ours are, with the conditions by which the gate accepts it."""
-    trial = tried(gains, arms, bench.tasks, bench.wishes, exact=True)
+    trial = tried(gains, arms, bench, exact=True)
     assert file is not None
     own = replace(gains, condition=())
     for way in WAYS:
