@@ -5,7 +5,7 @@ BIN := .venv/bin
 # As commands do: the matrices are small, and threads of BLAS only wait for each other.
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: report screenshots site study test test-slow test-robots test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
+.PHONY: report screenshots site study test test-slow test-robots test-mujoco test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
@@ -15,6 +15,7 @@ help:
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
 	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
+	@echo "make test-mujoco  motions against MuJoCo; downloads 20 MB (extra mujoco)"
 	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
 	@echo "make promises   what is promised over ranges, asked at 200 members a test; writes reports/promises.md"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
@@ -51,6 +52,10 @@ test-slow: .venv/.ready
 test-robots: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
 	$(BIN)/pytest tests/robots/against_pinocchio.py
+
+test-mujoco: .venv/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[mujoco]"
+	$(BIN)/pytest tests/simulate/against_mujoco.py
 
 test-sweep: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[sweep]"

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from lyapcheck.robots.plant import RobotModel
     from lyapcheck.robots.registry import load as load_robot
     from lyapcheck.robots.registry import names as robot_names
+    from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
     from lyapcheck.simulate.reference.file import read_reference
     from lyapcheck.simulate.run import Run
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Bench",
     "Bounds",
     "Claim",
     "ClaimResult",
@@ -115,6 +117,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Bench": "simulate.bench",
     "Bounds": "control.gains",
     "Claim": "claims.claim",
     "ClaimResult": "answers.check",

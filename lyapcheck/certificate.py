@@ -11,7 +11,7 @@ from typing import Any
 
 from lyapcheck.check import certificate as read
 from lyapcheck.check.certificate import SCHEMA, canonical, digest_of_text
-from lyapcheck.check.codec import TAGS, name_of
+from lyapcheck.check.codec import TAGS, left_out, name_of
 
 
 @cache
@@ -66,7 +66,12 @@ class Certificate(read.Certificate):
 def to_json(value: Any) -> Any:
     """Data as JSON values."""
     if is_dataclass(value) and not isinstance(value, type):
-        own = {each.name: to_json(getattr(value, each.name)) for each in fields(value)}
+        usual, parts = left_out(type(value)), vars(value)
+        own = {
+            each.name: to_json(parts[each.name])
+            for each in fields(value)
+            if each.name not in usual or parts[each.name] != usual[each.name]
+        }
         return {**_tag(type(value)), **own}
     if isinstance(value, tuple):
         return [to_json(part) for part in value]

@@ -13,11 +13,12 @@ import numpy as np
 
 from lyapcheck import asked
 from lyapcheck._types import Array, Progress, part, silent
+from lyapcheck.answers.running import HoldsCheck, holds_checks, running_sentences
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.control.judgement import DEGREES
+from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text, significant_up
@@ -32,8 +33,10 @@ from lyapcheck.simulate.closed_loop import SetPoint
 from lyapcheck.simulate.task import set_up
 
 if TYPE_CHECKING:
+    from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.control.judgement import JudgedStatement
+    from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
@@ -54,6 +57,7 @@ RUNS = (
     "simulated on the way: the largest of this motion"
 )
 NONE = "—"
+UNKNOWN = "with unknown gravity"
 WITHOUT = "without --vary, proved"
 LEGEND = (
     "proved at most: accepted by the checker, for dry friction up to what is stated, at every state of rest."
@@ -86,6 +90,7 @@ class BoundsComparison:
         varies: the ranges over which the bounds hold, as typed.
         corners: at which of their corners runs were made; the worst of them counts.
         unvaried: the same without these ranges, where something varies.
+        unknown: what gravity that the controller does not know makes of them, where a record says so.
     """
 
     gains: GainSet
@@ -103,6 +108,7 @@ class BoundsComparison:
     varies: tuple[str, ...] = ()
     corners: str = ""
     unvaried: BoundsComparison | None = None
+    unknown: tuple[Check, ...] = ()
 
     @property
     def rest(self) -> tuple[Fraction | None, ...]:
@@ -116,8 +122,22 @@ class BoundsComparison:
 
     @property
     def proved(self) -> bool:
-        """Whether each joint has a bound."""
-        return None not in self.rest
+        """Whether each joint has a bound, whatever gravity is unknown."""
+        return None not in self.rest and all(check.verdict == ACCEPTED for check in self.unknown)
+
+    @property
+    def falls(self) -> bool:
+        """Whether a joint is refuted to hold the gravity that the controller does not know."""
+        return any(check.verdict == REJECTED for check in self.unknown)
+
+    @property
+    def unknown_degrees(self) -> tuple[Fraction | None, ...]:
+        """Errors at rest with what is unknown as well; those of dry friction where that is nothing."""
+        result = list(self.rest_degrees)
+        for check in self.unknown:
+            if isinstance(check, HoldsCheck) and check.joint is not None:
+                result[check.joint] = None if check.error is None else check.error * DEGREES
+        return tuple(result)
 
 
 def compare(
@@ -128,6 +148,7 @@ def compare(
     dry: Sequence[Fraction] | None = None,
     *,
     varied: Varied | None = None,
+    record: LoopRecord | None = None,
     on_progress: Progress | None = None,
 ) -> BoundsComparison:
     """The bounds at rest and the run.
@@ -139,6 +160,7 @@ def compare(
         delta: δ, rad.
         dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
         varied: the arm with ranges, and what varies; the bounds are asked over them as well.
+        record: what the controller does not know of gravity; runs know all of it.
         on_progress: receives the share done.
 
     Raises:
@@ -179,7 +201,16 @@ def compare(
         varies=() if varied is None else tuple(one.text for one in varied[1]),
         corners="" if varied is None else corners_text(*varied),
         unvaried=unvaried,
+        unknown=_unknown(gain_set, whole, record, known if len(known) == len(most) else None),
     )
+
+
+def _unknown(
+    gains: GainSet, arm: RobotModel, record: LoopRecord | None, dry: Sequence[Fraction] | None
+) -> tuple[Check, ...]:
+    if record is None or record.knows_gravity:
+        return ()
+    return holds_checks(gains, arm, record, dry)
 
 
 def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
@@ -311,15 +342,20 @@ class Comparisons(Answer):
         return [
             Annotation(
                 group=result.gains.name,
-                level=Level.PASSED if result.proved else Level.UNDECIDED,
+                level=Level.FAILED if result.falls else Level.PASSED if result.proved else Level.UNDECIDED,
                 rule="resting",
                 rule_text=RULE,
                 case="errors at rest",
-                message="" if result.proved else f"none is proved of a joint: {result.reason}",
+                message="" if result.proved else _missing(result),
                 **({} if self.file is None else self.file.spot(result.gains)),
             )
             for result in self.results
         ]
+
+
+def _missing(result: BoundsComparison) -> str:
+    said = running_sentences(result.unknown, result.joints)
+    return f"none is proved of a joint: {'; '.join(filter(None, (result.reason, *said)))}"
 
 
 def title(results: Sequence[BoundsComparison]) -> str:
@@ -329,6 +365,9 @@ def title(results: Sequence[BoundsComparison]) -> str:
     whole = len(promises)
     if len(results) == 1:
         return _one(results[0])
+    fallen = sum(result.falls for result in results)
+    if fallen:
+        return f"✗ {robots} falls under {fallen} of {len(results)} gain sets, by gravity unknown to them"
     if whole == len(results) > 0:
         return all_say(promises, f"✓ the errors at rest under all {whole} gain sets are proved on {robots}")
     if not promises:
@@ -341,10 +380,16 @@ def title(results: Sequence[BoundsComparison]) -> str:
 def _one(result: BoundsComparison) -> str:
     over = f" with {', '.join(result.varies)}" if result.varies else ""
     about = f"{result.gains.name} on {result.robot}{over}:"
-    known = [error for error in result.rest_degrees if error is not None]
+    known = [error for error in result.unknown_degrees if error is not None]
+    if result.falls:
+        rejected = (check for check in result.unknown if check.verdict == REJECTED)
+        joints = ", ".join(result.joints[check.joint or 0] for check in rejected)
+        return f"✗ {about} {joints} cannot hold the gravity that is unknown to the controller"
     if result.promise is not None and result.proved:
-        return result.promise.says(f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved")
-    rows = zip(result.joints, result.rest, strict=True)
+        promises = [result.promise, *(check.own_promise for check in result.unknown)]
+        words = f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved"
+        return all_say(promises, words)
+    rows = zip(result.joints, result.unknown_degrees, strict=True)
     missing = ", ".join(joint for joint, error in rows if error is None)
     return f"? {about} no error at rest is proved for {missing}"
 
@@ -357,13 +402,17 @@ def _behind(result: BoundsComparison) -> list[Table | Bullets]:
         ("simulated at rest", list(map(_angle, result.simulated_rest))),
         ("simulated on the way", list(map(_angle, result.simulated_largest))),
     ]
+    if result.unknown:
+        columns.insert(2, (UNKNOWN, list(map(angle_up, result.unknown_degrees))))
     if result.unvaried is not None:
         columns.insert(2, (WITHOUT, list(map(angle_up, result.unvaried.rest_degrees))))
     promise = result.promise
     proved = "" if promise is None else promise.says("proved: |e_i| at every state of rest; ")
     rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
     table = Table(("joint", *(head for head, _ in columns)), tuple(rows), f"{proved}{RUNS}:")
-    return [table, *([Bullets((f"{result.reason}.",))] if result.reason else [])]
+    said = [f"{result.reason}."] if result.reason else []
+    said += [f"{text}." for text in running_sentences(result.unknown, result.joints)]
+    return [table, *([Bullets(tuple(said))] if said else [])]
 
 
 def _times(results: Sequence[BoundsComparison]) -> Table:
@@ -407,6 +456,8 @@ def comparison_data(result: BoundsComparison) -> dict[str, Any]:
             "rest": [None if x is None else float(x) for x in result.rest_degrees],
             "rest_statement": None if promise is None else promise.says(promise.shown.statement.text()),
             "reason": result.reason,
+            "unknown_rest": [None if x is None else float(x) for x in result.unknown_degrees],
+            "unknown": running_sentences(result.unknown, result.joints),
         },
         "simulated": {
             "duration": task.T,

@@ -167,9 +167,12 @@ READERS: dict[Any, Callable[[Any, Any, str], Any]] = {
 
 def _dataclass(cls: Any, data: Any, where: str) -> Any:
     require(isinstance(data, dict), where, data, "must be an object")
-    hints = _hints(cls)
+    usual = left_out(cls)
+    hints = {name: hint for name, hint in _hints(cls).items() if name in data or name not in usual}
     require_keys(data, set(hints), where)
     values = {name: _read(hint, data[name], f"{where}.{name}") for name, hint in hints.items()}
+    for name in usual.keys() & values.keys():
+        require(values[name] != usual[name], f"{where}.{name}", usual[name], "must be left out")
     try:
         return cls(**values)
     except ValueError as error:
@@ -180,6 +183,12 @@ def _dataclass(cls: Any, data: Any, where: str) -> Any:
 def _hints(cls: Any) -> dict[str, Any]:
     hints = get_type_hints(cls)
     return {field.name: hints[field.name] for field in fields(cls)}
+
+
+@lru_cache(maxsize=128)
+def left_out(cls: Any) -> dict[str, Any]:
+    """Fields that are not written where they have their usual value; older certificates have none."""
+    return {field.name: field.default for field in fields(cls) if field.metadata.get("left_out")}
 
 
 def require_keys(data: dict[str, Any], wanted: set[str], where: str) -> None:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from lyapcheck.cli.show import open_folder, require_writable
-from lyapcheck.cli.values import Complaints
+from lyapcheck.cli.values import LOOP, Complaints, loop_of
 from lyapcheck.errors import InputError, argument_error, argument_problem
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
-    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.reference import Reference
     from lyapcheck.simulate.starts import Starts
     from lyapcheck.simulate.task import Task
@@ -48,6 +49,7 @@ _CLASHES = (
     ("--reference", "--runs"),
     ("--reference", "--target"),
     ("--runs", "--experiment"),
+    *((name, f"--{key.replace('_', '-')}") for name in ("--runs", "--reference") for key in LOOP),
     ("--runs", "--keep-going"),
     ("--runs", "--plot"),
     ("--runs", "--vary"),
@@ -176,6 +178,29 @@ def request_of(
     q0, rates = _begin(wrong, model, start, velocity)
     made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0.number, band=band_of(band))
     return wrong.result(_by_options(made))
+
+
+def bench_of(
+    options: Mapping[str, str | None], experiment: bool, file: GainFile, model: RobotModel
+) -> Bench | None:
+    """How the loop is run: by options, else the published experiment, else the gain file, else the arm file.
+
+    Returns:
+        ``None`` where nothing is said of it: at an infinite rate.
+
+    Raises:
+        InputError: an option that cannot be used; an unknown payload on an arm whose links are not known.
+    """
+    from lyapcheck.control.sampling import record_of
+    from lyapcheck.files.loop import NOTHING, LoopEntry
+    from lyapcheck.simulate.bench import Bench
+
+    published = LoopEntry(period=Bench().period, delay=0) if experiment else NOTHING
+    record = record_of(loop_of(options).over(published), file.loop, model.loop)
+    bench = None if record is None else Bench.of(record)
+    if bench is not None:
+        bench.carried(model)
+    return bench
 
 
 def starts_of(runs: int, spread: float | None, seed: int | None) -> Starts:

@@ -24,7 +24,9 @@ DECIDING = ("10p", "19")
 """The paper's tuning rules, for a gain set that names no conditions."""
 CERTIFICATES = ("scalar", "global", "lasalle")
 """Proofs of stability for one arm and one gain set."""
-KNOWN = ("10", "10p", "10i", "19", *CERTIFICATES)
+RUNNING = ("sampled", "holds")
+"""What is judged of the loop as a computer runs it, where a record of it is there; see `LoopRecord`."""
+KNOWN = ("10", "10p", "10i", "19", *CERTIFICATES, *RUNNING)
 """Every condition that may decide."""
 
 

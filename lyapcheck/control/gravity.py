@@ -151,8 +151,8 @@ def torque_of(model: RobotModel, i: int) -> Uncertain:
 def _judged(model: RobotModel, i: int, bound: Fraction, own: RobotModel) -> tuple[RefutedBound | None, str]:
     """What refutes a bound of an arm in the ranges, and why it does not count; ``""`` where it does."""
     try:
-        at = _broken(model, i, bound)
-        its_own = at if own is model or at is None else _broken(own, i, bound)
+        at = exceeded(model, i, bound)
+        its_own = at if own is model or at is None else exceeded(own, i, bound)
     except TooManyTerms:
         return None, "is not shown to be kept by the arm"
     if at is None:
@@ -177,7 +177,7 @@ def _by_boxes(model: RobotModel, i: int, bound: Fraction) -> bool:
     return proves(_statement(model, i, bound), Bisection())
 
 
-def _broken(model: RobotModel, i: int, bound: Fraction) -> tuple[JudgedStatement, Fraction] | None:
+def exceeded(model: RobotModel, i: int, bound: Fraction) -> tuple[JudgedStatement, Fraction] | None:
     """A posture at which the checker finds gravity above a bound, with what it exerts there at least."""
     from lyapcheck.check.kinds.inertia import PostureWitness
     from lyapcheck.check.numbers.polynomials import Enclosure

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -34,7 +34,8 @@ class LoopRecord:
         lowpass: cut-off of a first-order filter of the velocity in place of the taps, Hz.
         encoder: counts a turn of every joint; ``None`` for those of the arm.
         unknown_payload: the most at the tip that the controller does not know, kg.
-        gravity_error: the largest share of g_i(q) by which the controller's may be wrong.
+        gravity_error: the largest share of the g_i(q) of the arm file, which the controller uses, by which
+            that of the real arm may differ.
     """
 
     period: Fraction | None = None
@@ -53,32 +54,44 @@ class LoopRecord:
         return not self.unknown_payload and not self.gravity_error
 
     @property
+    def entry(self) -> LoopEntry:
+        """The same as a source would say it."""
+        return LoopEntry(**{one.name: getattr(self, one.name) for one in fields(LoopEntry)})
+
+    @property
     def text(self) -> str:
         """The loop in words: ``2.5 ms, 1 sample late, velocity by differences``."""
-        parts = []
-        if self.period is not None:
-            parts.append(time_text(self.period))
-            if self.longest is not None and self.longest > self.period:
-                parts.append(f"at most {time_text(self.longest)}")
-            late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
-            parts.append(late if self.delay else "no delay")
-            parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
-            if self.lowpass is not None:
-                parts.append(f"low-pass of {decimal_text(self.lowpass)} Hz")
-            elif self.filter != ONE:
-                parts.append(f"filter of {len(self.filter)} taps")
-        if self.unknown_payload:
-            parts.append(f"unknown payload up to {decimal_text(self.unknown_payload)} kg")
-        if self.gravity_error:
-            parts.append(f"gravity wrong by up to {decimal_text(100 * self.gravity_error)} %")
+        if self.period is None:
+            return self.unknown_text
+        jitter = self.longest is not None and self.longest > self.period
+        longest = f", no interval above {time_text(self.longest or self.period)}" if jitter else ""
+        return f"{time_text(self.period)}{longest}, {self.how}"
+
+    @property
+    def how(self) -> str:
+        """The same without the period."""
+        late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
+        parts = [late if self.delay else "no delay"]
+        parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
+        if self.lowpass is not None:
+            parts.append(f"low-pass of {decimal_text(self.lowpass)} Hz")
+        elif self.filter != ONE:
+            parts.append(f"filter of {len(self.filter)} taps")
         return ", ".join(parts)
+
+    @property
+    def unknown_text(self) -> str:
+        """What the controller does not know: ``a payload of up to 2 kg``."""
+        kg, percent = decimal_text(self.unknown_payload), decimal_text(100 * self.gravity_error)
+        parts = [f"a payload of up to {kg} kg"] if self.unknown_payload else []
+        parts += [f"gravity wrong by up to {percent} %"] if self.gravity_error else []
+        return " and ".join(parts)
 
 
 def time_text(seconds: Fraction) -> str:
-    """A period in ms, exactly where it has a short decimal, else to four digits."""
-    milli = 1000 * seconds
-    text = decimal_text(milli)
-    return f"{text if '/' not in text and len(text) <= 8 else f'{float(milli):.4g}'} ms"
+    """A period exactly: in ms where it is a decimal, else as 1/600 s."""
+    text = decimal_text(1000 * seconds)
+    return f"{decimal_text(seconds)} s" if "/" in text else f"{text} ms"
 
 
 def record_of(

@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from lyapcheck.files.decimals import decimal_text, of_physical_size
 from lyapcheck.files.fields import Fields
 
 VELOCITIES = ("difference", "measured")
@@ -52,6 +53,22 @@ class LoopEntry:
             dropped |= {"filter": None, "lowpass": None}
         given = {name: value for name, value in vars(self).items() if value is not None}
         return replace(other, **(dropped | given))
+
+    @property
+    def toml(self) -> str:
+        """The table ``[loop]`` that says it."""
+        periods = {name: getattr(self, name) for name in ("period", "longest")}
+        lines = [f'{name} = "{decimal_text(10**6 * x)} us"' for name, x in periods.items() if x is not None]
+        if self.period is not None and "/" in lines[0]:
+            lines[0] = f"rate = {decimal_text(1 / self.period)}"
+        for name in ("delay", "lowpass", "encoder", "unknown_payload"):
+            value = getattr(self, name)
+            lines += [] if value is None else [f"{name} = {decimal_text(value)}"]
+        lines += [] if self.velocity is None else [f'velocity = "{self.velocity}"']
+        lines += [] if self.filter is None else [f"filter = [{', '.join(map(decimal_text, self.filter))}]"]
+        error = self.gravity_error
+        lines += [] if error is None else [f"gravity_error = {decimal_text(100 * error)}"]
+        return "\n".join(["[loop]", *lines])
 
 
 NOTHING = LoopEntry()
@@ -116,7 +133,7 @@ def _taps(table: Fields) -> tuple[Fraction, ...] | None:
     if value is None:
         return None
     numbers = isinstance(value, list) and all(
-        isinstance(x, int | Fraction) and not isinstance(x, bool) and abs(x) <= MOST_ERROR for x in value
+        isinstance(x, int | Fraction) and not isinstance(x, bool) and of_physical_size(x) for x in value
     )
     if not numbers or not 1 <= len(value) <= MOST_TAPS or not any(value):
         rule = f"must be 1 to {MOST_TAPS} taps of a filter, numbers that are not all 0"
@@ -131,8 +148,8 @@ def _encoder(table: Fields) -> int | None:
     if value is None:
         return None
     match = _BITS.fullmatch(value.strip()) if isinstance(value, str) else None
-    counts = 2 ** int(match[1]) if match else value
-    if not isinstance(counts, int) or isinstance(counts, bool) or not 2 <= counts <= MOST_COUNTS:
+    counts: object = 1 << int(match[1]) if match else value
+    if isinstance(counts, bool) or not isinstance(counts, int) or not 2 <= counts <= MOST_COUNTS:
         rule = "must be bits or counts a turn, from 1 bit to 40 bits"
         table.fail("encoder", rule, 'give it as "17 bits", or as 131072')
         return None

@@ -26,6 +26,7 @@ table of ixx, iyy, izz and, where they are not zero, ixy, ixz, iyz::
     inertia = 1.266                     # kg·m²
     viscous = 2.288                     # N·m·s/rad
     coulomb = 7.17                      # N·m; this and the following are optional
+    rotor_inertia = 0.8                 # kg·m² at the joint; or { rotor = 5e-5, gear = 100 }, times gear²
     torque_limit = 150                  # N·m
     encoder = 1024000                   # counts per turn
     gravity_bound = 40.28               # N·m, k_gi where a source prints it
@@ -85,7 +86,7 @@ from lyapcheck.robots.bodies import check_positive_definite
 from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.plans import ModelPlan, read_plan
 from lyapcheck.robots.plant import RobotModel
-from lyapcheck.robots.vary import MOTOR, PAYLOAD, Vary, require_movable, varied, varied_numbers
+from lyapcheck.robots.vary import MASSES, MOTOR, PAYLOAD, Vary, require_movable, varied, varied_numbers
 
 # --- Opening an arm file, and refusing what is none.
 
@@ -156,7 +157,7 @@ def with_ranges(model: RobotModel, spread: Fraction, vary: tuple[Vary, ...]) -> 
     """
     require_movable(model, vary)
     all_of_it = (
-        tuple(Vary(name, 1 - spread, 1 + spread, True) for name in ("mass", "viscous")) if spread else ()
+        tuple(Vary(name, 1 - spread, 1 + spread, True) for name in (*MASSES, "viscous")) if spread else ()
     )
     return varied(model, (*all_of_it, *vary))
 

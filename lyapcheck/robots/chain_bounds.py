@@ -54,7 +54,7 @@ def chain_bounds(chain: Chain) -> ChainBounds:
 
     Soundness: rational arithmetic, roots and eigenvalues rounded to the safe side. Eliminating from the tip,
         M = UᵀDU with U unit triangular and D_k = s_kᵀ A_k s_k, where the articulated inertia A_k is that of
-        link k alone plus a positive semidefinite part: D_k is never below the moment of link k.
+        link k and its rotor plus a positive semidefinite part: D_k is never below the moment of these.
 
     References: articulated bodies, featherstone2008rigid chapter 7.
     """
@@ -62,10 +62,11 @@ def chain_bounds(chain: Chain) -> ChainBounds:
     masses, tensors = [link.mass for link in links], [link.inertia for link in links]
     spectra = [_spectrum(tensor) for tensor in tensors]
     distances = _distances(links)
+    rotors = [link.rotor for link in links]
     return ChainBounds(
         tuple(link.about_axis for link in links),
-        _smallest([low for low, _ in spectra]),
-        _largest(masses, [high for _, high in spectra], distances),
+        _smallest([low for low, _ in spectra]) + min(rotors),
+        _largest(masses, [high for _, high in spectra], distances) + max(rotors),
         tuple(lever_bound(links, chain.fall, i, ()) for i in range(chain.n)),
         _coriolis(masses, [high for _, high in spectra], distances) if all(map(bodily, tensors)) else None,
     )

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lyapcheck.robots.fields import ArmFields, Number, Sign
 
+ROTOR = "_rotor_inertia"
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
 
 
@@ -20,9 +21,15 @@ class JointEntry:
     torque_limit: Number | None
     encoder: int | None
     gravity_bound: Number | None
+    rotor: Number | None = None
+
+    @property
+    def rotors(self) -> dict[str, Number]:
+        """Its rotor inertia, which is a number of M(q), under the name that reports use."""
+        return {} if self.rotor is None else {f"{self.name}{ROTOR}": self.rotor}
 
     def numbers(self) -> dict[str, Number]:
-        """The numbers of the joint under the names that reports use."""
+        """The other numbers of the joint under the names that reports use."""
         parts = ("viscous", "coulomb", "torque_limit", "gravity_bound")
         result = {f"{self.name}_{part}": getattr(self, part) for part in parts}
         return {name: number for name, number in result.items() if number is not None}
@@ -55,7 +62,27 @@ def read_motor(name: str, fields: ArmFields, required: bool) -> JointEntry:
         fields.quantity("torque_limit", "N·m", Sign.POSITIVE),
         fields.integer("encoder", 1, 2**40),
         fields.quantity("gravity_bound", "N·m", Sign.NONNEGATIVE),
+        _read_rotor(fields),
     )
+
+
+def _read_rotor(fields: ArmFields) -> Number | None:
+    """What the joint feels of its rotor: one number, or that of the rotor itself times gear²."""
+    value = fields.data.get("rotor_inertia")
+    if not isinstance(value, dict) or "value" in value:
+        return fields.quantity("rotor_inertia", "kg·m²", Sign.NONNEGATIVE)
+    table = fields.table("rotor_inertia")
+    assert table is not None
+    rotor = table.quantity("rotor", "kg·m²", Sign.NONNEGATIVE, required=True)
+    gear = table.quantity("gear", "", Sign.POSITIVE, required=True)
+    table.close()
+    if rotor is None or gear is None:
+        return None
+    if gear.ranged:
+        table.fail("gear", "must be exact", "give a plain number")
+    low, high = (end * gear.value**2 for end in rotor.bounds)
+    reflected = replace(rotor, value=rotor.value * gear.value**2)
+    return replace(reflected, low=low, high=high) if rotor.ranged else reflected
 
 
 def _refuse_other_kinds(fields: ArmFields) -> None:

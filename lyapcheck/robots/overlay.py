@@ -12,6 +12,7 @@ from lyapcheck.robots.fields import ArmFields, Number
 from lyapcheck.robots.joints import JointEntry, read_motor
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf import read_urdf
+from lyapcheck.robots.vary import with_rotors
 
 _PARTS = ("viscous", "coulomb", "torque_limit", "encoder", "gravity_bound")
 
@@ -65,4 +66,5 @@ def _completed(model: RobotModel, motors: list[JointEntry]) -> RobotModel:
             if value is not None:
                 parts[key][model.joints.index(motor.name)] = value
     changed: dict[str, Any] = {key: tuple(values) for key, values in parts.items()}
-    return replace(model, numbers=numbers, **changed)
+    rotors = {name: number for motor in motors for name, number in motor.rotors.items()}
+    return with_rotors(replace(model, numbers=numbers | rotors, **changed), rotors)

@@ -13,7 +13,7 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import BodyEntry, components, read_bodies
 from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare, Polynomials
 from lyapcheck.robots.fields import ArmFields, Number
-from lyapcheck.robots.joints import JointEntry, read_joints
+from lyapcheck.robots.joints import ROTOR, JointEntry, read_joints
 from lyapcheck.robots.printed import PrintedTerms, PrintedTorques, is_angle, read_printed, read_torques
 
 MOST_JOINTS = 12
@@ -60,7 +60,7 @@ class ChainPlan:
         """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
         result = components("gravity", self.gravity)
         for joint, body in zip(self.joints, self.bodies, strict=True):
-            result |= body.numbers(joint.name)
+            result |= body.numbers(joint.name) | joint.rotors
         return result
 
     def used(self) -> set[str]:
@@ -91,12 +91,12 @@ class PrintedPlan:
     torques: PrintedTorques | None
 
     def numbers(self) -> dict[str, Number]:
-        """The entries of ``[numbers]``."""
-        return dict(self.entries)
+        """The entries of ``[numbers]``, and rotor inertias."""
+        return dict(self.entries, **_rotors(self.joints))
 
     def used(self) -> set[str]:
         """Those that occur in a term."""
-        return self.printed.names()
+        return self.printed.names() | set(_rotors(self.joints))
 
     def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
         """M and the potential as printed."""
@@ -104,7 +104,17 @@ class PrintedPlan:
         ring = trig.trig_ring(n, parameters)
         polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
         polys |= dict(zip(parameters, ring.gens()[2 * n :], strict=True))
-        return Polynomials(*self.printed.build(ring, polys), parameters)
+        mass, potential = self.printed.build(ring, polys)
+        rotors = [polys.get(f"{joint.name}{ROTOR}", 0) for joint in self.joints]
+        whole = tuple(
+            tuple(entry + rotors[i] if i == j else entry for j, entry in enumerate(row))
+            for i, row in enumerate(mass)
+        )
+        return Polynomials(whole, potential, parameters)
+
+
+def _rotors(joints: list[JointEntry]) -> dict[str, Number]:
+    return {name: number for joint in joints for name, number in joint.rotors.items()}
 
 
 def read_plan(top: ArmFields) -> ModelPlan | None:
@@ -154,7 +164,7 @@ def _read_printed(
     torques: ArmFields | None,
 ) -> ModelPlan:
     joints = _read_joints(top, "joints", tables)
-    taken = {name for joint in joints for name in joint.numbers()}
+    taken = {name for joint in joints for name in joint.numbers()} | set(_rotors(joints))
     entries = {} if numbers is None else _read_numbers(numbers, taken)
     names = [] if numbers is None else list(numbers.data)
     n = min(len(joints), MOST_PRINTED)
@@ -195,7 +205,8 @@ def _link(name: str, body: BodyEntry, entry: Callable[[str], Any]) -> RigidLink:
     else:
         inertia = tuple(tuple(entry(f"{name}_{key}") for key in row) for row in _TENSOR)
     origin, com = (tuple(entry(f"{name}_{key}_{letter}") for letter in "xyz") for key in ("origin", "com"))
-    return RigidLink(axis, origin, entry(f"{name}_mass"), com, inertia, UNIT)
+    rotor = entry(f"{name}{ROTOR}")
+    return RigidLink(axis, origin, entry(f"{name}_mass"), com, inertia, UNIT, rotor)
 
 
 def _times(number: Any, factor: Fraction) -> Any:

@@ -86,7 +86,7 @@ class Plant:
             for end in (0, 1)
         )
         masses_alone = light.fall == heavy.fall and all(
-            replace(a, mass=b.mass, inertia=b.inertia) == b
+            replace(a, mass=b.mass, inertia=b.inertia, rotor=b.rotor) == b
             for a, b in zip(light.links, heavy.links, strict=True)
         )
         return heavy if masses_alone else None

@@ -13,6 +13,7 @@ from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
 from lyapcheck.robots.fields import Number
+from lyapcheck.robots.joints import ROTOR
 
 if TYPE_CHECKING:
     from lyapcheck.robots.plant import RobotModel
@@ -21,6 +22,8 @@ OPTION = "--vary"
 PAYLOAD = "payload"
 MOTOR = ("viscous", "coulomb", "torque_limit", "gravity_bound")
 """Numbers of a joint that enter neither M nor the potential."""
+MASSES = (ROTOR.removeprefix("_"), "mass")
+"""Numbers of known links."""
 MOST_CORNERS = 32
 _FORM = re.compile(r"(\w+)=([+-]?[\d.]+)(%?)\.\.([+-]?[\d.]+)(%?)", re.ASCII)
 
@@ -98,14 +101,14 @@ def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dic
 
 
 def varied(
-    model: RobotModel, varies: Sequence[Vary], parts: Sequence[str] = (*MOTOR, "mass", PAYLOAD)
+    model: RobotModel, varies: Sequence[Vary], parts: Sequence[str] = (*MOTOR, *MASSES, PAYLOAD)
 ) -> RobotModel:
     """An arm with ranges for friction and limits, and where its links are known for their masses.
 
     Args:
         model: the arm.
         varies: the ranges.
-        parts: what may be changed here: numbers of joints, ``mass``, ``payload``.
+        parts: what may be changed here: numbers of joints, ``mass``, ``rotor_inertia``, ``payload``.
 
     Raises:
         InputError: a range with a friction below 0, or a mass that is not positive.
@@ -121,7 +124,9 @@ def varied(
         moved |= {key: number for key, number in now.items() if number is not known[key]}
         changed[part] = tuple(now.get(key) for key in keys)
     masses = _masses(model, varies, parts)
-    _require_physical(moved | masses)
+    rotors = varied_numbers(_rotors_of(model), varies) if MASSES[0] in parts else {}
+    rotors = {key: number for key, number in rotors.items() if number is not model.numbers[key]}
+    _require_physical(moved | masses | rotors)
     numbers = model.numbers | moved | masses
     if masses:
         chain = model.dynamics
@@ -134,7 +139,32 @@ def varied(
         )
         changed["dynamics"] = Chain(links, chain.fall, tuple(dict.fromkeys((*chain.names, *ranged))))
         changed["parameters"] = model.parameters | ranged
-    return replace(model, numbers=numbers, **changed)
+    return with_rotors(replace(model, numbers=numbers, **changed), rotors)
+
+
+def with_rotors(model: RobotModel, rotors: dict[str, Number]) -> RobotModel:
+    """An arm of known links with these rotor inertias, by the names that reports use."""
+    chain = model.dynamics
+    if not rotors or not isinstance(chain, Chain):
+        return model
+    ranged = {key: number for key, number in rotors.items() if number.ranged}
+    now = {key: ParameterShare(key) if key in ranged else number.value for key, number in rotors.items()}
+    links = tuple(
+        replace(link, rotor=cast(Any, now.get(f"{joint}{ROTOR}", link.rotor)))
+        for joint, link in zip(model.joints, chain.links, strict=True)
+    )
+    names = tuple(dict.fromkeys((*chain.names, *ranged)))
+    return replace(
+        model,
+        dynamics=Chain(links, chain.fall, names),
+        parameters=model.parameters | ranged,
+        numbers=model.numbers | rotors,
+    )
+
+
+def _rotors_of(model: RobotModel) -> dict[str, Number]:
+    keys = [f"{joint}{ROTOR}" for joint in model.joints]
+    return {key: model.numbers[key] for key in keys if key in model.numbers}
 
 
 def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> dict[str, Number]:
@@ -211,11 +241,11 @@ def require_movable(model: RobotModel, varies: Sequence[Vary]) -> None:
     Raises:
         InputError: every such name.
     """
-    keys = [f"{joint}_{part}" for joint in model.joints for part in (*MOTOR, "mass")]
+    keys = [f"{joint}_{part}" for joint in model.joints for part in (*MOTOR, *MASSES)]
     wrong = [one for one in varies if one.name != PAYLOAD and not any(map(one.matches, keys))]
     if wrong:
         rule = f"cannot vary on {model.name}, an arm of a URDF file; its friction, limits and masses can"
-        known = (*MOTOR, "mass", PAYLOAD)
+        known = (*MOTOR, *MASSES, PAYLOAD)
         repair = f"use {', '.join(known)}, or one joint's, such as {keys[-1]}"
         raise InputError(_unknown(wrong, [*known, *keys], rule, repair))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,11 @@ from lyapcheck._types import Array
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.simulate.confirm import Sample
 from lyapcheck.simulate.task import Gains, Task
+
+if TYPE_CHECKING:
+    from lyapcheck.control.sampling import LoopRecord
+
+LIMIT_CYCLE, FALLS = "limit cycle", "falls"
 
 
 @dataclass(frozen=True)
@@ -70,6 +75,38 @@ def _rounded(towards: Callable[[float, int], str], value: float) -> str:
 
 def _row(values: Sequence[float]) -> str:
     return f"({', '.join(shown(x, '.6g') for x in values)})"
+
+
+@dataclass(frozen=True, order=True)
+class Unrest:
+    """What was seen, at the joint where it is worst.
+
+    Args:
+        kind: ``limit cycle`` or ``falls``.
+        joint: its name.
+        angle: degrees, peak to peak in the last fifth of the run; of a load that falls the error at the end.
+        torque: N·m, likewise; of a load that falls the most that it asks, there or on the way.
+        most: N·m, what k_p h gives at most against that load.
+        others: how many other joints do the same.
+    """
+
+    kind: str
+    joint: str
+    angle: float
+    torque: float
+    most: float = math.inf
+    others: int = 0
+
+    @property
+    def sentence(self) -> str:
+        """In one line."""
+        also = f" (and {self.others} other{'s' if self.others > 1 else ''})" if self.others else ""
+        angle, torque = (shown(x, ".3g") for x in (self.angle, self.torque))
+        if self.kind == LIMIT_CYCLE:
+            swings = f"{self.joint}{also} swings by {angle}° and {torque} N·m, peak to peak"
+            return f"limit cycle seen: {swings} in the last fifth of the run, and does not die out"
+        load = f"the unknown load asks up to {torque} N·m, k_p h gives at most {at_most(self.most, 3)}"
+        return f"seen to fall: {self.joint}{also} ends {angle}° from the goal; on the way or there {load}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,6 +223,10 @@ class Run(Motion):
 
     Energies below a nanojoule are compared with a nanojoule.
     """
+    loop: LoopRecord | None = None
+    """How a computer ran it; none for a run by the equations."""
+    unrest: Unrest | None = None
+    """What a sampled run shows against the gains."""
 
     @property
     def L2(self) -> float:

@@ -1,180 +1,38 @@
-"""The experiment as the bench would run it: sampled, quantised, saturated, with dry friction."""
+"""Runs of the loop as a computer has it: sampled, late, quantised, saturated, with dry friction and load."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import casadi as ca
 import numpy as np
 
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
 from lyapcheck.robots.registry import arm_of
+from lyapcheck.simulate.bench import (
+    Bench,
+    dry_friction,
+    enough_substeps,
+    memory_at,
+    period_map,
+    stiff_periods,
+)
 from lyapcheck.simulate.breach import noise_of
-from lyapcheck.simulate.integrate import MAX_STEPS, Compiled, turns
-from lyapcheck.simulate.results import l2_index, motion_of, observe, overshoots, torque_limits
+from lyapcheck.simulate.integrate import turns
+from lyapcheck.simulate.results import l2_index, motion_of, observe, overshoots
 from lyapcheck.simulate.run import Run, SimulationFailed
-from lyapcheck.simulate.task import Gains, Setup, set_up
+from lyapcheck.simulate.task import MOST_POINTS, Setup, set_up
+from lyapcheck.simulate.unrest import unrest_of
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-
-
-# --- The bench as a discrete map: encoders, controller, hold, motors, and the arm between two samples.
-
-
-@dataclass(frozen=True)
-class Bench:
-    """How the experiment was run.
-
-    The controller reads the encoders every ``period`` seconds, takes the backward difference of two
-    readings for the velocity, and holds its torque, cut at the motors' limits, until the next reading.
-    Dry friction is f_c tanh(w/creep): a joint that should stick creeps at about ``creep`` rad/s instead.
-
-    References: ``reyes2019family``, Section 4 and Table 1.
-    """
-
-    period: float = 2.5e-3
-    creep: float = 1e-3
-
-
-def period_map(gains: Gains, model: RobotModel, bench: Bench, substeps: int) -> Any:
-    """The CasADi function ((q, w, last reading), q_d) ↦ (the same one period later, the torque held).
-
-    The arm moves by ``substeps`` steps of the classical Runge–Kutta method.
-    """
-    n = model.n
-    state, goal = ca.MX.sym("state", 3 * n), ca.MX.sym("q_d", n)
-    torque, reading = controller(gains, model, bench)(state[:n], state[2 * n :], goal)
-    arm = _runge_kutta(model, bench, bench.period / substeps).mapaccum(substeps)
-    moved = arm(state[: 2 * n], ca.repmat(torque, 1, substeps))[:, -1]
-    return ca.Function("period", [state, goal], [ca.vertcat(moved, reading), torque])
-
-
-def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
-    """The CasADi function (q, last reading, q_d) ↦ (torque after the motors' limits, new reading)."""
-    from lyapcheck.robots import graph
-
-    n = model.n
-    q, last, goal = (ca.SX.sym(name, n) for name in ("q", "last", "q_d"))
-    reading = read_encoders(q, model.encoder)
-    spring = ca.DM(gains.kp) * gains.family.casadi(goal - reading).h
-    damper = ca.DM(gains.kv) * gains.family.casadi((reading - last) / bench.period).h
-    most = ca.DM([math.inf if limit is None else limit for limit in torque_limits(model)])
-    wanted = spring - damper + graph.gravity(model, reading)
-    return ca.Function("controller", [q, last, goal], [ca.fmin(ca.fmax(wanted, -most), most), reading])
-
-
-def read_encoders(q: Any, counts: Sequence[int | None]) -> Any:
-    """The nearest encoder line to each angle in rad; the angle itself where the encoder is unknown."""
-    line = [2.0 * math.pi / number if number else None for number in counts]
-    return ca.vertcat(*(q[i] if a is None else a * ca.floor(q[i] / a + 0.5) for i, a in enumerate(line)))
-
-
-def arm_rate(model: RobotModel, bench: Bench) -> Any:
-    """The CasADi function (x, τ) ↦ ẋ of the arm with dry friction, x = (q, w)."""
-    n = model.n
-    x, torque = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n)
-    rate = ca.vertcat(x[n:], _acceleration(model, bench, x[:n], x[n:], torque))
-    return ca.Function("rate", [x, torque], [ca.densify(rate)])
-
-
-def _runge_kutta(model: RobotModel, bench: Bench, h: float) -> Any:
-    x, torque = ca.SX.sym("x", 2 * model.n), ca.SX.sym("tau", model.n)
-    rate = arm_rate(model, bench)
-    k1 = rate(x, torque)
-    k2 = rate(x + h / 2 * k1, torque)
-    k3 = rate(x + h / 2 * k2, torque)
-    k4 = rate(x + h * k3, torque)
-    return ca.Function("arm", [x, torque], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)])
-
-
-def _acceleration(model: RobotModel, bench: Bench, q: Any, w: Any, torque: Any) -> Any:
-    """M⁻¹(τ − C w − g − B w − f_c tanh(w/creep)), that is (1) with dry friction added."""
-    from lyapcheck.robots import graph
-
-    dry = ca.DM(dry_friction(model)) * ca.tanh(w / bench.creep)
-    drift = graph.coriolis(model, q, w) @ w + graph.gravity(model, q) + graph.viscous(model) @ w
-    return graph.solve(graph.mass(model, q), torque - drift - dry)
-
-
-def dry_friction(model: RobotModel) -> list[float]:
-    """Coulomb torques in N·m, 0 where nothing is known."""
-    return [0.0 if number is None else float(number.value) for number in model.coulomb]
-
-
-def enough_substeps(model: RobotModel, bench: Bench) -> int:
-    """Runge–Kutta steps in a period with which the steep part of the dry friction is integrated stably.
-
-    The fastest rate is λmax(M⁻¹ (F_c/creep + B)), taken over a fixed set of postures with half as much again
-    for the postures between; the method is stable up to 2.78 of it and is asked for 1.5.
-    """
-    from lyapcheck.robots import graph
-
-    q = ca.SX.sym("q", model.n)
-    mass = ca.Function("mass", [q], [graph.mass(model, q)])
-    friction = np.diag(np.array(dry_friction(model)) / bench.creep + [float(b.value) for b in model.viscous])
-    postures = np.random.default_rng(0).uniform(-math.pi, math.pi, size=(64, model.n))
-    fastest = max(
-        float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(np.array(mass(p)), friction)))))
-        for p in postures
-    )
-    return max(5, math.ceil(1.5 * fastest * bench.period / 1.5))
-
-
-# --- The bench experiment on a stiff arm: an implicit method between two samples.
-
-
-def stiff_periods(setup: Setup, bench: Bench, periods: int, tolerance: float) -> tuple[Array, Array]:
-    """(periods + 1, 2n) states and (periods, n) torques; what comes after a failure is NaN.
-
-    Each period is integrated by LSODA, which turns to backward differentiation formulas where the arm is
-    stiff.
-
-    Args:
-        setup: controller, arm and task.
-        bench: period and creep rate.
-        periods: how many.
-        tolerance: relative error allowed per step; the absolute one is a hundredth of it.
-
-    Soundness: an error estimate per step is not a bound: compare with a run at a smaller tolerance.
-
-    References: ``petzold1983automatic``.
-    """
-    from scipy.integrate import odeint
-
-    n, task = setup.model.n, setup.task
-    x, tau = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n)
-    arm = arm_rate(setup.model, bench)(x, tau)
-    rate = Compiled(ca.Function("rate", [x, tau], [arm]))
-    slope = Compiled(ca.Function("slope", [x, tau], [ca.densify(ca.jacobian(arm, x))]))
-    control, goal = controller(setup.gains, setup.model, bench), np.array(task.q_d)
-    states, torques = np.full((periods + 1, 2 * n), np.nan), np.full((periods, n), np.nan)
-    states[0] = *task.q0, *task.w0
-    reading: Any = np.array(task.q0) - bench.period * np.array(task.w0)
-    options = {"rtol": tolerance, "atol": tolerance / 100, "mxstep": MAX_STEPS, "full_output": True}
-    for k in range(periods):
-        held, reading = control(states[k, :n], reading, goal)
-        torques[k] = np.array(held).ravel()
-        ends, info = odeint(
-            lambda y, _, tau: rate(y, tau),
-            states[k],
-            [0.0, bench.period],
-            (torques[k],),
-            lambda y, _, tau: slope(y, tau),
-            **options,
-        )
-        if info["message"] != "Integration successful.":
-            break
-        states[k + 1] = ends[1]
-    return states, torques
 
 
 BENCH = Bench()
@@ -202,10 +60,9 @@ def experiment(
     bench: Bench = BENCH,
     on_progress: Progress | None = None,
 ) -> Run:
-    """Move an arm under (6), or under PD with gravity compensation, the way the bench did it.
+    """Move an arm under (6), or under PD with gravity compensation, the way a computer does it; see `Bench`.
 
-    Every period: read the encoders, take the backward difference for the velocity, compute the torque, cut it
-    at the motors' limits, hold it. The arm is (1) with dry friction f_c tanh(w/creep) added.
+    The arm is (1) with dry friction f_c tanh(w/creep) added, and with a load unknown to the controller.
 
     Args:
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
@@ -215,16 +72,16 @@ def experiment(
         w0: (n,) initial rates in rad/s; rest if missing.
         T: seconds, cut to whole periods.
         eps0: the ε₀ of V; 0 if missing, and then V is the energy.
-        bench: period and creep rate.
+        bench: the loop as it is run.
         on_progress: receives the fraction done.
 
     Returns:
         One sample a period, overshoots of what lies between; ``tau`` is the torque held from then on, ``dV``
         what (11) gives at the states passed, and ``accuracy`` the change when the arm is integrated with
-        twice the steps.
+        twice the steps. ``unrest`` is what the run shows against the gains, see `unrest_of`.
 
     Raises:
-        InputError: a task the arm cannot be given.
+        InputError: a task the arm cannot be given; an unknown payload where the arm's links are not known.
         SimulationFailed: the sampled loop runs away; carries what was reached.
 
     Soundness: floating point throughout; dry friction is regularised, so a joint that should stick creeps,
@@ -234,9 +91,10 @@ def experiment(
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
     setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0)
-    periods = math.floor(T / bench.period * (1 + 1e-12))
-    if periods < 1:
-        raise argument_error("T", T, f"is shorter than one period of {bench.period} s", "give a longer time")
+    periods = math.floor(T / bench.T * (1 + 1e-12))
+    if not 1 <= periods < MOST_POINTS:
+        rule = f"is shorter than one period of {bench.T} s" if periods < 1 else f"has {periods} periods"
+        raise argument_error("T", T, rule, "give a longer time" if periods < 1 else "give a shorter time")
     progress = on_progress or silent
     substeps = enough_substeps(model, bench)
     if substeps > MOST_SUBSTEPS:
@@ -255,8 +113,7 @@ def _periods(setup: Setup, bench: Bench, periods: int, substeps: int) -> tuple[A
     """All periods in one call of a compiled map."""
     n, task = setup.model.n, setup.task
     whole = period_map(setup.gains, setup.model, bench, substeps).mapaccum(periods)
-    before = np.array(task.q0) - bench.period * np.array(task.w0)
-    start, goal = np.array([*task.q0, *task.w0, *before]), np.array(task.q_d)
+    start, goal = np.array([*task.q0, *task.w0, *memory_at(setup, bench)]), np.array(task.q_d)
     states, torques = (np.array(x).T for x in whole(start, np.repeat(goal[:, None], periods, axis=1)))
     return np.vstack((start, states))[:, : 2 * n], torques
 
@@ -265,7 +122,7 @@ def _run(setup: Setup, bench: Bench, rough: tuple[Array, Array], fine: tuple[Arr
     n, (states, held) = setup.model.n, fine
     reached = min(_credible(*rough), _credible(*fine))
     complete = reached == len(states)
-    t = np.linspace(0.0, bench.period * len(held), len(states))[:reached]
+    t = np.linspace(0.0, bench.T * len(held), len(states))[:reached]
     tau, goal = np.vstack((held, held[-1:]))[:reached], np.array(setup.task.q_d)
     q, w = states[:reached, :n], states[:reached, n:]
     L2 = l2_index(t, goal - q) if reached > 1 else math.nan
@@ -277,11 +134,13 @@ def _run(setup: Setup, bench: Bench, rough: tuple[Array, Array], fine: tuple[Arr
         accuracy=float(np.max(np.abs(states - rough[0]))) if complete else math.nan,
         promises=observe(t, V, tau, setup.gains, setup.model, noise=noise_of(V), saturated=True),
         energy_balance=math.nan,
+        loop=bench,
     )
     if not complete:
         raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {t[-1]:.6g} s", run)
     e = goal - np.vstack((q[:1], turns(t, q, w)))
-    return replace(run, indices=replace(run.indices, overshoot=overshoots(e)))
+    unrest = unrest_of(run, setup.gains, bench.unknown(setup.model, np.vstack((q, goal))))
+    return replace(run, unrest=unrest, indices=replace(run.indices, overshoot=overshoots(e)))
 
 
 def _credible(states: Array, torques: Array) -> int:
@@ -294,6 +153,5 @@ def _credible(states: Array, torques: Array) -> int:
 
 def _notes(setup: Setup, bench: Bench) -> tuple[str, ...]:
     friction = ", ".join(f"{torque:g}" for torque in dry_friction(setup.model))
-    hold = f"torque held for {1000 * bench.period:g} ms, velocity by the backward difference of the readings"
     dry = f"dry friction ({friction}) N·m · tanh(w/{bench.creep:g} rad/s): a stuck joint creeps"
-    return hold, dry
+    return f"torque held between samples: {bench.text}", dry

@@ -312,3 +312,74 @@ def test_an_eps0_that_means_nothing_is_refused(lyapcheck, sine, extra):
     done = lyapcheck(TABLE2, *(sine if word == "SINE" else word for word in extra))
     assert done.returncode == 2
     assert "--eps0 = " in done.stderr
+
+
+PENDULUM = 'robot = "pendulum1"\n[[gains]]\nname = "g"\nm = 1\nkp = [3]\nkv = [{kv}]\n{loop}'
+
+
+@pytest.fixture
+def pendulum(tmp_path):
+    def write(kv: int, loop: str = ""):
+        place = tmp_path / "pendulum.toml"
+        place.write_text(PENDULUM.format(kv=kv, loop=loop), encoding="utf-8")
+        return place
+
+    return write
+
+
+def test_a_limit_cycle_leaves_with_1_and_the_name_of_the_joint(lyapcheck, pendulum):
+    done = lyapcheck(pendulum(800), "--rate", 1000, "--delay", 0, "--target", 45)
+    assert done.returncode == 1
+    assert done.stdout.startswith("✗ pendulum1: limit cycle seen in 1 of 1 gain set, 1 ms, no delay")
+    assert "g: limit cycle seen: pivot swings by" in done.stderr
+    (result,) = json.loads(
+        lyapcheck(pendulum(800), "--rate", 1000, "--target", 45, "--format", "json").stdout
+    )["results"]
+    assert result["loop"] == "1 ms, 1 sample late, velocity by differences"
+    assert (result["unrest"]["kind"], result["unrest"]["joint"]) == ("limit cycle", "pivot")
+    log = json.loads(lyapcheck(pendulum(800), "--rate", 1000, "--target", 45, "--format", "sarif").stdout)
+    assert [one["level"] for one in log["runs"][0]["results"]] == ["error"]
+    assert lyapcheck(pendulum(800), "--target", 45).returncode == 0
+
+
+def test_a_payload_that_the_gains_cannot_hold_leaves_with_1(lyapcheck, pendulum):
+    file = pendulum(3, "[loop]\nrate = 500\nunknown_payload = 2\n")
+    done = lyapcheck(file, "--target", 45)
+    assert done.returncode == 1
+    assert done.stdout.startswith("✗ pendulum1: falls seen in 1 of 1 gain set, 2 ms, 1 sample late")
+    assert "the unknown load asks up to" in done.stderr
+    light = lyapcheck(file, "--target", 45, "--unknown-payload", 0.1)
+    assert light.returncode == 0
+    assert "° from the goal (pivot)" in light.stdout
+
+
+def test_options_go_before_the_experiment_and_that_before_the_file(lyapcheck, pendulum):
+    file = pendulum(3, "[loop]\nrate = 500\n")
+    for options, loop in (
+        ((), "2 ms, 1 sample late, velocity by differences"),
+        (("--experiment",), "2.5 ms, no delay, velocity by differences"),
+        (("--experiment", "--delay", 2), "2.5 ms, 2 samples late, velocity by differences"),
+        (("--period", "4 ms", "--lowpass", 50), "4 ms, 1 sample late, velocity by differences, low-pass of"),
+    ):
+        done = lyapcheck(file, "--target", 45, "--time", 0.5, "--format", "json", *options)
+        assert json.loads(done.stdout)["results"][0]["loop"].startswith(loop)
+    starts = lyapcheck(file, "--target", 45, "--runs", 3)
+    assert "at an infinite rate in place of the [loop] of the file" in " ".join(starts.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--rate", "fast"), "--rate = fast"),
+        (("--rate", 0), "--rate = 0"),
+        (("--rate", 1000, "--delay", 1.5), "--delay"),
+        (("--delay", 1), "--delay: means nothing without a period"),
+        (("--rate", 1000, "--runs", 3), "cannot go with --runs"),
+        (("--rate", 1000, "--unknown-payload", -1), "--unknown-payload = -1"),
+        (("--rate", 1_000_000), "has 5000000 periods"),
+    ],
+)
+def test_loops_that_make_no_sense_are_refused(lyapcheck, pendulum, options, message):
+    done = lyapcheck(pendulum(3), "--target", 45, *options)
+    assert done.returncode == 2
+    assert message in done.stderr

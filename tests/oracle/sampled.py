@@ -15,6 +15,7 @@ from scipy.linalg import expm
 from tests import oracle
 from tests.oracle import Objection
 from tests.oracle.arm import Place, derivative
+from tests.oracle.bounds import Bound
 from tests.oracle.loop import DOUBLES
 
 STEPS, STARTS, SAMPLES = 600, 60, 12
@@ -91,6 +92,16 @@ def arms(statement, random):
             slopes = [derivative(statement.potential, i, n) for i in range(n)]
             hessian = [[at.value(derivative(slope, j, n)) for j in range(n)] for slope in slopes]
             yield np.array(at.matrix(statement.mass)), np.array(hessian)
+    elif statement.links:
+        bodies, fall = Bound(statement)._bodies, np.array(statement.fall, float)
+
+        def pull(q):
+            return -sum(mass * linear.T @ fall for mass, _, linear, _ in bodies(q, float))
+
+        for _ in range(SAMPLES):
+            q, near = [random.uniform(-pi, pi) for _ in range(n)], 1e-5 * np.eye(n)
+            slopes = [(pull(list(q + x)) - pull(list(q - x))) / 2e-5 for x in near]
+            yield Bound(statement)._mass(q, (), float), np.array(slopes)
     elif statement.k_g:
         for share in INERTIAS:
             M = np.diag(share * b * float(statement.period) + 1e-12)

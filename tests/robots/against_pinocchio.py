@@ -86,6 +86,20 @@ def test_random_chains(tmp_path: Path, seed: int) -> None:
     compare(robots.load(file), pin.buildModelFromXML(file.read_text()))
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_rotor_inertia_is_what_is_called_armature_there(tmp_path: Path, seed: int) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(generic(1 + seed, seed))
+    other, bare = pin.buildModelFromXML(file.read_text()), robots.load(file)
+    J = np.random.default_rng(seed).uniform(0, 2, bare.n).round(6)
+    rows = [
+        f'[[joints]]\nname = "{name}"\nrotor_inertia = {x}\n' for name, x in zip(bare.joints, J, strict=True)
+    ]
+    (tmp_path / "arm.toml").write_text(f'title = "Arm"\nurdf = "arm.urdf"\n{"".join(rows)}')
+    other.armature = J[[bare.joints.index(name) for name in other.names[1:]]]
+    compare(robots.load(tmp_path / "arm.toml"), other)
+
+
 def compare(arm: robots.RobotModel, full: pin.Model) -> None:
     """M, g and C w at random states; joints that are not of the chain are locked at zero."""
     locked = [full.getJointId(name) for name in full.names[1:] if name not in arm.joints]

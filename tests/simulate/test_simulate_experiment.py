@@ -15,10 +15,11 @@ from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import Number
+from lyapcheck.simulate.bench import Bench, enough_substeps, read_encoders, stiff_periods
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, set_up
-from lyapcheck.simulate.trial import Bench, enough_substeps, experiment, read_encoders, stiff_periods
+from lyapcheck.simulate.trial import experiment
 from tests.helpers.shares import but, one_in
 
 TABLE2 = (
@@ -112,7 +113,7 @@ def test_the_substeps_resolve_the_friction():
     """The fastest rate of the arm times the step stays below what Runge–Kutta can take (2.78)."""
     model, bench = robots.load("buap3"), Bench()
     elbow = float(model.coulomb[2].value) / 0.1 / bench.creep
-    assert bench.period / enough_substeps(model, bench) * elbow < 2.7
+    assert bench.T / enough_substeps(model, bench) * elbow < 2.7
 
 
 STIFF = """

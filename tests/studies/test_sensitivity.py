@@ -14,9 +14,10 @@ import pytest
 
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import RobotModel, load
+from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.printed import printed_entry
 from lyapcheck.simulate.task import PAPER_TASK, gains_for
-from lyapcheck.simulate.trial import Bench, experiment
+from lyapcheck.simulate.trial import experiment
 from studies.printed_experiment.approach import approach, between
 from studies.printed_experiment.assumptions import Assumption, assumptions
 from studies.printed_experiment.bench_compiled import compiled_bench

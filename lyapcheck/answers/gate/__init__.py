@@ -10,6 +10,7 @@ from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.control.gains import DECIDING, GainFile, gain_file_of
 from lyapcheck.control.limits import ArmLimits
+from lyapcheck.files.loop import NOTHING, LoopEntry
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
@@ -25,6 +26,7 @@ def gate(
     strict: bool = False,
     arms: dict[str, ArmLimits] | None = None,
     on_progress: Progress | None = None,
+    loop: LoopEntry = NOTHING,
 ) -> GateAnswer:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
@@ -36,6 +38,7 @@ def gate(
         strict: whether what is undecided counts as a failure.
         arms: arms that need not be read again, by name, for many files on one arm; those read now are added.
         on_progress: receives the share done of the certificates that are asked for, and which is looked for.
+        loop: how a computer runs the gains, before what their file and that of the arm say of it.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
@@ -52,5 +55,7 @@ def gate(
         ['accepted', 'rejected', 'rejected']
     """
     return GateAnswer(
-        judged_sets(gain_file_of(gain_file), robot, deciding, gamma, strict, arms, on_progress=on_progress)
+        judged_sets(
+            gain_file_of(gain_file), robot, deciding, gamma, strict, arms, on_progress=on_progress, loop=loop
+        )
     )

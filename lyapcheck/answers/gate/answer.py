@@ -16,13 +16,16 @@ from lyapcheck.answers.gate.words import (
     advice,
     advices,
     joint_name,
+    largest_shown,
     largest_text,
     limit_ends,
     limit_text,
+    margin_shown,
     margin_text,
     spoken_verdict,
     value_text,
 )
+from lyapcheck.answers.running import INFINITE, farthest_unknown, open_as_run, running_sentences
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.files.decimals import decimal_text
@@ -51,6 +54,7 @@ NO_DECISION = "* shown, but does not decide; --condition chooses what does"
 
 def remarks(result: GateResult) -> list[str]:
     """What the conditions say about each other, and the bench about the gains, a sentence each."""
+    run = running_sentences(result.checks, result.limits.joints, result.failures)
     damping, joints = result.verdict_of(("19",)), result.verdict_of(("10p",))
     missing = [check for check in result.checks if check.id in CERTIFICATES and check.verdict != ACCEPTED]
     outcome = _without_19(result) if damping == REJECTED else []
@@ -63,8 +67,13 @@ def remarks(result: GateResult) -> list[str]:
         outcome.append(result.stable.own_promise.says(words))
     model, gains = result.limits.model, result.gains
     if not result.explained or model is None:
-        return outcome
-    return [*outcome, *friction_lines(gains, model, list(held(gains, model))), *damping_lines(gains, model)]
+        return [*outcome, *run]
+    return [
+        *outcome,
+        *run,
+        *friction_lines(gains, model, list(held(gains, model))),
+        *damping_lines(gains, model),
+    ]
 
 
 def _without_19(result: GateResult) -> list[str]:
@@ -166,15 +175,21 @@ class GateAnswer(tuple[GateResult, ...], Answer):
         yield from (f"({name}) {RULES[name]}" for name in shown)
         if any(not result.decides(check) for result in self for check in result.checks):
             yield NO_DECISION
+        if any(result.record is None or result.record.period is None for result in self):
+            yield INFINITE
         yield from dict.fromkeys(_assumptions(self))
 
 
 def _fact(result: GateResult) -> Fact | None:
-    """What dry friction, which no condition is about, makes of a set that is accepted."""
+    """What decides nothing of a set that is accepted: rest beside the goal, and the loop as it is run."""
     model = result.limits.model
     if model is None or not result.explained or result.verdict != ACCEPTED:
         return None
-    return farthest(result.gains, model)
+    unknown, open_ = farthest_unknown(result.checks), open_as_run(result.checks)
+    far = farthest(result.gains, model) if unknown is None else unknown
+    if not open_:
+        return far
+    return (Fraction(0), open_) if far is None else (far[0], f"{far[1]}; {open_}")
 
 
 def _weight(fact: Fact) -> Fraction:
@@ -208,8 +223,8 @@ def _row(result: GateResult, check: Check) -> tuple[str, ...]:
         joint_name(result, check),
         value_text(check),
         limit_text(check),
-        margin_text(check),
-        largest_text(check),
+        margin_shown(check),
+        largest_shown(check),
     )
 
 
@@ -224,6 +239,7 @@ def _data(result: GateResult) -> dict[str, Any]:
         "standing": result.spoken_standing,
         "deciding": list(result.deciding),
         "strict": result.strict,
+        "loop": None if result.record is None else result.record.text,
         "stable_otherwise": None if stable is None else {"condition": stable.id, "eps0": _exact(stable)},
         "remarks": remarks(result),
         "assumptions": list(_rests_on(result)),

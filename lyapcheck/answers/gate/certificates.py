@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.statement import verdict_statement
 from lyapcheck.answers.gate.words import RULES, joint_name
+from lyapcheck.answers.running import SampledCheck
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
@@ -20,6 +21,8 @@ from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import weakest
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
+from lyapcheck.control.gains import RUNNING
+from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import file_stem
@@ -29,7 +32,6 @@ if TYPE_CHECKING:
 
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.control.conditions import Check
-    from lyapcheck.control.judgement import JudgedStatement
 
 PROOF = "gate"
 HELD = "k_p ≤ f/γ: dry friction f holds the joint wherever it stops"
@@ -37,19 +39,20 @@ REST = "how far from the goal dry friction may leave the joints"
 
 
 def whole(result: GateResult) -> Certificate | None:
-    """The certificate of the verdict on a gain set; none where it is undecided.
+    """The certificate of the verdict on a gain set, of (11); none where it is undecided.
 
     One statement about the arm, its ranges and the gains where there is one, else one on numbers alone.
 
     Soundness: every part is a judgement of ``lyapcheck.check.verify``.
     """
-    checks = [check for check in result.checks if result.decides(check)]
+    checks = [check for check in result.checks if result.decides(check) and check.id not in RUNNING]
     known = [(check, check.judgement) for check in checks if check.judgement is not None]
     if result.verdict not in (ACCEPTED, REJECTED) or len(known) < len(checks):
         return None  # without a limit there is no statement to certify
-    about = About(
-        result.name, f"{result.name}: {', '.join(result.deciding)}", result.m, result.limits.n, PROOF
-    )
+    if not checks or (result.verdict == REJECTED and REJECTED not in {check.verdict for check in checks}):
+        return None  # what decides has a certificate of its own
+    decided = ", ".join(name for name in result.deciding if name not in RUNNING)
+    about = About(result.name, f"{result.name}: {decided}", result.m, result.limits.n, PROOF)
     one = verdict_statement(result)
     if one is not None:
         kept = one.statement
@@ -90,7 +93,8 @@ def certificates(results: Sequence[GateResult]) -> GateCertificates:
     for result in results:
         verdict = whole(result)
         checks = (*result.checks, *(() if result.otherwise is None else (result.otherwise,)))
-        own = [verdict, *(_certificate(result, check) for check in checks), *_of_friction(result)]
+        own = [verdict, *(_certificate(result, check) for check in checks)]
+        own += [*_of_friction(result), *_of_periods(result)]
         for one in own:
             if one is not None and made.certificates.setdefault(_file(one), one) is not one:
                 raise argument_error(
@@ -130,6 +134,25 @@ def _of_friction(result: GateResult) -> Iterator[Certificate]:
         if one.proof is not None:
             about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)
             yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
+
+
+def running_certificates(result: GateResult) -> Iterator[Certificate]:
+    """What was decided of the loop as it is run."""
+    runs = (_certificate(result, check) for check in result.checks if check.id in RUNNING)
+    yield from (one for one in runs if one is not None)
+    yield from _of_periods(result)
+
+
+def _of_periods(result: GateResult) -> Iterator[Certificate]:
+    """What is said of other periods than that of the record, which is undecided."""
+    for check in result.checks:
+        if isinstance(check, SampledCheck) and check.judgement is None:
+            shown = None if check.up_to is None else check.up_to.shown
+            for name, one in (("shown", shown), ("unstable", check.refuted)):
+                if isinstance(one, JudgedStatement) and one.proof is not None:
+                    says = f"{result.name}: what is {name} of its periods"
+                    about = About(f"{result.name}.sampled.{name}", says, result.m, result.limits.n, PROOF)
+                    yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
 
 
 def _file(certificate: Certificate) -> str:

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions, gamma_of
-from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, GainFile, GainSet, deciding_for
+from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, RUNNING, GainFile, GainSet, deciding_for
 from lyapcheck.control.limits import ArmLimits, Limits, limits_for
+from lyapcheck.control.sampling import LoopRecord, record_of
 from lyapcheck.errors import argument_error
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
@@ -34,14 +36,15 @@ class GateResult:
         file: that the set is from.
         gains: the set.
         limits: of the arm.
-        checks: of (10), (10p) and (19), of the certificates that decide, and of stated bounds of gravity
-            that the arm breaks.
+        checks: of (10), (10p) and (19), of the certificates that decide, of the loop as it is run, and of
+            stated bounds of gravity that the arm breaks.
         deciding: the conditions that must hold.
         strict: whether what is undecided counts as a failure.
         otherwise: a proof of stability for gains that break (19), where one was looked for and found.
         explained: whether more is to be said of the set than its checks.
         gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
         grounds: the promises on which the set is accepted, or why it is not.
+        record: how a computer runs the controller; ``None`` where nothing is said of it.
     """
 
     file: GainFile
@@ -54,6 +57,7 @@ class GateResult:
     explained: bool = False
     gamma: str = "true"
     grounds: Grounds = NO_GROUNDS
+    record: LoopRecord | None = None
 
     @property
     def name(self) -> str:
@@ -71,7 +75,7 @@ class GateResult:
 
         Without a promise about the arm as it was given, checks that all pass are ``undecided``.
         """
-        result = self.verdict_of((*self.deciding, GRAVITY))
+        result = self.verdict_of((*self.deciding, GRAVITY, *self.broken))
         return UNDECIDED if result == ACCEPTED and not self.grounds.promises else result
 
     @property
@@ -83,12 +87,7 @@ class GateResult:
     def standing(self) -> str:
         """The verdict in words: what breaks nothing but (19), and is proved stable, is set apart."""
         others = tuple(name for name in self.deciding if name != "19")
-        if (
-            self.verdict != REJECTED
-            or self.stable is None
-            or self.saturates
-            or self.verdict_of((GRAVITY,)) == REJECTED
-        ):
+        if self.verdict != REJECTED or self.stable is None or self.saturates or self.broken:
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
@@ -140,7 +139,15 @@ class GateResult:
 
     def decides(self, check: Check) -> bool:
         """Whether the verdict follows from a check."""
-        return check.id in self.deciding or check.id == GRAVITY
+        return check.id in (*self.deciding, GRAVITY) or (
+            check.id in self.broken and check.verdict == REJECTED
+        )
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """What decides without being asked for, since it is rejected."""
+        names = (GRAVITY, *RUNNING)
+        return tuple(check.id for check in self.checks if check.id in names and check.verdict == REJECTED)
 
 
 def judged_sets(
@@ -152,6 +159,7 @@ def judged_sets(
     arms: dict[str, ArmLimits] | None = None,
     explained: int = MOST_EXPLAINED,
     on_progress: Progress | None = None,
+    loop: LoopEntry = NOTHING,
 ) -> list[GateResult]:
     """The results of a file, in its order; more than whether they pass of the first so many.
 
@@ -161,6 +169,8 @@ def judged_sets(
     """
     _require_known(asked or ())
     limits = limits_for(gain_file, robot, arms)
+    own = NOTHING if limits.model is None else limits.model.loop
+    record = record_of(loop, gain_file.loop, own)
     conditions: dict[tuple[str, int | None], Conditions] = {}
     deciding = [deciding_for(gains, asked) for gains in gain_file.gains]
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
@@ -173,11 +183,21 @@ def judged_sets(
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        checks = (*broken, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
+        checks = (*broken, *conditions[key].all(gains, names), *certificates)
+        if record is not None or set(RUNNING) & set(names):
+            from lyapcheck.answers.running import running_checks
+
+            viscous_min = gain_file.bounds.viscous_min
+            checks = (
+                *checks,
+                *running_checks(gains, limits, record, viscous_min, names, checks, more or not explained),
+            )
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
-        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds)
+        result = GateResult(
+            gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds, record
+        )
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.control.limits import Limits
 
+SAMPLED = "sampled"
+"""It counts together with a condition by which no motor saturates."""
 NEEDS_GRAVITY = frozenset(("10", *TORQUES))
 
 
@@ -92,7 +94,8 @@ class GateQuestions:
         if None in proofs:
             return Grounds(missing="a proof of stability is about another arm")
         known = tuple(one for one in proofs if one is not None)
-        numbers = tuple(name for name in CONDITIONS if name in deciding)
+        asked = (*deciding, *([] if SAMPLED not in deciding or set(TORQUES) & set(deciding) else ["10i"]))
+        numbers = tuple(name for name in CONDITIONS if name in asked)
         if not numbers:
             return Grounds(known)
         if not self._stated(gains):

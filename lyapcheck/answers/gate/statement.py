@@ -24,6 +24,7 @@ from lyapcheck.check.kinds.gate_accepted import (
 from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED
+from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.control.gravity import steep_postures
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.family.registry import named
@@ -81,7 +82,7 @@ def _statement(result: GateResult) -> GateAccepted | None:
 def _stability(result: GateResult) -> Iterator[tuple[Statement, Proof]]:
     """The statements about stability that decide, with their proofs."""
     for check in result.checks:
-        known, about_arm = check.judgement, check.id in result.deciding and check.id not in CONDITIONS
+        known, about_arm = check.judgement, check.id in result.deciding and check.id in CERTIFICATES
         if about_arm and known is not None and known.shown == "proved" and known.proof is not None:
             yield known.statement, known.proof
 

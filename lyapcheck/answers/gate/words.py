@@ -7,11 +7,15 @@ from functools import lru_cache
 from math import degrees
 
 from lyapcheck.answers.gate.judge import GRAVITY, GateResult
+from lyapcheck.answers.running import HOLDS, SAMPLED, SampledCheck
+from lyapcheck.answers.running.holds import HoldsCheck, falls
+from lyapcheck.answers.running.sampled import unstable_text
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
-from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
+from lyapcheck.control.sampling import time_text
 from lyapcheck.files.decimals import decimal_text, scaled_text
-from lyapcheck.output.digits import correct_digits, decimals
+from lyapcheck.output.digits import at_least, at_most, correct_digits, decimals
 from lyapcheck.promise import promised
 
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
@@ -25,6 +29,9 @@ RULES = {
     "global": "dV/dt < 0 at each state but the goal with the ε₀ shown, box by box",
     "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
     "with or without friction (Khalil 2002, corollary 4.2)",
+    SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
+    "whatever the inertia; values are periods",
+    HOLDS: "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }
 KEYS = {
@@ -35,6 +42,8 @@ KEYS = {
     "scalar": "",
     "global": "",
     "lasalle": "",
+    SAMPLED: "kv",
+    HOLDS: "kp",
     GRAVITY: "",
 }
 """The gain to look at when a check fails."""
@@ -65,6 +74,10 @@ def value_text(check: Check) -> str:
     """What was compared, exactly; ``none`` where a certificate proved no ε₀."""
     if check.id == "lasalle":
         return ""
+    if check.id == SAMPLED and check.value is not None:
+        return time_text(check.value)
+    if check.id == HOLDS and check.value is not None:
+        return at_most(check.value, 6)
     return "none" if check.value is None else decimal_text(check.value)
 
 
@@ -72,7 +85,9 @@ def limit_text(check: Check) -> str:
     """The limit to six digits, all correct; ``none`` where there is no limit."""
     if check.id == GRAVITY:
         return ""
-    if check.id not in _SUBJECTS:
+    if check.id == SAMPLED:
+        return "none" if check.limit is None else f"{at_least(1000 * check.limit.lower)} ms"
+    if check.id not in (*_SUBJECTS, HOLDS):
         return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
     return "none" if check.limit is None else _digits(check.limit)
 
@@ -95,9 +110,25 @@ def _decimals(lower: tuple[int, int], upper: tuple[int, int], digits: int) -> tu
 def largest_text(check: Check) -> str:
     """The largest value that passes, with as many decimal places as the user wrote, or ``none``."""
     largest = check.largest_admissible
-    if check.id not in _SUBJECTS:
+    if check.id not in (*_SUBJECTS, SAMPLED):
         return ""
     return "none" if largest is None else largest.text
+
+
+def largest_shown(check: Check) -> str:
+    """The same with its unit where that is not the one of a gain: of a period, of a payload."""
+    if isinstance(check, SampledCheck) and check.most is not None:
+        return time_text(check.most)
+    if isinstance(check, HoldsCheck) and check.payload is not None:
+        return f"{decimal_text(check.payload)} kg"
+    return largest_text(check)
+
+
+def margin_shown(check: Check) -> str:
+    """limit − value, of a period in ms."""
+    if check.id != SAMPLED or check.margin is None:
+        return margin_text(check)
+    return f"{significant_text(*(1000 * check.margin).as_integer_ratio(), 4)} ms"
 
 
 def margin_text(check: Check, digits: int = 4) -> str:
@@ -139,6 +170,10 @@ def advices(result: GateResult) -> list[str]:
 
 
 def _broken(result: GateResult, check: Check) -> str:
+    if check.verdict == REJECTED and isinstance(check, SampledCheck) and check.refuted is not None:
+        return unstable_text(check.refuted, check.rests)
+    if check.verdict == REJECTED and isinstance(check, HoldsCheck):
+        return falls(check, result.limits.joints)
     if check.limit is None or check.verdict == "undecided":
         return check.reason or _exceeded(result, check)
     broken = (

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.simulate.simulation import (
     BREACH,
     Simulation,
@@ -25,12 +26,14 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
+from lyapcheck.output.answer import Level
 from lyapcheck.output.digits import NONE, shown
 from lyapcheck.output.document import Block, Bullets, Section
 from lyapcheck.output.fields import Field
 from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.printed import printed_for
-from lyapcheck.simulate.results import SETTLING_BAND
+from lyapcheck.simulate.results import BAND, SETTLING_BAND
 from lyapcheck.simulate.run import Run
 
 if TYPE_CHECKING:
@@ -102,6 +105,9 @@ FIELDS = (
     Field("", _printed("L2"), csv="printed_L2"),
     Field("", _printed("settling"), each=True, csv="printed_settling"),
     Field("", _printed("final_error"), each=True, csv="printed_final_error"),
+    Field("loop", "loop.text"),
+    Field("unrest", "unrest", to=vars, csv=None),
+    Field("", "unrest.sentence", csv="unrest"),
     *BREACH,
 )
 """Angles in degrees; names and units as in `Run`."""
@@ -113,10 +119,40 @@ class SetPointRuns(Simulation[Run]):
     fields = FIELDS
     promised = "V falls, ‖τ‖ stays within the bound (9), every motor within its limit"
 
+    @property
+    def against(self) -> str:  # type: ignore[override]
+        """Which kinds of unrest were seen."""
+        kinds = dict.fromkeys(one.unrest.kind for one in self.results if one.unrest is not None)
+        return f"{' or '.join(kinds)} seen in" if kinds else super().against
+
     def about(self) -> str:
-        """Whether it is the experiment."""
-        kinds = {one.kind for one in self.results}
-        return ", as on the bench" if kinds == {EXPERIMENT} else ""
+        """How the loop was sampled, and how far from the goal the runs end."""
+        loops = dict.fromkeys(one.loop for one in self.results)
+        sampled = [one for one in self.results if one.loop is not None and one.complete]
+        ways = "".join(", as on the bench" if loop == Bench() else f", {loop.text}" for loop in loops if loop)
+        ends = [(float(abs(x)), i) for one in sampled for i, x in enumerate(one.indices.final_error)]
+        angle, i = max(ends, default=(0.0, 0))
+        if angle <= math.degrees(BAND):
+            return ways
+        return f"{ways}, at the end up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
+
+    def level(self, name: str) -> Level:
+        """Also failed where a sampled run shows unrest."""
+        return Level.FAILED if self._seen(name) else super().level(name)
+
+    def complaints(self) -> list[str]:
+        """Unrest goes first."""
+        return [
+            *(f"{one.name}: {text}" for one in self.results for text in self._seen(one.name)),
+            *super().complaints(),
+        ]
+
+    def missing(self, name: str) -> list[str]:
+        """Also what was seen against a gain set."""
+        return [*self._seen(name), *super().missing(name)]
+
+    def _seen(self, name: str) -> list[str]:
+        return [one.unrest.sentence for one in self.results if one.name == name and one.unrest is not None]
 
     def watches(self, name: str) -> bool:
         """Only runs by the equations are held against theory."""
@@ -128,9 +164,16 @@ class SetPointRuns(Simulation[Run]):
 
     def section(self, one: Run) -> Section:
         """A row a joint, and how far the run can be trusted."""
-        blocks: tuple[Block, ...] = (self.by_joint(one), Bullets(_facts(one)))
+        blocks: tuple[Block, ...] = (self.by_joint(one), Bullets((*_facts(one), *self._as_run(one))))
         start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
         return Section(f"{self.mark(one.name)} {headline(one, f'{start}° to {goal}°')}".strip(), blocks)
+
+    def plain_data(self, one: Run) -> dict[str, Any]:
+        """Also what the checker says of the loop."""
+        return {**super().plain_data(one), "as_run": self._as_run(one)}
+
+    def _as_run(self, one: Run) -> list[str]:
+        return running_sentences(self.judged.get(one.name, ()), one.joints)
 
 
 def _facts(one: Run) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -17,6 +17,7 @@ from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainFile
     from lyapcheck.simulate.run import Breach, Motion, Run
     from lyapcheck.simulate.starts import Sweep
@@ -68,7 +69,13 @@ class Simulation(Answer, Generic[Result]):
     unfinished: tuple[Unfinished, ...] = ()
     file: GainFile | None = None
     arms: str = ""
+    unsampled: bool = False
+    """Whether a file says how a computer runs the loop, and the runs leave that out."""
+    judged: dict[str, tuple[Check, ...]] = field(default_factory=dict)
+    """What the checker says of each gain set as a computer runs it."""
 
+    against = "promises broken by"
+    """What is said of the gain sets that failed, before their number."""
     promised: ClassVar[str]
     """What theory promises, in words."""
     fields: ClassVar[tuple[Field, ...]]
@@ -182,10 +189,11 @@ class Simulation(Answer, Generic[Result]):
         robots = ", ".join(_unique(one.robot for one in self.results)) or "simulation"
         left_out = any(one.without_dry_friction for one in self.results)
         ideal = ", without the dry friction of the file" if left_out else ""
+        ideal += ", at an infinite rate in place of the [loop] of the file" if self.unsampled else ""
         count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{self.about()}{ideal}"
         failed, open_ = levels.count(Level.FAILED), levels.count(Level.UNDECIDED)
         if failed:
-            return f"✗ {robots}: promises broken by {failed} of {count}"
+            return f"✗ {robots}: {self.against} {failed} of {count}"
         if open_:
             return f"? {robots}: undecided for {open_} of {count}"
         if any(map(self.watches, names)):

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import DECIDING, Bounds, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, at_most, decimals, shown
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section
@@ -20,6 +22,7 @@ from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.control.conditions import Check
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 
@@ -179,7 +182,7 @@ class GainComparison:
 
 @dataclass(frozen=True)
 class TunedSet:
-    """The gains for one member; ``reasons`` says why there are none."""
+    """The gains for one member; ``reasons`` says why there are none, ``runs`` what the loop makes of them."""
 
     name: str
     m: int
@@ -188,6 +191,7 @@ class TunedSet:
     reasons: tuple[str, ...] = ()
     program: str = ""
     comparison: GainComparison | None = None
+    runs: tuple[Check, ...] = ()
 
     @property
     def gains(self) -> GainSet | None:
@@ -272,6 +276,7 @@ class Tuning(Answer):
         sets: one a member.
         task: a motion on which the members are compared; ``None`` where they are not.
         effects: its runs.
+        loop: what the user said of the loop, before the arm file.
     """
 
     schema = "lyapcheck/tune/1"
@@ -284,6 +289,7 @@ class Tuning(Answer):
     sets: tuple[TunedSet, ...]
     task: Task | None = None
     effects: tuple[Effect, ...] = ()
+    loop: LoopEntry = NOTHING
 
     @property
     def exit(self) -> Exit:
@@ -295,7 +301,8 @@ class Tuning(Answer):
 
     def document(self) -> Document:
         """A table a member, one for what it is compared with, and what it all rests on."""
-        blocks: list[Block] = [_section(item, self.targets.digits) for item in self.sets]
+        joints = self.limits.joints
+        blocks: list[Block] = [_section(item, self.targets.digits, joints) for item in self.sets]
         if self.task is not None and len(self.effects) > 1:
             blocks.append(effect_section(self.effects, [math.degrees(x) for x in self.task.q_d], self.task.T))
         return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
@@ -335,6 +342,7 @@ class Tuning(Answer):
             "reasons": list(item.reasons),
             "joints": [data(fields, joint) for joint in item.joints],
             "program": item.program or None,
+            "as_run": running_sentences(item.runs, self.limits.joints),
             "comparison": None
             if other is None
             else {
@@ -363,7 +371,7 @@ class Tuning(Answer):
         )
 
 
-def _section(item: TunedSet, digits: int) -> Section:
+def _section(item: TunedSet, digits: int, joints: Sequence[str]) -> Section:
     """The gains of a member, or why there are none."""
     title = f"{MARKS[item.status]} {item.name} (m = {item.m})"
     if item.status != TUNED:
@@ -373,4 +381,5 @@ def _section(item: TunedSet, digits: int) -> Section:
     if (other := item.comparison) is not None:
         beside = f"Beside {other.name} of {other.source}:"
         tables.append(table(COMPARED, [(joint,) for joint in other.joints], beside))
-    return Section(title, tuple(tables))
+    said = tuple(running_sentences(item.runs, joints))
+    return Section(title, (*tables, *([Bullets(said)] if said else [])))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.tune.answer import TUNED, TunedSet
 from lyapcheck.control.gains import DECIDING, Bounds
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.loop import NOTHING
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
@@ -32,9 +33,14 @@ def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
     """
     blocks = [HEAD.format(targets=tuning.targets.text()) + f"robot = {quoted(beside(tuning.robot, folder))}"]
     blocks += [_set(item, tuning.targets.digits) for item in tuning.sets if item.status == TUNED]
-    if tuning.bounds != Bounds():
-        blocks.append(bounds_text(tuning.bounds))
+    blocks += _tables(tuning)
     return "\n\n".join(blocks) + "\n"
+
+
+def _tables(tuning: Tuning | BenchTuning) -> list[str]:
+    """What the user said of the arm and of the loop."""
+    bounds = [] if tuning.bounds == Bounds() else [bounds_text(tuning.bounds)]
+    return [*bounds, *([] if tuning.loop == NOTHING else [tuning.loop.toml])]
 
 
 def _set(item: TunedSet, digits: int) -> str:
@@ -110,8 +116,7 @@ def bench_file_text(tuning: BenchTuning, folder: Path | None = None, *, best: bo
         lines.append(f"# Gains for ranges of the arm: lyapcheck gate FILE {options}")
     lines.append(f"robot = {quoted(beside(tuning.robot, folder))}")
     blocks = ["\n".join(lines), *(_bench_set(one, tuning) for one in sets)]
-    if tuning.bounds != Bounds():
-        blocks.append(bounds_text(tuning.bounds))
+    blocks += _tables(tuning)
     return "\n\n".join(blocks) + "\n"
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.words import advice
+from lyapcheck.answers.running import runs_of
 from lyapcheck.answers.tune.answer import (
     INFEASIBLE,
     TUNED,
@@ -36,6 +37,7 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, check_10p, check_19
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import round_down
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import RobotModel, load
 
 if TYPE_CHECKING:
@@ -82,6 +84,7 @@ def tune(
     against: GainFile | None = None,
     varies: tuple[Vary, ...] = (),
     task: Task | None = None,
+    loop: LoopEntry = NOTHING,
 ) -> Tuning:
     """The largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets.
 
@@ -93,6 +96,7 @@ def tune(
         against: gains to compare with; see ``lyapcheck.answers.tune.tuning``.
         varies: ranges of the arm's numbers that the limits are to hold for.
         task: a motion on which the members are compared by runs.
+        loop: how a computer runs the gains, before what the arm file says of it.
 
     Raises:
         InputError: the arm or a target cannot be used.
@@ -119,13 +123,13 @@ def tune(
     wanted = _for_each_joint(wanted, model.n)
     limits, repeated = _limits(robot, model, wanted, bounds or Bounds(), varies)
     found = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
-    sets = _confirmed(found, robot, repeated)
+    sets = _confirmed(found, robot, repeated, loop)
     compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
     tuned = [item.gains for item in sets if item.gains is not None]
     seen: tuple[Effect, ...] = ()
     if task is not None and len(tuned) > 1:
         seen = effects(tuned, model, task)
-    return Tuning(robot, model.title, wanted, limits, repeated, compared, task, seen)
+    return Tuning(robot, model.title, wanted, limits, repeated, compared, task, seen, loop)
 
 
 def _for_each_joint(targets: Targets, n: int) -> Targets:
@@ -198,7 +202,9 @@ def _joint(name: str, gain_range: GainRange, units: tuple[int, int]) -> TunedJoi
     return TunedJoint(name, kp, kv, gain_range.sum_limit, gain_range.kv_limit, kp_bound, kv_bound, damping)
 
 
-def _confirmed(sets: Sequence[TunedSet], robot: str, repeated: Bounds) -> tuple[TunedSet, ...]:
+def _confirmed(
+    sets: Sequence[TunedSet], robot: str, repeated: Bounds, loop: LoopEntry
+) -> tuple[TunedSet, ...]:
     """Let the gate judge the gain file that will be written.
 
     A set that the gate rejects for another reason than its gains, such as an arm file that contradicts
@@ -210,14 +216,15 @@ def _confirmed(sets: Sequence[TunedSet], robot: str, repeated: Bounds) -> tuple[
     gains = tuple(item.gains for item in sets if item.gains is not None)
     if not gains:
         return tuple(sets)
-    answers = {result.name: result for result in gate(GainFile("tuned gains", robot, gains, repeated))}
+    file = GainFile("tuned gains", robot, gains, repeated, loop=loop)
+    answers = {result.name: result for result in gate(file)}
     return tuple(item if item.gains is None else _as_judged(item, answers[item.name]) for item in sets)
 
 
 def _as_judged(item: TunedSet, result: GateResult) -> TunedSet:
     """A set that was accepted as it is; else the reasons that are not its gains."""
     if result.verdict == ACCEPTED:
-        return item
+        return replace(item, runs=runs_of(result))
     reasons = tuple(advice(result, check) for check in result.failures if check.id not in result.deciding)
     if not reasons:
         raise ArithmeticError(f"the gate says {result.verdict} to the tuned gains {result.name}")

@@ -42,10 +42,13 @@ class OfLinks(Total):
         require(1 <= n <= MAX_LINKS, "links", n, f"must be 1 to {MAX_LINKS}")
         for link in self.links:
             rows = (link.axis, link.origin, link.com, *link.inertia, *link.turn)
-            sizes = (max(abs(x.numerator), x.denominator) for x in (link.mass, *chain.from_iterable(rows)))
+            sizes = (
+                max(abs(x.numerator), x.denominator)
+                for x in (link.mass, link.rotor, *chain.from_iterable(rows))
+            )
             short = all(len(str(size)) <= MAX_DIGITS for size in sizes)
             require(short, "link", "", f"must have numbers of at most {MAX_DIGITS} digits")
-            require(link.fits, "link", "", "must have a unit axis, a rotation, mass and inertia ⪰ 0")
+            require(link.fits, "link", "", "must have a unit axis, a rotation, mass, inertia and rotor ⪰ 0")
 
     @property
     def over(self) -> str:
@@ -239,9 +242,10 @@ def _require_shown(stages: Sequence[storage.Stage], forms: Sequence[fmpq_mat], k
 
 def _link_text(link: RigidLink) -> str:
     inertia, turn = (f"({', '.join(map(_vector, rows))})" for rows in (link.inertia, link.turn))
+    rotor = f", rotor {number_text(link.rotor)}" if link.rotor else ""
     return (
         f"axis {_vector(link.axis)}, place {_vector(link.origin)}, turn {turn}, "
-        f"mass {number_text(link.mass)}, centre {_vector(link.com)}, inertia {inertia}"
+        f"mass {number_text(link.mass)}, centre {_vector(link.com)}, inertia {inertia}{rotor}"
     )
 
 

@@ -10,7 +10,7 @@ References: composite rigid bodies, ``featherstone2008rigid`` chapter 6.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
@@ -45,6 +45,7 @@ class RigidLink:
         com: centre of mass from the joint, m.
         inertia: about the centre of mass, kg·m².
         turn: rotation from the frame of the joint at q = 0 to that of the link before.
+        rotor: inertia of what turns with the motor, gear² times its own, kg·m²: M(q) + diag(rotor).
     """
 
     axis: tuple[Fraction, ...]
@@ -53,10 +54,16 @@ class RigidLink:
     com: tuple[Fraction, ...]
     inertia: tuple[tuple[Fraction, ...], ...]
     turn: tuple[tuple[Fraction, ...], ...]
+    rotor: Fraction = field(default=Fraction(0), metadata={"left_out": True})
+
+    def __repr__(self) -> str:
+        """What statements make a digest of; without rotors it is that of older ones."""
+        given = {name: value for name, value in vars(self).items() if name != "rotor" or value}
+        return f"RigidLink({', '.join(f'{name}={value!r}' for name, value in given.items())})"
 
     @property
     def fits(self) -> bool:
-        """Whether this is a joint and a body: ‖axis‖ = 1, a rotation, m ≥ 0, inertia ⪰ 0."""
+        """Whether this is a joint and a body: ‖axis‖ = 1, a rotation, m ≥ 0, inertia ⪰ 0, rotor ≥ 0."""
         vectors = (self.axis, self.origin, self.com, *self.inertia, *self.turn)
         if {3} != {len(self.inertia), len(self.turn), *map(len, vectors)}:
             return False
@@ -65,15 +72,16 @@ class RigidLink:
         square = of.product(self.turn, transposed(self.turn))
         proper = of.dot(self.turn[0], of.cross(self.turn[1], self.turn[2])) == 1
         rigid = proper and [tuple(row) for row in square] == list(UNIT) and of.dot(self.axis, self.axis) == 1
-        return rigid and self.mass >= 0 and symmetric and is_positive_semidefinite(self.inertia)
+        positive = self.mass >= 0 and self.rotor >= 0
+        return rigid and positive and symmetric and is_positive_semidefinite(self.inertia)
 
     @property
     def about_axis(self) -> Fraction:
-        """The moment of inertia of this body alone about the axis of its joint, kg·m²."""
+        """The moment of inertia of this body alone and of its rotor about the axis of its joint, kg·m²."""
         of = Algebra(Fraction)
         arm = of.cross(self.axis, self.com)
         own = of.dot(self.axis, of.apply(self.inertia, self.axis))
-        return Fraction(self.mass * of.dot(arm, arm) + own)
+        return Fraction(self.mass * of.dot(arm, arm) + own + self.rotor)
 
 
 @dataclass(frozen=True)
@@ -109,6 +117,7 @@ class Posture:
             for i in range(m, -1, -1):
                 rows[i][m] = rows[m][i] = of.value(of.dot(self.links[i].axis, momentum.torque))
                 momentum = momentum if i == 0 else self.carried(i, momentum)
+            rows[m][m] = of.value(of.plus(rows[m][m], self.links[m].rotor))
         return rows
 
     def torques(self, fall: Vector) -> Values:

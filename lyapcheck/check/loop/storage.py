@@ -9,7 +9,8 @@ for each k and all (w, u) ≠ 0 that can occur, where X_k moves w to the frame o
 but for rates, then for all angles Σ cost_k < s_1(X_1 w_0) + Σ κ_k u_k²: a turn by q_k changes nothing in s_k,
 and the sum telescopes.
 
-- Energies: cost_k(V) = ± VᵀG_kV for the twist V of link k sum up to ± q̇ᵀMq̇, and w_0 = 0.
+- Energies: cost_k(V) = ± VᵀG_kV for the twist V of link k, and ± J_k u² of a rotor, which belongs to
+  κ_k u², sum up to ± q̇ᵀMq̇, and w_0 = 0.
 - Gravity: cost_k = −2 γᵀ(m v + ω × m c) for the free fall γ sum up to 2 zᵀg for rates z, and w_0 = (0, γ).
   With s_1(X_1 w_0) ≤ κ that is 2 zᵀg ≤ κ(1 + ‖z‖²) for all z, and so ‖g‖ ≤ κ.
 - Rates of M: w has V and ∂V/∂q_j. Joint j turns V by −q_j, so that E_j appends −e_z × V; from it on
@@ -94,13 +95,14 @@ def hinges(links: Sequence[RigidLink]) -> list[Hinge]:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One joint: X, the cost of w', the components of w that can occur, whether u counts, and E if not I."""
+    """One joint: X, the costs of w' and of u², what of w can occur, whether u counts, and E if not I."""
 
     carry: fmpq_mat
     cost: fmpq_mat
     met: range
     moves: bool = True
     entry: fmpq_mat | None = None
+    turning: Fraction = ZERO
 
     @property
     def size(self) -> int:
@@ -111,8 +113,13 @@ class Stage:
 def energy(links: Sequence[RigidLink], sign: int) -> list[Stage]:
     """Costs that sum up to sign · q̇ᵀM(q)q̇."""
     return [
-        Stage(_matrix(hinge.carry), _matrix(_scaled(sign, hinge.body)), range(TWIST if k else 0))
-        for k, hinge in enumerate(hinges(links))
+        Stage(
+            _matrix(hinge.carry),
+            _matrix(_scaled(sign, hinge.body)),
+            range(TWIST if k else 0),
+            turning=sign * link.rotor,
+        )
+        for k, (link, hinge) in enumerate(zip(links, hinges(links), strict=True))
     ]
 
 
@@ -172,7 +179,7 @@ def invariant_form(coefficients: Sequence[Fraction], vectors: int) -> fmpq_mat:
 
 
 def slack(stages: Sequence[Stage], k: int, own: fmpq_mat, after: fmpq_mat | None, kappa: fmpq) -> fmpq_mat:
-    """s_k(w) + κ_k u² − cost_k(w') − s_{k+1}(X_{k+1} w') as a form of what can occur of (w, u)."""
+    """s_k(w) + (κ_k − turning_k) u² − cost_k(w') − s_{k+1}(X_{k+1} w') on what occurs of (w, u)."""
     stage, d = stages[k], stages[k].size
     charged = stage.cost
     if after is not None:
@@ -190,7 +197,7 @@ def slack(stages: Sequence[Stage], k: int, own: fmpq_mat, after: fmpq_mat | None
         for j in range(d):
             total[i, j] += own[i, j]
     if stage.moves:
-        total[d, d] += kappa
+        total[d, d] += kappa - rational(stage.turning)
     met = [*stage.met, *range(d, d + stage.moves)]
     return fmpq_mat([[total[i, j] for j in met] for i in met])
 

@@ -13,9 +13,11 @@ from lyapcheck.cli.values import (
     Complaints,
     add_certificates,
     add_format,
+    add_loop,
     add_robot,
     add_vary,
     gains_on_arm,
+    loop_of,
     require_joints,
     varies,
 )
@@ -36,6 +38,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("file", metavar="FILE", type=Path, help="A gain file of bounded controllers.")
     add_robot(parser)
     add_vary(parser)
+    add_loop(parser, ("unknown_payload", "gravity_error"))
     about = "Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."
     parser.add_argument("--target", metavar="ANGLES", help=about)
     parser.add_argument(
@@ -60,6 +63,7 @@ def run(
     time: float,
     certificates: Path | None,
     format: str,  # noqa: A002
+    **loop: str | None,
 ) -> Exit:
     """How far from the goal dry friction lets the arm rest: proved, joint by joint, beside a simulation.
 
@@ -67,7 +71,9 @@ def run(
     --friction. Times and errors on the way are simulated only. With --vary for every arm in the ranges,
     beside what holds without them.
 
-    Exit code 0: each joint has a proved bound, 2: unusable input, 3: one has none.
+    Gravity that the controller does not know, by [loop] or options, counts beside dry friction.
+
+    Exit code 0: each joint has a proved bound, 1: one falls, 2: unusable input, 3: one has no bound.
 
     Examples:
       lyapcheck bounds gains.toml --certificates proof/
@@ -77,10 +83,11 @@ def run(
     from lyapcheck.answers.bounds import Comparisons, compare
     from lyapcheck.answers.bounds import certificates as certificates_of
     from lyapcheck.cli.task import task_of
+    from lyapcheck.control.sampling import record_of
     from lyapcheck.robots import load
 
     gain_file, name, model = gains_on_arm(file, robot)
-    ranges = varies(vary)
+    ranges, record = varies(vary), record_of(loop_of(loop), gain_file.loop, model.loop)
     varied = (load(name, vary=ranges), ranges) if ranges else None
     require_joints([gain_file], model)
     wrong = Complaints()
@@ -92,10 +99,14 @@ def run(
     with progress("bounds") as advance:
         for done, one in enumerate(gain_file.gains):
             told = part(advance, done / count, (done + 1) / count, f"{one.name}: ")
-            result.append(compare(one, model, task, angle, dry, varied=varied, on_progress=told))
+            result.append(
+                compare(one, model, task, angle, dry, varied=varied, record=record, on_progress=told)
+            )
     if folder is not None:
         write_certificates(folder, *map(certificates_of, result))
     show(Comparisons(tuple(result), gain_file), format)
+    if any(one.falls for one in result):
+        return Exit.REFUTED
     return Exit.PROVED if all(one.proved for one in result) else Exit.UNDECIDED
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_certificates, add_format, add_vary, varies
+from lyapcheck.cli.values import add_certificates, add_format, add_loop, add_vary, loop_of, varies
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from lyapcheck.verdicts import Exit
 
 
-CONDITIONS = ("10", "10p", "10i", "19", "scalar", "global", "lasalle")
+CONDITIONS = ("10", "10p", "10i", "19", "scalar", "global", "lasalle", "sampled", "holds")
 """The conditions that can decide."""
 GAMMAS = ("true", "printed")
 """Which γ the conditions use."""
@@ -27,7 +27,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--robot", metavar="ROBOT", help="An arm that replaces the one the files name.")
     about = (
         "A condition that must hold; may be repeated. 10i: 10p without its √n. scalar and global: dV/dt < 0 "
-        "proved for the arm; lasalle: stability without friction. "
+        "proved for the arm; lasalle: stability without friction; sampled: as a computer runs it; holds: the "
+        "gravity that is not known. "
         "If missing, those of the gain file, else 10p and 19."
     )
     parser.add_choice("--condition", CONDITIONS, about, repeated=True)
@@ -35,6 +36,7 @@ def arguments(parser: Parser) -> None:
     about = "What is undecided counts as a failure, exit code 1."
     parser.add_argument("--strict", action="store_true", help=about)
     add_vary(parser)
+    add_loop(parser)
     add_certificates(parser, "Write the certificate of each check there")
     add_format(parser)
 
@@ -48,6 +50,7 @@ def run(
     vary: list[str] | None,
     certificates: Path | None,
     format: str,  # noqa: A002
+    **loop: str | None,
 ) -> Exit:
     """Accept or reject gains by the paper's conditions, as the checker judges them.
 
@@ -59,6 +62,7 @@ def run(
       lyapcheck gate gains.toml
       lyapcheck gate config/*.toml --format junit > gate.xml
       lyapcheck gate gains.toml --condition 10p --condition scalar
+      lyapcheck gate gains.toml --rate 1000 --unknown-payload 2
     """
     import gc
 
@@ -79,7 +83,7 @@ def run(
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
-    ranges = varies(vary)
+    ranges, run = varies(vary), loop_of(loop)
     with patient("gate") as advance:
         for done, file in enumerate(files):
             try:
@@ -89,7 +93,7 @@ def run(
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)
                 advanced = part(advance, done / len(files), (done + 1) / len(files))
-                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced))
+                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced, run))
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)

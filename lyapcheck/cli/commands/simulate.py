@@ -16,6 +16,7 @@ from lyapcheck.cli.show import open_folder, show, write_certificates, write_whol
 from lyapcheck.cli.task import (
     Eps0,
     band_of,
+    bench_of,
     check_options,
     check_places,
     eps0_of,
@@ -24,10 +25,12 @@ from lyapcheck.cli.task import (
     task_of,
 )
 from lyapcheck.cli.values import (
+    LOOP,
     Complaints,
     add_certificates,
     add_format,
     add_gain_file,
+    add_loop,
     add_robot,
     add_vary,
     gains_on_arm,
@@ -40,8 +43,10 @@ if TYPE_CHECKING:
     from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
     from lyapcheck.certificate import Certificate
     from lyapcheck.cli.parser import Parser
+    from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
+    from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.reference import Reference
     from lyapcheck.simulate.run import Motion, Run
     from lyapcheck.simulate.starts import Starts, Sweep
@@ -130,6 +135,8 @@ class Job:
     """The arm at other values of its numbers, each with what was changed."""
     arms: str = ""
     """All of these arms in words."""
+    unsampled: bool = False
+    """Whether the runs leave out how the files say a computer runs the loop."""
 
     @property
     def cases(self) -> list[tuple[GainSet, RobotModel]]:
@@ -175,8 +182,8 @@ def _share_of(advance: Progress, done: int, cases: int, name: str) -> Progress:
     return lambda fraction, note: advance((done + fraction) / cases, note or name)
 
 
-def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Exit:
-    """The set-point task, by the equations or on the bench."""
+def regulate(job: Job, task: Task, *, eps0: Eps0, bench: Bench | None, stop: bool) -> Exit:
+    """The set-point task, by the equations or as a computer runs it."""
     from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
     from lyapcheck.files.fields import file_stem
     from lyapcheck.simulate.closed_loop import simulate
@@ -184,19 +191,32 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: bool, stop: bool) -> Ex
 
     runs: list[Run] = []
     broken: dict[str, Certificate] = {}
-    mover = experiment if bench else partial(simulate, stop=stop)
+    mover = partial(experiment, bench=bench) if bench else partial(simulate, stop=stop)
     for done, (gain_set, arm) in enumerate(job.cases):
         told = _share_of(job.advance, done, len(job.cases), gain_set.name)
         number = job.watching(eps0, gain_set, told)
         way = (task.q_d, task.q0, task.w0, task.T)
         runs.append(job.moved(gain_set, partial(mover, gain_set, arm, *way, eps0=number, on_progress=told)))
-        if job.output.certificates is not None and not bench:
+        if job.output.certificates is not None and bench is None:
             certificate = breach_certificate(runs[-1], gain_set, arm)
             if certificate is not None and runs[-1].name == gain_set.name:
                 broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
     if job.output.certificates is not None:
         write_certificates(job.output.certificates, broken)
-    return job.output.write_runs(SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms))
+    judged = {} if bench is None or job.varied else _judged(job, bench)
+    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms, judged=judged)
+    return job.output.write_runs(answer)
+
+
+def _judged(job: Job, bench: Bench) -> dict[str, tuple[Check, ...]]:
+    """What the checker says of each gain set, run like that."""
+    from lyapcheck.answers.gate.judge import judged_sets
+    from lyapcheck.answers.running import runs_of
+    from lyapcheck.control.limits import model_limits
+
+    name, arms = job.model.name, {job.model.name: model_limits(job.model)}
+    results = judged_sets(job.file, name, arms=arms, explained=0, loop=bench.entry)
+    return {result.name: runs_of(result) for result in results}
 
 
 def follow(
@@ -211,7 +231,9 @@ def follow(
     for gain_set, told in job.each():
         way = (gain_set, job.model, reference, task.q0, task.w0, task.T)
         runs.append(job.moved(gain_set, partial(mover, *way, on_progress=told)))
-    return job.output.write_runs(TrackingRuns(tuple(runs), tuple(job.unfinished), job.file))
+    return job.output.write_runs(
+        TrackingRuns(tuple(runs), tuple(job.unfinished), job.file, unsampled=job.unsampled)
+    )
 
 
 def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
@@ -227,7 +249,7 @@ def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
         left = starts.count - result[-1].finished
         if left:
             job.fail(gain_set, f"{gain_set.name} on {job.model.name}: {left} of {starts.count} runs")
-    answer = RandomStarts(tuple(result), tuple(job.unfinished), job.file)
+    answer = RandomStarts(tuple(result), tuple(job.unfinished), job.file, unsampled=job.unsampled)
     return job.output.write(answer, lambda: starts_csv(result))
 
 
@@ -235,8 +257,9 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_gain_file(parser)
     add_robot(parser)
-    about = "As on the bench: hold, encoders, dry friction, torque limits."
+    about = "As on the bench: 2.5 ms, no delay, encoders, dry friction, torque limits."
     parser.add_argument("--experiment", action="store_true", help=about)
+    add_loop(parser, [name for name in LOOP if name != "velocity"])  # which means initial rates here
     about = "Follow the trajectory of this reference file under (21), instead of a target."
     parser.add_argument("--reference", metavar="FILE", type=Path, help=about)
     parser.add_number("--time", float, "Duration in s; 5, or the length of the reference.")
@@ -288,18 +311,22 @@ def run(
     plot: Path | None,
     certificates: Path | None,
     format: str,  # noqa: A002
+    **loop: str | None,
 ) -> Exit:
     """Simulate the closed loop of every gain set in FILE and report its performance.
 
     L2 index, settling, overshoot, peak torque against the limit: observations in floating point, never
     proofs. A run by the equations is stopped at the first state that breaks a promise: V falls, ‖τ‖ stays
-    below (9), every motor within its limit.
+    below (9), every motor within its limit. With --rate, --experiment or [loop] in a file it is run as a
+    computer does: sampled, late, from encoders, with dry friction and an unknown payload.
 
-    Exit code 0: all runs are finished, 1: such a state is confirmed in balls, 2: unusable input, 3: a run
-    could not be finished; what was reached is written and marked.
+    Exit code 0: all runs are finished, 1: such a state is confirmed in balls, or a sampled run shows a limit
+    cycle or a payload that falls, 2: unusable input, 3: a run could not be finished; what was reached is
+    written and marked.
 
     Examples:
       lyapcheck simulate gains.toml --experiment --plot figures/
+      lyapcheck simulate gains.toml --rate 1000 --delay 1 --encoder "17 bits" --unknown-payload 2
       lyapcheck simulate gains.toml --target 30,-45,60 --csv run.csv
       lyapcheck simulate gains.toml --runs 1000 --spread 90
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
@@ -314,6 +341,7 @@ def run(
     watched = wrong.reading(eps0_of, eps0) or Eps0(None)
     given = {
         "--experiment": experiment or None,
+        **{f"--{name.replace('_', '-')}": value for name, value in loop.items()},
         "--reference": reference,
         "--target": target,
         "--band": band,
@@ -327,6 +355,7 @@ def run(
     }
     wrong.reading(check_options, [name for name, value in given.items() if value is not None])
     wrong.reading(check_places, csv, plot)
+    bench = wrong.reading(bench_of, loop, experiment, gain_file, model)
     ranges = wrong.reading(varies, vary) or ()
     starts = path = task = None
     if runs is not None:
@@ -343,12 +372,13 @@ def run(
     text = f"the arm of the file{where} and {corners_text(ranged, ranges)}" if ranges else ""
     folder = None if certificates is None else open_folder("--certificates", certificates)
     with progress("simulate") as advance:
-        job = Job(gain_file, model, Output(csv, plot, format, folder), advance, varied=arms, arms=text)
+        output, left_out = Output(csv, plot, format, folder), bench is not None
+        job = Job(gain_file, model, output, advance, varied=arms, arms=text, unsampled=left_out)
         stop = not keep_going
         if path is not None and task is not None:
             code = follow(job, path, task, eps0=watched.number, band=band_of(band), stop=stop)
         elif task is not None and starts is not None:
             code = spread_out(job, task, starts, eps0=watched)
         elif task is not None:
-            code = regulate(job, task, eps0=watched, bench=experiment, stop=stop)
+            code = regulate(job, task, eps0=watched, bench=bench, stop=stop)
     return code

@@ -12,8 +12,10 @@ from lyapcheck.cli.show import require_writable, show, write_whole
 from lyapcheck.cli.values import (
     Complaints,
     add_format,
+    add_loop,
     add_members,
     add_vary,
+    loop_of,
     parse_decimal,
     parse_decimals,
     parse_m,
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import Bounds, GainFile
+    from lyapcheck.files.loop import LoopEntry
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
 
@@ -193,6 +196,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--kv-min", metavar="TORQUES", help="Lower bound of k_v, N·m, instead of a share.")
     parser.add_argument("--damping", metavar="RATIOS", help="Lower bound of each joint's damping ratio.")
     add_vary(parser)
+    add_loop(parser)
     parser.add_argument("--torque", metavar="TORQUES", help="Torque limits instead of the arm's, N·m.")
     parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds instead of the arm's, N·m.")
     parser.add_argument("--viscous-min", metavar="N", help="λmin(B) instead of the arm's, N·m·s/rad.")
@@ -226,6 +230,7 @@ def run(
     out: Path | None,
     best: bool,
     format: str,  # noqa: A002
+    **loop: str | None,
 ) -> Exit:
     """Gains for an arm, as a gain file that the gate accepts: the largest, or those that meet targets best.
 
@@ -254,6 +259,7 @@ def run(
     targeted = (overshoot, settle, rest_error) != (None, None, None)
     members = wrong.reading(parse_m, m or ("1" if targeted and _many(robot) else "1:3"))
     ranges = wrong.reading(varies, vary) or ()
+    run = wrong.reading(loop_of, loop)
     targets = targets_of(wrong, digits, peak_share, kv_share, kv_min, damping)
     bounds = bounds_of(wrong, robot, targets, torque, gravity, viscous_min)
     against = wrong.reading(gains_beside, robot, compare)
@@ -269,12 +275,13 @@ def run(
         repair = "add --overshoot, --settle or --rest-error"
         wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
     wrong.raise_all()
+    assert run is not None
     if compare is not None and against is not None:
         require_joints((against,), load(robot))
     if wishes and bench is not None:
-        return _tune_for(robot, bench, members or (), bounds, against, ranges, (out, best), format)
+        return _tune_for(robot, bench, members or (), bounds, against, ranges, run, (out, best), format)
     task = tasks_of(robot, None, None)[0] if len(members or ()) in COMPARED else None
-    tuning = tune(robot, members or (), targets, bounds, against, ranges, task)
+    tuning = tune(robot, members or (), targets, bounds, against, ranges, task, run)
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
     if format != "toml":
@@ -305,6 +312,7 @@ def _tune_for(
     bounds: Bounds,
     against: GainFile | None,
     ranges: tuple[Vary, ...],
+    run: LoopEntry,
     file: tuple[Path | None, bool],
     format: str,  # noqa: A002
 ) -> Exit:
@@ -314,7 +322,7 @@ def _tune_for(
     from lyapcheck.cli.progress import progress
 
     with progress("tune") as advance:
-        tuning = tune_for(robot, bench, members, bounds, against, ranges, on_progress=advance)
+        tuning = tune_for(robot, bench, members, bounds, against, ranges, run, on_progress=advance)
     out, best = file
     if text := bench_file_text(tuning, None if out is None else out.parent, best=best):
         if out is not None:

@@ -10,9 +10,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
+from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
+from lyapcheck.control.conditions import REJECTED
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
@@ -22,6 +25,7 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateResult
+    from lyapcheck.control.conditions import Check
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
 
@@ -38,8 +42,8 @@ NOTES = (
     "leaves the error e with k_p |h(e)| = f.",
     "The search is not exhaustive; better gains may exist.",
 )
-INSIDE = "The gate proves (10p) for the sets that were found: no motor saturates at any state of (11)."
-RULES = ("(10p)", "(19)")
+INSIDE = "The gate proves (10i) for the sets that were found: no motor saturates at any state of (11)."
+RULES = ("(10i)", "(19)")
 FLAT = (
     "For m ≥ 2 h is flat at the goal: less torque near it, a slower end, and dry friction holds the joint "
     "farther away."
@@ -57,6 +61,7 @@ class Candidate:
         held: per joint the conditions that keep its gains from being larger.
         source: where a set from elsewhere is from.
         result: the gate's, which accepts it; ``None`` where it does not.
+        runs: what the gate says of it as a computer runs it.
     """
 
     gains: GainSet
@@ -65,6 +70,7 @@ class Candidate:
     held: tuple[str, ...] = ()
     source: str = ""
     result: GateResult | None = None
+    runs: tuple[Check, ...] = ()
 
     @property
     def stable(self) -> str:
@@ -75,7 +81,8 @@ class Candidate:
     def shown(self) -> str:
         """How stability is shown, in words."""
         if self.result is None:
-            return "no proof of stability was found"
+            broken = [one.id for one in self.runs if one.verdict == REJECTED]
+            return f"({broken[0]}) fails" if broken else "no proof of stability was found"
         return self.result.says(f"stable by {self.stable}")
 
 
@@ -97,6 +104,8 @@ class BenchTuning(Answer):
     bounds: Bounds = field(default_factory=Bounds)
     """Limits that the user gave in place of the arm's."""
     varies: tuple[Vary, ...] = ()
+    loop: LoopEntry = NOTHING
+    """What the user said of the loop, before the arm file."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -241,6 +250,7 @@ class BenchTuning(Answer):
         rows = table(self._fields, [(one, i) for i in range(len(self.joints))])
         title = f"{one.gains.name} (m = {one.gains.m}, {one.shown})"
         lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
+        lines += tuple(running_sentences(one.runs, self.joints))
         return Section(title, (rows, Bullets(lines)))
 
     @cached_property
@@ -272,7 +282,7 @@ class BenchTuning(Answer):
         if one.trial.worst(self.bench.wishes) > 1:
             for rule, joints in held.items():
                 if joints:
-                    gain = "k_p + k_v" if rule == "(10p)" else "k_v"
+                    gain = "k_p + k_v" if rule == "(10i)" else "k_v"
                     yield f"{rule} keeps {gain} of {', '.join(joints)} from being larger"
 
     def _given_up(self) -> Iterator[str]:
@@ -297,6 +307,7 @@ class BenchTuning(Answer):
             "stable_by": one.stable or None,
             "met": self.met(one),
             "condition": list(one.gains.condition),
+            "as_run": running_sentences(one.runs, self.joints),
             "worst": _six(trial.worst(self.bench.wishes)),
             "joints": records(self._fields, one, len(self.joints)),
         }

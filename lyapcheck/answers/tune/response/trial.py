@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.digits import at_most
-from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate import results as indices
-from lyapcheck.simulate.closed_loop import SetPoint
-from lyapcheck.simulate.integrate import with_extremes
+from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.results import torque_limits
-from lyapcheck.simulate.task import Setup, gains_for
+from lyapcheck.simulate.task import LONGEST, gains_for
 
 if TYPE_CHECKING:
     from lyapcheck._types import Array
@@ -39,7 +37,7 @@ MOST = 1e6
 WAYS = (BY_19, BY_PROOF)
 """How stability is to be shown: by (19), or by a proof for the arm that does without."""
 TOLERANCE = 1e-7
-POINTS = 401
+POINTS = 41
 LONGER, SHORTEST = 4.0, 3.0
 """Times the settling time that is asked for, and s: how long a motion is watched at least."""
 FLAT = 8.0
@@ -102,6 +100,13 @@ class Trials:
     tasks: tuple[Task, ...]
     ways: tuple[str, ...] = WAYS
     digits: int = 3
+    quantile: float = 1.0
+    """The share of motions that counts, joint by joint: 1 is the worst of them."""
+
+    def worst(self, values: Array) -> Array:
+        """The worst (n,) of the share of motions (R, n) that counts; NaN counts as nothing."""
+        place = math.ceil(self.quantile * len(values)) - 1
+        return np.asarray(np.sort(np.nan_to_num(values, nan=0.0, posinf=np.inf), axis=0)[place])
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,39 +142,71 @@ class Trial:
         return max(float(np.max(x)) for x in self.ratios(wishes).values())
 
 
-def tried(
-    gains: GainSet,
-    models: Sequence[RobotModel],
-    tasks: Sequence[Task],
-    wishes: Wishes,
-    *,
-    exact: bool = False,
-) -> Trial:
+def tried(gains: GainSet, models: Sequence[RobotModel], bench: Trials, *, exact: bool = False) -> Trial:
     """The worst of all motions on all arms.
 
     Args:
         gains: the controller.
         models: the arm at one or several values of what is uncertain.
-        tasks: motions from rest; each is watched for `LONGER` than the settling time that is asked for.
-        wishes: what is asked.
-        exact: look for extremes between the integrator's steps too, and watch on until k_pi U(e_i) of an e_i
-            at the edge of what is asked is above the energy that is left: as E falls, it stays within.
+        bench: what is asked, and motions from rest, each watched for `LONGER` than the settling time of it.
+        exact: watch on until k_pi U(e_i) of an e_i at the edge of what is asked is above the energy that is
+            left: as E falls, it stays within.
 
     Soundness: floating point; of the motions and arms that are given, and no others.
     """
-    T, kept = max(LONGER * (wishes.settle or 0.0), SHORTEST) * (FLAT if (gains.m or 1) > 1 else 1.0), False
-    edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
     for doubling in range(DOUBLINGS + 1 if exact else 1):
-        runs = [_one(gains, model, task, T * 2**doubling, exact, edge) for model in models for task in tasks]
-        kept = all(run[4] for run in runs)
-        if kept:
+        (trial,) = tried_all([gains], models, bench, 2**doubling)
+        if trial.kept:
             break
-    T *= 2**doubling
-    with np.errstate(invalid="ignore"):
-        overshoot, share, late = (np.fmax.reduce([run[k] for run in runs]) for k in (0, 2, 3))
-        settled = np.maximum.reduce([run[1] for run in runs])  # NaN where one of them does not settle
-    rest = np.max([[*map(_degrees_above, rest_errors(gains, model))] for model in models], axis=0)
-    return Trial(overshoot, settled, share, rest, late, T, kept)
+    return trial
+
+
+def tried_all(
+    sets: Sequence[GainSet], models: Sequence[RobotModel], bench: Trials, longer: float = 1.0
+) -> list[Trial]:
+    """Each of many gain sets of one member, see `tried`; ``longer``: so many times as long."""
+    wishes, tasks = bench.wishes, bench.tasks
+    T = max(LONGER * (wishes.settle or 0.0), SHORTEST) * (FLAT if (sets[0].m or 1) > 1 else 1.0) * longer
+    T = min(T, LONGEST)
+    goals, starts = (np.tile([getattr(task, end) for task in tasks], (len(sets), 1)) for end in ("q_d", "q0"))
+    each = [one for one in sets for _ in tasks]
+    edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
+    seen = []
+    for model in models:
+        runs = simulate_many(each, model, goals, starts, T, points=POINTS, tolerance=TOLERANCE, motions=True)
+        seen.append(_seen(runs, each, model, goals, starts, edge))
+    shape = (len(models), len(sets), len(tasks), -1)
+    columns = [np.stack(column).reshape(shape) for column in zip(*seen, strict=True)]
+    parts = [column.transpose(1, 0, 2, 3).reshape(len(sets), -1, column.shape[-1]) for column in columns]
+    result = []
+    for one, overshoot, settled, share, late, kept in zip(sets, *parts, strict=True):
+        of = (bench.worst(values) for values in (overshoot, settled, share, late))
+        rest = np.max([[*map(_degrees_above, rest_errors(one, model))] for model in models], axis=0)
+        over, time, torque, end = of
+        result.append(
+            Trial(over, np.where(np.isinf(time), np.nan, time), torque, rest, end, T, bool(np.all(kept)))
+        )
+    return result
+
+
+def _seen(
+    runs: Runs, sets: Sequence[GainSet], model: RobotModel, goals: Array, starts: Array, edge: float
+) -> tuple[Array, ...]:
+    """Of R runs overshoot, settling time, torque share, late error (R, n), and what stays in its band."""
+    assert runs.q is not None
+    assert runs.V is not None
+    step = np.abs(goals - starts)
+    still = step < indices.LEAST_STEP
+    limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
+    size = np.abs(goals[:, None] - runs.q[:, 3 * POINTS // 4 :]).max(axis=1) / np.where(still, 1.0, step)
+    done = runs.complete[:, None]
+    settled = np.where(still, 0.0, np.where(np.isnan(runs.settling) | ~done, np.inf, runs.settling))
+    known = [gains_for(one, model.n) for one in sets]
+    held = known[0].family.potential(indices.bands(step, edge)) * [gains.kp for gains in known]
+    kept = done & (runs.V[:, -1:] < held.min(axis=1, keepdims=True))
+    late = np.where(done, size, NEVER)
+    overshoot = np.where(done, np.nan_to_num(runs.overshoot), NEVER * MOST)
+    return overshoot, settled, runs.peak_torque / limits, late, kept
 
 
 def _degrees_above(error: Fraction | None) -> float:
@@ -177,27 +214,3 @@ def _degrees_above(error: Fraction | None) -> float:
     if error is None:
         return math.inf
     return math.nextafter(math.degrees(math.nextafter(float(error), math.inf)), math.inf) if error else 0.0
-
-
-def _one(
-    gain_set: GainSet, model: RobotModel, task: Task, T: float, exact: bool, edge: float
-) -> tuple[Any, ...]:
-    n, goal, gains = model.n, np.array(task.q_d), gains_for(gain_set, model.n)
-    setup = Setup(gains, model, replace(task, T=T), 0.0, ControlledArm(gain_set, model))
-    course = SetPoint(setup, POINTS)
-    path = course.once(TOLERANCE)
-    if exact:
-        path = with_extremes(path, lambda some: np.hstack((course.signals(some)[0], some.y[:, :n])))
-    else:
-        path = path.at(np.unique(np.concatenate((path.t, path.steps))))
-    tau, energy = course.signals(path)
-    e = goal - path.y[:, :n]
-    settled = indices.settling_times(path.t, e) if path.failure is None else np.full(n, np.nan)
-    still = np.abs(e[0]) < indices.LEAST_STEP
-    settled[still] = 0.0
-    late = np.max(np.abs(e[path.t >= 0.75 * path.t[-1]]), axis=0) / np.where(still, 1.0, np.abs(e[0]))
-    limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
-    kept = path.failure is None and energy[-1] < np.min(
-        gains.kp * gains.family.potential(indices.bands(e[0], edge))
-    )
-    return indices.overshoots(e), settled, np.max(np.abs(tau), axis=0) / limits, late, kept

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from lyapcheck._types import part, silent
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
+from lyapcheck.answers.running import runs_of
 from lyapcheck.answers.tune.limits import arm_limits, impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
@@ -16,6 +17,7 @@ from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials,
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.control.limits import varied_limits
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import corners, corners_text, outside
 
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 
 
 CONDITIONS = {BY_19: ("19",), BY_PROOF: (SCALAR, LASALLE)}
-"""What shows stability beside (10p), by the way that is asked for; the first that the gate accepts counts."""
+"""What shows stability beside (10i), by the way that is asked for; the first that the gate accepts counts."""
 
 
 def tune_for(
@@ -39,6 +41,7 @@ def tune_for(
     bounds: Bounds | None = None,
     against: GainFile | None = None,
     varies: tuple[Vary, ...] = (),
+    loop: LoopEntry = NOTHING,
     on_progress: Progress | None = None,
 ) -> BenchTuning:
     """The gains that meet what is asked best, for each member and way to show stability.
@@ -50,12 +53,13 @@ def tune_for(
         bounds: limits to take instead of the arm's.
         against: gains to try beside them.
         varies: ranges of the arm's numbers; the worst of motions at their ends counts, limits hold for all.
+        loop: how a computer runs the gains, before what the arm file says of it.
         on_progress: receives the fraction done.
 
     Raises:
         InputError: the arm cannot be used.
 
-    Soundness: each set is accepted by the gate, with (10p) and the condition it names. What motions show is
+    Soundness: each set is accepted by the gate, with (10i) and the condition it names. What motions show is
         floating point, and that no better gains exist is not proved.
 
     References: (6), (10), (11), (19) of reyes2019family.
@@ -75,9 +79,11 @@ def tune_for(
             reasons.append(_none(m, way, limits))
             continue
         result = search.run(told)
-        judged = accepted(result.gains, way, robot, bounds, ranges)
-        gains = result.gains if judged is None else judged.gains
-        sets.append(Candidate(gains, result.trial, way, tuple(_held(gains, search)), result=judged))
+        judged = accepted(result.gains, way, robot, bounds, ranges, loop)
+        own = judged if judged.verdict == ACCEPTED else None
+        gains = result.gains if own is None else own.gains
+        held = tuple(_held(gains, search))
+        sets.append(Candidate(gains, result.trial, way, held, result=own, runs=runs_of(judged)))
     beside = [one for one in ([] if against is None else against.gains) if one.m in members]
     sets = [*(_other(one, arms, bench, against, robot, ranges) for one in beside), *sets]
     return BenchTuning(
@@ -90,6 +96,7 @@ def tune_for(
         tried_on,
         bounds or Bounds(),
         varies,
+        loop,
     )
 
 
@@ -108,26 +115,32 @@ def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tupl
 def _none(m: int, way: str, limits: Limits) -> str:
     if way == BY_19 and not limits.viscous_min:
         return f"m = {m}: (19) admits no k_v without viscous friction; stability by proof does without it"
-    rule = "(19) admits no k_v" if way == BY_19 else "(10p) leaves no room for gains"
+    rule = "(19) admits no k_v" if way == BY_19 else "(10i) leaves no room for gains"
     return f"m = {m}: {rule} with so few decimal places; raise --digits"
 
 
 def accepted(
-    gains: GainSet, way: str, robot: str, bounds: Bounds | None, ranges: dict[str, ArmLimits] | None
-) -> GateResult | None:
-    """The set as the gate accepts it, with the conditions by which it does; ``None`` where it does not."""
+    gains: GainSet,
+    way: str,
+    robot: str,
+    bounds: Bounds | None,
+    ranges: dict[str, ArmLimits] | None,
+    loop: LoopEntry,
+) -> GateResult:
+    """The set as the gate accepts it, with the conditions by which it does; else as it does not."""
     for condition in CONDITIONS[way]:
-        named = replace(gains, condition=("10p", condition))
-        (result,) = gate(GainFile("tuned gains", robot, (named,), bounds or Bounds()), robot, arms=ranges)
+        named = replace(gains, condition=("10i", condition))
+        file = GainFile("tuned gains", robot, (named,), bounds or Bounds(), loop=loop)
+        (result,) = gate(file, robot, arms=ranges)
         if result.verdict == ACCEPTED:
-            return result
-    return None
+            break
+    return result
 
 
 def _held(gains: GainSet, search: Search) -> Iterator[str]:
     rows = zip(gains.kp, gains.kv, search.most_sum, search.most_kv, strict=True)
     for kp, kv, most, most_kv in rows:
-        rules = ["(10p)"] if kp + kv == most * search.unit else []
+        rules = ["(10i)"] if kp + kv == most * search.unit else []
         if search.way == BY_19 and kv == most_kv * search.unit:
             rules.append("(19)")
         yield ", ".join(rules)
@@ -142,11 +155,11 @@ def _other(
     ranges: dict[str, ArmLimits] | None,
 ) -> Candidate:
     """A set from elsewhere, tried as ours are, with the conditions by which the gate accepts it."""
-    trial = tried(gains, arms, bench.tasks, bench.wishes, exact=True)
+    trial = tried(gains, arms, bench, exact=True)
     assert file is not None
-    own, judged = replace(gains, condition=()), None
+    own = replace(gains, condition=())
     for way in WAYS:
-        judged = accepted(own, way, robot, file.bounds, ranges)
-        if judged is not None:
-            break
-    return Candidate(own if judged is None else judged.gains, trial, source=file.path, result=judged)
+        judged = accepted(own, way, robot, file.bounds, ranges, file.loop)
+        if judged.verdict == ACCEPTED:
+            return Candidate(judged.gains, trial, source=file.path, result=judged, runs=runs_of(judged))
+    return Candidate(own, trial, source=file.path, runs=runs_of(judged))

@@ -1,0 +1,105 @@
+"""Gains as a computer runs them, on an arm of which the controller does not know all that pulls at it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.answers.running.holds import (
+    HOLDS,
+    HoldsCheck,
+    falls,
+    farthest_unknown,
+    holds_checks,
+    holds_sentences,
+)
+from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, sampled_check
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
+from lyapcheck.control.gains import GainSet
+from lyapcheck.control.limits import Limits
+from lyapcheck.control.sampling import LoopRecord
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
+
+INFINITE = "No rate is known: what is said is of (11), for a controller of infinite rate; see [loop]."
+
+__all__ = [
+    "HOLDS",
+    "INFINITE",
+    "SAMPLED",
+    "HoldsCheck",
+    "SampledCheck",
+    "farthest_unknown",
+    "holds_checks",
+    "open_as_run",
+    "running_checks",
+    "running_sentences",
+    "runs_of",
+]
+
+
+def running_checks(
+    gains: GainSet,
+    limits: Limits,
+    record: LoopRecord | None,
+    viscous_min: Fraction | None = None,
+    deciding: Sequence[str] = (),
+    others: Sequence[Check] = (),
+    searched: bool = True,
+) -> tuple[Check, ...]:
+    """The one place where an arm, gains and a record become statements that are judged.
+
+    Args:
+        gains: the controller.
+        limits: of the arm.
+        record: how a computer runs it, and what it does not know.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        deciding: conditions that must hold, whether the record speaks of them or not.
+        others: the checks of (10i) and (10p), of which one has to pass for `sampled` to count.
+        searched: whether to look for a refutation of what is not shown.
+    """
+    checks: list[Check] = []
+    if SAMPLED in deciding or (record is not None and record.period is not None):
+        kept = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
+        inside = any(each and all(each) for each in kept)
+        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched))
+    if HOLDS in deciding or (record is not None and not record.knows_gravity):
+        checks += holds_checks(gains, limits.model, record)
+    return tuple(checks)
+
+
+SUPPOSED = LoopRecord(period=Fraction(1, 1000))
+"""What is supposed where no rate is known: one sample late, velocities by differences."""
+
+
+def runs_of(result: GateResult) -> tuple[Check, ...]:
+    """The checks of the loop of a result of the gate; without a rate what periods a supposed one serves."""
+    known = tuple(check for check in result.checks if check.id in (SAMPLED, HOLDS))
+    if any(check.id == SAMPLED for check in known):
+        return known
+    record = replace(SUPPOSED if result.record is None else result.record, period=SUPPOSED.period)
+    viscous_min = result.file.bounds.viscous_min
+    check = running_checks(result.gains, result.limits, record, viscous_min, (), result.checks)[0]
+    return (replace(check, named=False) if isinstance(check, SampledCheck) else check, *known)
+
+
+def running_sentences(
+    checks: Sequence[Check], joints: Sequence[str], told: Sequence[Check] = ()
+) -> list[str]:
+    """What these checks show and refute, and why one does neither, unless that was told."""
+    runs = [check for check in checks if check.id in (SAMPLED, HOLDS)]
+    said = [text for one in runs if isinstance(one, SampledCheck) for text in one.sentences(one in told)]
+    said += holds_sentences(runs, joints)
+    fallen = [one for one in runs if isinstance(one, HoldsCheck) and one.verdict == REJECTED]
+    said += [falls(one, joints) for one in fallen if one not in told]
+    said += [f"({check.id}) {check.reason}" for check in runs if check.reason and check not in told]
+    return said
+
+
+def open_as_run(checks: Sequence[Check]) -> str:
+    """Which of these is not decided, for a headline; empty where none is."""
+    open_ = dict.fromkeys(check.id for check in checks if check.id in (SAMPLED, HOLDS) and check.reason)
+    return f"open: {', '.join(open_)}" if open_ else ""

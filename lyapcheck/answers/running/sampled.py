@@ -1,0 +1,215 @@
+"""Whether gains are stable as a computer runs them, for which periods this is shown, and for which refuted.
+
+    (S)  b_i > r L k_vi Σ|f_j| + (½ + d) r T (ρ k_pi + Γ_i)   shows it for each T up to a largest one
+    (R)  motions near one goal grow from sample to sample     refutes it at one T
+
+These ends are no bracket: (S) serves whatever the inertia, (R) sees h'(0). (S) supposes that no motor
+saturates, and so counts together with (10i) or (10p) only. Where dry friction or unknown gravity acts it
+shows that the arm comes to rest, not that this is the goal.
+
+References: (6), (11) of reyes2019family.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.asked import sampled, viscous_of
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.control.conditions import REJECTED, Check
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
+from lyapcheck.control.sampled import SampledLoop, judged_sampled, sampled_proof
+from lyapcheck.control.sampling import LoopRecord, time_text
+from lyapcheck.family.registry import named
+from lyapcheck.files.decimals import decimal_text, exact_decimal, significant_down
+from lyapcheck.libraries import PACKAGES, installed, repair
+from lyapcheck.promise import Promise, promised
+from lyapcheck.robots.dynamics import TooManyTerms
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lyapcheck.check.kinds.sampled import SampledStable
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.limits import Limits
+    from lyapcheck.robots import RobotModel
+
+SAMPLED = "sampled"
+NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
+LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off where they are small"
+SATURATES = "(S) supposes that no motor saturates: it counts together with (10i) or (10p) only"
+UNSAID = LoopRecord()
+DIGITS = 9
+"""Of the largest period in data."""
+LONGEST = 20
+"""Times the period asked: how far a refuted one is looked for."""
+
+
+@dataclass(frozen=True)
+class SampledCheck(Check):
+    """`Check` of all joints, named after the tightest: its value is the period, its limit the largest, in s.
+
+    Args:
+        record: how the controller runs.
+        up_to: that the largest period shown, and each shorter one, will do; ``None`` where none is shown.
+        refuted: that stability is refuted at a period, of the arm without dry friction or unknown gravity.
+        rests: whether it is shown that the arm comes to rest, not that it does so at the goal.
+        named: whether the period of the record is one that somebody asked about.
+        counts: whether (10i) or (10p) holds.
+    """
+
+    record: LoopRecord = UNSAID
+    up_to: Promise | None = None
+    refuted: JudgedStatement | None = None
+    rests: bool = False
+    named: bool = True
+    counts: bool = True
+
+    @property
+    def most(self) -> Fraction | None:
+        """The largest period that is shown, s."""
+        return None if self.up_to is None else self._asked.period
+
+    @property
+    def _asked(self) -> SampledStable:
+        assert self.up_to is not None
+        asked: SampledStable = self.up_to.asked  # type: ignore[assignment]
+        return asked
+
+    def sentences(self, told: bool) -> list[str]:
+        """What is shown and what is refuted of the periods, unless a rejection was told."""
+        said = []
+        if self.up_to is not None and self.most is not None:
+            words = f"as run ({self.record.text if self.named else self.record.how}): "
+            end = "" if self.counts else ", while no motor saturates, which nothing shows"
+            end = f"for every period up to {time_text(self.most)}{end}"
+            said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
+        if self.refuted is not None and not (told and self.verdict == REJECTED):
+            said.append(unstable_text(self.refuted, self.rests))
+        return said
+
+
+def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
+    """At which period and posture stability is refuted."""
+    from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
+
+    proof = refuted.proof
+    if not isinstance(proof, GrowingMotion):
+        return "unstable"
+    place = ", ".join(f"{float(x):g}" for x in proof.goal)
+    without = " without dry friction and with all gravity known" if alone else ""
+    return f"unstable at {time_text(proof.period)}{without}, at the goal q_d = ({place})°"
+
+
+def sampled_check(
+    gains: GainSet,
+    limits: Limits,
+    record: LoopRecord | None,
+    viscous_min: Fraction | None,
+    inside: bool,
+    searched: bool = True,
+) -> Check:
+    """Are these gains stable, run in this way?
+
+    Args:
+        gains: the controller.
+        limits: of the arm; without its model any serial revolute arm with these bounds of gravity is meant.
+        record: how a computer runs it.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        inside: whether (10i) or (10p) is accepted, so that no motor saturates.
+        searched: whether to look for a refutation where nothing is shown.
+
+    Soundness: that of ``lyapcheck.check.verify``.
+    """
+    if record is None or record.period is None:
+        return Check(SAMPLED, reason=NO_PERIOD)
+    known = SampledCheck(SAMPLED, value=record.period, record=record, counts=inside)
+    try:
+        asked = question(gains, limits, record, viscous_min)
+    except ValueError as error:
+        return replace(known, reason=str(error))
+    most, joint, why = largest(asked, limits.joints)
+    known = replace(known, joint=joint, rests=asked.conclusion == "rest")
+    if most is not None:
+        shown = judged_sampled(replace(asked, period=most[0]))
+        up_to, why_not = promised(replace(asked, period=most[0]), shown)
+        fits = exact_decimal(decimal_text(significant_down(most[0], DIGITS)))
+        known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to, largest_admissible=fits)
+        if up_to is not None and asked.period <= most[0]:
+            promise, _ = promised(asked, shown)
+            if promise is not None and inside:
+                return replace(known, judgement=shown, promise=promise)
+            return replace(known, reason=SATURATES)
+        why = why_not or f"(S) shows no period above {time_text(most[0])}"
+    refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
+    if refuted is not None and not known.rests and _period(refuted) <= asked.period:
+        return replace(known, judgement=refuted, refuted=refuted)
+    return replace(known, refuted=refuted, reason="; ".join(filter(None, (why, missing))))
+
+
+def question(
+    gains: GainSet, limits: Limits, record: LoopRecord, viscous_min: Fraction | None
+) -> SampledStable:
+    """The statement that is asked about, at the period of the record.
+
+    Raises:
+        ValueError: (S) does not speak of such a loop or such an h; it says why.
+    """
+    if record.lowpass is not None:
+        raise ValueError(LOWPASS)
+    family = named(gains.family, gains.m)
+    if not family.bounded:
+        raise ValueError("h is unbounded, of which (S) does not speak")
+    _ = family.checked
+    assert record.period is not None
+    loop = SampledLoop(record.period, record.longest, record.delay, record.filter, record.velocity)
+    arm, bare = limits.model, [limits.viscous_min or Fraction(0)] * limits.n
+    goal = "goal" if record.knows_gravity and (arm is None or not arm.dry) else "rest"
+    least = bare if arm is None else [low for low, _ in viscous_of(arm, viscous_min)]
+    try:
+        return sampled(gains, loop, least, arm, limits.gravity, goal)
+    except TooManyTerms:
+        return sampled(gains, loop, least, None, limits.gravity, goal)
+
+
+def largest(
+    asked: SampledStable, joints: Sequence[str]
+) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
+    """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
+    k_g = asked.k_g or sampled_proof(asked).k_g
+    still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
+    rows = list(zip(asked.viscous_min, still, now, strict=True))
+    short = [i for i, (b, low, _) in enumerate(rows) if low >= b]
+    if short:
+        names = ", ".join(joints[i] for i in short)
+        return None, short[0], f"(S) shows no period: L k_v is not below the friction of {names}"
+    ends = [asked.period * (b - low) / (high - low) for b, low, high in rows]
+    most = min(ends)
+    stated = significant_down(most, 4)
+    if stated == most:  # (S) is strict
+        stated = significant_down(most * Fraction(9999, 10000), 4)
+    return (max(stated, asked.period) if asked.period < most else stated, most), ends.index(most), ""
+
+
+def _period(refuted: JudgedStatement) -> Fraction:
+    period: Fraction = refuted.proof.period  # type: ignore[union-attr]
+    return period
+
+
+def _refuted(asked: SampledStable, arm: RobotModel | None) -> tuple[JudgedStatement | None, str]:
+    """What refutes stability at the period asked, else at a longer one; or what is missing to look for it."""
+    if asked.k_g or arm is None:
+        return None, ""
+    lacking = next((one for one in ("numpy", "scipy") if not installed(one)), None)
+    if lacking is not None:
+        return None, f"to refute it takes {PACKAGES[lacking]}, which is not installed; {repair(lacking)}"
+    from lyapcheck.search.sampled import refuted_at, smallest_refuted
+
+    goal = replace(asked, conclusion="goal")
+    proof = refuted_at(goal, goal.period, arm)
+    if proof is None:
+        goal = replace(goal, period=LONGEST * goal.period)
+        proof = smallest_refuted(goal, asked.period, arm)
+    return (None, "") if proof is None else (judged_statement(goal, [proof]), "")
