@@ -26,7 +26,7 @@ def sampled_word(report: Report) -> tuple[str, bool] | None:
     rows = sampled_rows(report, members=True)
     shown = [row for row in rows if row.verdict is Verdict.PROVED]
     left = [row for row in rows if row not in shown]
-    stable = all_say((row.decision.promise for row in shown), "stable at 2.5 ms")
+    stable = all_say((row.decision.promise for row in shown), "stable at 2.5 ms") if shown else ""
     parts = [f"{_members(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
     return ("; ".join(parts), not left) if rows else None
 

@@ -18,8 +18,8 @@ from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
 from lyapcheck.check.verify import verify
 from tests.arena.attacks import edited, encoded
-from tests.arena.extra import LINKS, vector
 from tests.arena.library import Added
+from tests.arena.links import LINKS, vector
 from tests.arena.plant import ARENA
 from tests.arena.truths import certified
 

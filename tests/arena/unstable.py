@@ -17,8 +17,8 @@ from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 from lyapcheck.check.verify import verify
 from lyapcheck.search.sampled import refuted_at
-from tests.arena.extra import LINKS, vector
 from tests.arena.library import Added
+from tests.arena.links import LINKS, vector
 from tests.arena.plant import ARENA
 from tests.arena.truths import certified
 

@@ -1,6 +1,7 @@
 """Scripts run, and certificates are judged, in the process of the test, by the same functions."""
 
 import io
+import pickle
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import asdict
 from pathlib import Path
@@ -18,7 +19,8 @@ def one_process():
     from lyapcheck.claims import script as ask
     from lyapcheck.rechecking import main as checker
 
-    def run_script(request):
+    def run_script(words, asked, *to):
+        request = pickle.loads(asked)
         Path(request.answer).write_text(script_process.answer(request), encoding="utf-8")
         return 0
 
@@ -32,7 +34,7 @@ def one_process():
         return CompletedProcess(words, code, stdout.getvalue().encode(), b"")
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(ask, "_run_apart", run_script)
+        patch.setattr(ask, "run_apart", run_script)
         patch.setattr(guard.Guard, "_ask", ask_worker)
         patch.setattr(fresh_check, "subprocess", SimpleNamespace(run=run_checker))
         yield patch
