@@ -1,27 +1,15 @@
-"""Gains on a computer: what (S) shows, and at its border what it does not.
-
-    python -m tests.arena.sampled
-
-adds them to the arena as it stands. What is expected of the border is worked out by hand beside it.
-"""
+"""Gains on a computer at the border of (S), worked out by hand: what it does not show."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction as F
-from typing import Any
 
 from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
 from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
-from lyapcheck.check.verify import verify
-from tests.arena.attacks import edited, encoded
-from tests.arena.library import Added
 from tests.arena.links import LINKS, vector
-from tests.arena.plant import ARENA
-from tests.arena.truths import certified
 
 PRINTED = SampledStable(
     *("hyperbolic", 1, (F(28), F(60), F(5)), (F("0.233"),) * 3, (F("0.406"),) * 3),
@@ -99,49 +87,3 @@ def not_shown() -> Iterator[tuple[str, SampledStable, ShortPeriod]]:
     yield "low-lever", TWO, replace(BOTH, k_g=(F(3) - NEAR, F(1)))
     yield "heavy-fall", replace(TWO, fall=vector(9, 0, 0)), BOTH
     yield "no-torque", TWO, ShortPeriod((F(0), F(0)), (NoTorque(), NoTorque()))
-
-
-MALFORMED: dict[str, tuple[str, Any]] = {
-    "half-a-sample": ("delay", "1/2"),
-    "early": ("delay", -1),
-    "no-taps": ("taps", []),
-    "endless-filter": ("taps", "lowpass"),
-    "no-time": ("period", "0"),
-    "backwards": ("period", "-1/400"),
-    "shorter": ("stretch", "9/10"),
-    "speeds-up": ("viscous_min", ["-1", "1", "1"]),
-    "few-joints": ("viscous_min", ["1", "1"]),
-    "many-joints": ("kp", ["1"] * 10),
-    "no-damping": ("kv", ["0", "1", "1"]),
-    "no-arm": ("k_g", []),
-    "two-arms": ("links", [{}]),
-    "unknown-end": ("conclusion", "stable"),
-    "unknown-function": ("family", "linear"),
-    "negative-bound": ("k_g", ["-1", "1", "1"]),
-    "fall-alone": ("fall", ["0", "0", "-9"]),
-    "measured": ("velocity", "measured"),
-    "wrapped": ("angles", "wrapped"),
-}
-"""A field of the first good one, or one that there is not."""
-
-
-def main() -> None:
-    """Write the files, and what is expected of them."""
-    arena = Added("sam")
-    for name, statement, proof in good():
-        accepted = verify(statement, proof)
-        content = certified(name, statement, proof, accepted.verdict, accepted.grade)
-        arena.add(f"good/{name}.sam.json", content, ["accepted"], "")
-    for name, statement, proof in not_shown():
-        content = certified(name, statement, proof, "proved", "enclosure")
-        arena.add(f"bad/{name}.sam.json", content, ["refused"], f"(S) does not show it: {name}")
-    whole = json.loads(certified("printed", PRINTED, NOTHING, "proved", "enclosure"))
-    for name, (field, value) in MALFORMED.items():
-        content = encoded(edited(whole, [(("statement", field), value)]))
-        arena.add(f"bad/form-{name}.sam.json", content, ["refused"], f"no such loop: {name}")
-    arena.entries.sort(key=lambda entry: entry["path"])
-    (ARENA / "expected.json").write_text(json.dumps(arena.entries, indent=1, ensure_ascii=False) + "\n")
-
-
-if __name__ == "__main__":
-    main()
