@@ -14,6 +14,7 @@ from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.control.gains import Bounds, GainSet
+from lyapcheck.control.sampling import record_of, time_text
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
@@ -125,7 +126,10 @@ class BenchTuning(Answer):
         without = (
             "without the dry friction of the file" if self.dry else "of an arm file without dry friction"
         )
-        return f"{motions} of (11) at an infinite rate, {without}"
+        record = record_of(self.loop, NOTHING, self.model.loop)
+        if record is None or record.period is None:
+            return f"{motions} of (11) at an infinite rate, {without}"
+        return f"{motions} at {time_text(record.period)}, {record.how}, {without}"
 
     @property
     def good(self) -> list[Candidate]:
@@ -221,7 +225,9 @@ class BenchTuning(Answer):
             joints = [f"{joint} {_times(ratio)}" for joint, ratio in rows if ratio > 1]
             if joints:
                 result.append(f"misses {NAMES[name]}, simulated / target: {', '.join(joints)}")
-        if not one.trial.kept:
+        if one.trial.unrest:
+            result.append(one.trial.unrest)
+        elif not one.trial.kept:
             result.append(
                 f"after {one.trial.T:g} s the energy left does not exclude that a joint leaves its band"
             )

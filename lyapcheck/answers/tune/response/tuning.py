@@ -17,6 +17,7 @@ from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials,
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.control.limits import varied_limits
+from lyapcheck.control.sampling import record_of
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import corners, corners_text, outside
@@ -68,13 +69,14 @@ def tune_for(
     limits = arm_limits(robot, model.n, bounds, varies)
     ranges = {robot: varied_limits(robot, varies)} if varies else None
     arms, tried_on = _arms(robot, model, varies)
+    record = record_of(loop, NOTHING, model.loop)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
     reasons = [*unknown(limits), *(text for text in impossible(limits) if "gravity" in text)]
     for done, (m, way) in enumerate([] if reasons else jobs):
         note = f"m = {m}, {IN_WORDS[way]}"
         told = part(on_progress or silent, done / len(jobs), (done + 1) / len(jobs), note)
-        search = Search(bench, arms, limits, m, way)
+        search = Search(bench, arms, limits, m, way, record)
         if not search.possible:
             reasons.append(_none(m, way, limits))
             continue
