@@ -35,6 +35,8 @@ STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
 """The condition of a set that shows stability, in words."""
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
 NONE = "—"
+MOST_NAMED = 3
+"""Motions that are named."""
 FAR = 100
 """Ratios from here on are not told apart."""
 NOTES = (
@@ -160,7 +162,12 @@ class BenchTuning(Answer):
 
     def document(self) -> Document:
         """What was asked, all sets beside each other, then each by itself."""
-        tasks = "; ".join(f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks)
+        named = [f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks]
+        tasks = "; ".join(named[:MOST_NAMED])
+        if len(named) > MOST_NAMED:
+            tasks = f"{len(named)} motions, such as {tasks}"
+        if self.bench.quantile < 1:
+            tasks += f"; of each number {100 * self.bench.quantile:g} % of the motions count"
         arms = f", each on {self.arms}" if self.arms else ""
         asked = Paragraph(f"Asked: {self.bench.wishes.text()}. Simulated from rest, {tasks}{arms}.")
         assumed = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
@@ -320,7 +327,7 @@ class BenchTuning(Answer):
 
 
 def _angles(values: tuple[float, ...]) -> str:
-    return f"({', '.join(f'{math.degrees(x):g}' for x in values)})°"
+    return f"({', '.join(f'{math.degrees(x):.4g}' for x in values)})°"
 
 
 def _degrees_of(values: tuple[float, ...]) -> list[float | None]:

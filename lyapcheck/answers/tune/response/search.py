@@ -32,7 +32,7 @@ SHARE, DAMPING, FLOOR = 0.98, 0.9, 0.05
 """Of (10i), of the first set; the damping ratio of it, and what k_v alone gives every joint at least."""
 SPREADS, BETTER, NARROWER = (0.5, 0.02), 0.99, 0.75
 """Of the logarithms of the gains, first and last; narrower where the worst does not come below this share."""
-MOST_STEPS = 45_000
+MOST_STEPS = 25_000
 """Of the integrator, all rounds together: an arm that is stiff has fewer rounds."""
 BRIEFLY = 0.4
 """So much of the time of `tried` a motion is watched while searching."""

@@ -20,7 +20,7 @@ from lyapcheck.control.limits import varied_limits
 from lyapcheck.control.sampling import record_of
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import corners, corners_text, outside
+from lyapcheck.robots.vary import at_values, corners, corners_text, outside
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
@@ -103,9 +103,18 @@ def tune_for(
 
 
 def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tuple[RobotModel, ...], str]:
-    """The arms that gains are tried on, and what these are; empty for the arm of the file alone."""
+    """The arms that gains are tried on, and what these are; empty for the arm of the file alone.
+
+    Without ranges to vary: also the ends of what is assumed, all together; viscous friction that is assumed
+    without a range may be down to a tenth.
+    """
     if not varies:
-        return (model,), ""
+        low, high = {}, {}
+        for key, number in model.numbers.items():
+            if number.assumed and (number.ranged or key.endswith("_viscous")):
+                low[key], high[key] = number.bounds if number.ranged else (number.value / 10, number.value)
+        arms = [at_values(model, values) for values in (low, high) if values]
+        return (model, *arms), "the arm of the file and both ends of its assumed numbers" if arms else ""
     ranged = load(robot, vary=varies)
     ends = tuple(arm for _, arm in corners(ranged, varies))
     text = corners_text(ranged, varies)
