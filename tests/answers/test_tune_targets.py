@@ -34,6 +34,7 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import varied_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
+from lyapcheck.files.loop import NOTHING
 from lyapcheck.output.formats import Format
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.closed_loop import simulate
@@ -88,9 +89,9 @@ def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
     ranges = {arm: varied_limits(arm, varies)}
-    assert accepted(gains, BY_PROOF, arm, None, None).deciding == ("10i", "scalar")
-    assert accepted(gains, BY_PROOF, arm, None, ranges).deciding == ("10i", "lasalle")
-    assert accepted(gains, BY_19, arm, None, ranges) is None
+    assert accepted(gains, BY_PROOF, arm, None, None, NOTHING).deciding == ("10i", "scalar")
+    assert accepted(gains, BY_PROOF, arm, None, ranges, NOTHING).deciding == ("10i", "lasalle")
+    assert accepted(gains, BY_19, arm, None, ranges, NOTHING).verdict == "rejected"
 
 
 @pytest.mark.slow
@@ -115,7 +116,7 @@ def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> N
     (by_proof,) = gate(read_gain_file(tmp_path / "g.toml"))
     assert (by_proof.name, by_proof.verdict) == ("tau_m1_proof", "accepted")
     assert by_proof.deciding == ("10i", "scalar")
-    (again,) = gate(read_gain_file(tmp_path / "g.toml"), deciding=("10p", "19"))
+    (again,) = gate(read_gain_file(tmp_path / "g.toml"), deciding=("10i", "19"))
     assert again.standing == "breaks (19), stability proved otherwise"
 
 

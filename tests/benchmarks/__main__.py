@@ -44,10 +44,10 @@ final states, rad and rad/s, from lyapcheck's at 1e-13.
 """
 TUNING = """## Gains for targets
 
-The worst simulated value over its target: overshoot 10 % (buap3: 5 %), settled within 2 s (1.5 s), 0.9 of each
-torque limit, in a motion of 45° of every joint by (11). Evolution is SciPy's, population 15, 400 evaluations,
-seed 0, over the same sets and from the same rule of thumb: 98 % of (10i), damping ratio 0.9. Below 1.02 `tune`
-is as good. Processor times of the search alone.
+The worst simulated value over its target: overshoot 10 % (buap3: 5 %), settled within 2 s (1.5 s), 0.9 of
+each torque limit, in a motion of 45° of every joint by (11). Evolution is SciPy's, population 15, 400
+evaluations, seed 0, over the same sets and from the same rule of thumb: 98 % of (10i), damping ratio 0.9.
+Below 1.02 `tune` is as good. Processor times of the search alone.
 """
 
 
