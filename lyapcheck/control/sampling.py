@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -52,6 +52,11 @@ class LoopRecord:
     def knows_gravity(self) -> bool:
         """Whether the controller's g(q) is that of the arm."""
         return not self.unknown_payload and not self.gravity_error
+
+    @property
+    def entry(self) -> LoopEntry:
+        """The same as a source would say it."""
+        return LoopEntry(**{one.name: getattr(self, one.name) for one in fields(LoopEntry)})
 
     @property
     def text(self) -> str:

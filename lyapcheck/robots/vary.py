@@ -22,7 +22,7 @@ OPTION = "--vary"
 PAYLOAD = "payload"
 MOTOR = ("viscous", "coulomb", "torque_limit", "gravity_bound")
 """Numbers of a joint that enter neither M nor the potential."""
-MASSES = ("mass", ROTOR.removeprefix("_"))
+MASSES = (ROTOR.removeprefix("_"), "mass")
 """Numbers of known links."""
 MOST_CORNERS = 32
 _FORM = re.compile(r"(\w+)=([+-]?[\d.]+)(%?)\.\.([+-]?[\d.]+)(%?)", re.ASCII)
@@ -124,7 +124,7 @@ def varied(
         moved |= {key: number for key, number in now.items() if number is not known[key]}
         changed[part] = tuple(now.get(key) for key in keys)
     masses = _masses(model, varies, parts)
-    rotors = varied_numbers(_rotors_of(model), varies) if MASSES[1] in parts else {}
+    rotors = varied_numbers(_rotors_of(model), varies) if MASSES[0] in parts else {}
     rotors = {key: number for key, number in rotors.items() if number is not model.numbers[key]}
     _require_physical(moved | masses | rotors)
     numbers = model.numbers | moved | masses

@@ -227,7 +227,7 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
         8,
         "limits",
         "not a known key",
-        "use one of: bounds, condition, gains, robot",
+        "use one of: bounds, condition, gains, loop, robot",
     ),
     "key of another room": (
         BOUNDS + "friction = 1\n",

@@ -136,6 +136,13 @@ def _of_friction(result: GateResult) -> Iterator[Certificate]:
             yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
 
 
+def running_certificates(result: GateResult) -> Iterator[Certificate]:
+    """What was decided of the loop as it is run."""
+    runs = (_certificate(result, check) for check in result.checks if check.id in RUNNING)
+    yield from (one for one in runs if one is not None)
+    yield from _of_periods(result)
+
+
 def _of_periods(result: GateResult) -> Iterator[Certificate]:
     """What is said of other periods than that of the record, which is undecided."""
     for check in result.checks:

@@ -189,7 +189,10 @@ def judged_sets(
             from lyapcheck.answers.running import running_checks
 
             viscous_min = gain_file.bounds.viscous_min
-            checks = (*checks, *running_checks(gains, limits, record, viscous_min, names, checks, more))
+            checks = (
+                *checks,
+                *running_checks(gains, limits, record, viscous_min, names, checks, more or not explained),
+            )
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
         result = GateResult(

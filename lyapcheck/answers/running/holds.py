@@ -22,6 +22,8 @@ from functools import lru_cache
 from math import degrees
 from typing import TYPE_CHECKING
 
+from flint import arb
+
 from lyapcheck.asked import gravity_kept, resting
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
@@ -53,6 +55,8 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 HOLDS = "holds"
+HALVINGS, FAR = 50, 40.0
+"""Of an interval with a state of rest, and its end, rad: there every h is 1 but for rounding."""
 NO_LINKS = "an unknown payload needs the links of the arm: give it by [[links]] or a URDF file"
 NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
 UNBOUNDED = "h is unbounded, and no error at rest is judged of it"
@@ -238,20 +242,22 @@ def _between(gains: GainSet, record: LoopRecord, total: Fraction, kp: Fraction, 
 
 def _rests(gains: GainSet, ratio: float) -> list[float]:
     """The x > 0 with h(x) = ratio, where h rises and where it falls; floating point."""
-    family = named(gains.family, gains.m)
-    constants = family.constants()
+    constants, known = named(gains.family, gains.m).constants(), member(gains.family, gains.m)
     if constants.gamma is None or constants.gamma_at is None or not 1 < ratio < float(constants.gamma.upper):
         return []
 
+    def below(x: float) -> bool:
+        return float(known.h(arb(x)).mid()) < ratio
+
     def crossing(low: float, high: float) -> float:
-        rising = float(family.h(low)) < ratio
-        for _ in range(60):
+        rising = below(low)
+        for _ in range(HALVINGS):
             middle = (low + high) / 2
-            low, high = (middle, high) if (float(family.h(middle)) < ratio) == rising else (low, middle)
+            low, high = (middle, high) if below(middle) == rising else (low, middle)
         return low
 
     top = float(constants.gamma_at.mid)
-    return [crossing(0.0, top), crossing(top, 40.0)]
+    return [crossing(0.0, top), crossing(top, FAR)]
 
 
 def holds_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]:
@@ -285,10 +291,9 @@ def _cause(held: Sequence[HoldsCheck]) -> str:
 
 def falls(check: HoldsCheck, joints: Sequence[str]) -> str:
     """What is asked of a joint at a posture, and what holds it."""
-    assert check.judgement is not None
-    proof = check.judgement.proof
-    assert isinstance(proof, PostureWitness)
-    place = ", ".join(f"{degrees(x):.6g}" for x in proof.q)
+    proof = None if check.judgement is None else check.judgement.proof
+    q = proof.q if isinstance(proof, PostureWitness) else ()
+    place = ", ".join(f"{degrees(x):.6g}" for x in q)
     holds = "γ k_p and dry friction hold" if check.friction else "γ k_p holds"
     return (
         f"{joints[check.joint or 0]} falls: {check.unknown} asks {at_least(check.reached)} N·m at "

@@ -96,7 +96,8 @@ def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
     from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 
     proof = refuted.proof
-    assert isinstance(proof, GrowingMotion)
+    if not isinstance(proof, GrowingMotion):
+        return "unstable"
     place = ", ".join(f"{float(x):g}" for x in proof.goal)
     without = " without dry friction and with all gravity known" if alone else ""
     return f"unstable at {time_text(proof.period)}{without}, at the goal q_d = ({place})°"

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.simulate.simulation import (
     BREACH,
     Simulation,
@@ -171,9 +172,16 @@ class SetPointRuns(Simulation[Run]):
 
     def section(self, one: Run) -> Section:
         """A row a joint, and how far the run can be trusted."""
-        blocks: tuple[Block, ...] = (self.by_joint(one), Bullets(_facts(one)))
+        blocks: tuple[Block, ...] = (self.by_joint(one), Bullets((*_facts(one), *self._as_run(one))))
         start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
         return Section(f"{self.mark(one.name)} {headline(one, f'{start}° to {goal}°')}".strip(), blocks)
+
+    def plain_data(self, one: Run) -> dict[str, Any]:
+        """Also what the checker says of the loop."""
+        return {**super().plain_data(one), "as_run": self._as_run(one)}
+
+    def _as_run(self, one: Run) -> list[str]:
+        return running_sentences(self.judged.get(one.name, ()), one.joints)
 
 
 def _facts(one: Run) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -17,6 +17,7 @@ from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainFile
     from lyapcheck.simulate.run import Breach, Motion, Run
     from lyapcheck.simulate.starts import Sweep
@@ -70,6 +71,8 @@ class Simulation(Answer, Generic[Result]):
     arms: str = ""
     unsampled: bool = False
     """Whether a file says how a computer runs the loop, and the runs leave that out."""
+    judged: dict[str, tuple[Check, ...]] = field(default_factory=dict)
+    """What the checker says of each gain set as a computer runs it."""
 
     against = "promises broken by"
     """What is said of the gain sets that failed, before their number."""

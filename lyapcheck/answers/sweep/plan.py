@@ -25,7 +25,7 @@ Gain = Fraction | tuple[Fraction, ...]
 LONGEST_NAME = 120
 WITHOUT_GAINS = ("robot",)
 """What is asked of an arm alone."""
-TEXTS = ("condition", "only")
+TEXTS = ("condition", "only", "loop")
 """Options that are lists of texts; the others are lists of angles."""
 MOST = 100_000
 """Values of one row of a grid."""

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
     from lyapcheck.certificate import Certificate
     from lyapcheck.cli.parser import Parser
+    from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.bench import Bench
@@ -202,7 +203,20 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: Bench | None, stop: boo
                 broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
     if job.output.certificates is not None:
         write_certificates(job.output.certificates, broken)
-    return job.output.write_runs(SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms))
+    judged = {} if bench is None or job.varied else _judged(job, bench)
+    answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms, judged=judged)
+    return job.output.write_runs(answer)
+
+
+def _judged(job: Job, bench: Bench) -> dict[str, tuple[Check, ...]]:
+    """What the checker says of each gain set, run like that."""
+    from lyapcheck.answers.gate.judge import judged_sets
+    from lyapcheck.answers.running import runs_of
+    from lyapcheck.control.limits import model_limits
+
+    name, arms = job.model.name, {job.model.name: model_limits(job.model)}
+    results = judged_sets(job.file, name, arms=arms, explained=0, loop=bench.entry)
+    return {result.name: runs_of(result) for result in results}
 
 
 def follow(

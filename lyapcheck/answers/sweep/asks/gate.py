@@ -7,15 +7,16 @@ from dataclasses import replace
 from typing import Any
 
 from lyapcheck.answers.gate.answer import GateAnswer
-from lyapcheck.answers.gate.certificates import whole
+from lyapcheck.answers.gate.certificates import running_certificates, whole
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.answers.sweep.question import Answered, Question, UncertainArm, answered
 from lyapcheck.control.conditions import UNDECIDED
 from lyapcheck.control.gains import GainFile
 from lyapcheck.control.limits import arm_limits, varied_limits
+from lyapcheck.control.sampling import loop_of_options
 from lyapcheck.output.digits import at_least
 
-OPTIONS: dict[str, Any] = {"condition": (), "gamma": "true"}
+OPTIONS: dict[str, Any] = {"condition": (), "gamma": "true", "loop": ()}
 DIGITS = 6
 
 
@@ -25,7 +26,8 @@ def ask(questions: Sequence[Question], known: UncertainArm, options: Mapping[str
     if not known.limits:
         known.limits[robot] = varied_limits(robot, ranges) if ranges else arm_limits(robot)
     sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
-    file = GainFile("plan", robot, sets)
+    said = dict(text.partition("=")[::2] for text in options["loop"])
+    file = GainFile("plan", robot, sets, loop=loop_of_options(said))
     asked = options["condition"] or None
     results = judged_sets(file, None, asked, options["gamma"], arms=known.limits, explained=0)
     return [
@@ -40,8 +42,8 @@ def _answered(question: Question, result: GateResult, data: dict[str, object]) -
     undecided = [check.reason for check in result.failures if check.verdict == UNDECIDED]
     reason = next(iter([*undecided, result.grounds.missing]), "") if result.verdict == UNDECIDED else ""
     certificate = whole(result)
-    made = () if certificate is None else (certificate,)
-    return answered(question, result.spoken, data, made, reason, margin=_margin(result))
+    made = [*running_certificates(result), *([] if certificate is None else [certificate])]
+    return answered(question, result.spoken, data, tuple(made), reason, margin=_margin(result))
 
 
 def _margin(result: GateResult) -> float | None:
