@@ -1,9 +1,12 @@
 """Gains for targets: proposed for one joint, tried on the whole arm, accepted by the gate."""
 
+from __future__ import annotations
+
 import math
 import sys
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -33,14 +36,14 @@ WISHES = Wishes(overshoot=5, settle=1.5, rest_error=22)
 
 
 @pytest.fixture(scope="module")
-def tuned():
+def tuned() -> BenchTuning:
     """Both ways for m = 1 on the paper's arm, beside Table 2."""
     paper = replace(read_gain_file(paper_gain_file()), path="Table 2")
     return tune_for("buap3", Trials(WISHES, (PAPER_TASK,)), [1], against=paper)
 
 
 @pytest.mark.slow
-def test_stability_by_proof_meets_what_19_cannot(tuned):
+def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     theirs, by_19, by_proof = tuned.sets
     assert (theirs.source, by_19.stable, by_proof.stable) == ("Table 2", "(19)", "proof")
     assert (by_19.gains.condition, by_proof.gains.condition) == (("10p", "19"), ("10p", "scalar"))
@@ -58,7 +61,7 @@ def test_stability_by_proof_meets_what_19_cannot(tuned):
 
 
 @pytest.mark.slow
-def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band():
+def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band() -> None:
     """A joint that settles at 3.2 s, after the 3 s that are watched at least."""
     arm, gains = robots.load("pendulum1"), GainSet("slow", 1, (Fraction(3),), (Fraction(1, 10),))
     task = task_for(1, [0.8], None, None, 5.0)
@@ -70,7 +73,7 @@ def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band():
     assert not tried(gains, [arm], [task], Wishes(settle=0.1)).kept
 
 
-def test_stability_is_proved_over_the_ranges_that_are_asked_for():
+def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     """Friction that may vanish leaves LaSalle's theorem, where the nominal one gives a V that falls."""
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
@@ -81,7 +84,7 @@ def test_stability_is_proved_over_the_ranges_that_are_asked_for():
 
 
 @pytest.mark.slow
-def test_what_is_promised_of_gains_is_what_a_run_shows(tuned):
+def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> None:
     result = tuned.sets[-1]
     run = simulate(result.gains, robots.load("buap3"), PAPER_TASK.q_d, T=6.0)
     np.testing.assert_allclose(result.trial.overshoot, run.overshoot, rtol=1e-3, atol=1e-3)
@@ -95,7 +98,7 @@ def test_what_is_promised_of_gains_is_what_a_run_shows(tuned):
 
 
 @pytest.mark.slow
-def test_the_gate_accepts_the_gain_file(tuned, tmp_path):
+def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
     (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
     (by_proof,) = gate(read_gain_file(tmp_path / "g.toml"))
     assert (by_proof.name, by_proof.verdict) == ("tau_m1_proof", "accepted")
@@ -105,7 +108,7 @@ def test_the_gate_accepts_the_gain_file(tuned, tmp_path):
 
 
 @pytest.mark.slow
-def test_targets_that_nothing_reaches_are_said_to_be_not_reached():
+def test_targets_that_nothing_reaches_are_said_to_be_not_reached() -> None:
     bench = Trials(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
     tuning = tune_for("buap3", bench, [2])
     assert tuning.exit == Exit.UNDECIDED
@@ -114,7 +117,7 @@ def test_targets_that_nothing_reaches_are_said_to_be_not_reached():
     assert "misses settling time, simulated / target: base " in title
 
 
-def test_the_worst_of_all_arms_and_motions_counts():
+def test_the_worst_of_all_arms_and_motions_counts() -> None:
     model, gains = robots.load("buap3"), read_gain_file(paper_gain_file()).gains[0]
     heavy = model.fixed(base_inertia=2)
     near = replace(PAPER_TASK, q_d=(0.1, 0.1, 0.1))
@@ -125,14 +128,14 @@ def test_the_worst_of_all_arms_and_motions_counts():
 
 
 @pytest.mark.slow
-def test_one_joint_alone_is_tuned_to_its_targets():
+def test_one_joint_alone_is_tuned_to_its_targets() -> None:
     """A pendulum without gravity: the program's gains keep what was asked of it."""
     joint = Joint(0.5, 0.1, 0.0, 0.0, 0.8, math.inf, 50.0, 50.0)
     kp, kv = proposal(joint, named("hyperbolic", 1), Wishes(overshoot=2, settle=1.0))
     assert kp + kv <= 50.001
     from scipy.integrate import solve_ivp
 
-    def rate(_, y):
+    def rate(_: float, y: np.ndarray) -> list[float]:
         return [-y[1], (kp * math.tanh(y[0]) - kv * math.tanh(y[1]) - 0.1 * y[1]) / 0.5]
 
     t = np.linspace(0, 4, 4001)
@@ -141,7 +144,7 @@ def test_one_joint_alone_is_tuned_to_its_targets():
     assert np.all(np.abs(e[t > 1.05]) < 0.0205 * 0.8)
 
 
-def test_arms_without_limits_or_friction_are_told(tmp_path):
+def test_arms_without_limits_or_friction_are_told(tmp_path: Path) -> None:
     bench = Trials(Wishes(overshoot=5), (replace(PAPER_TASK, q_d=(0.5, 0.5), q0=(0.0, 0.0), w0=(0.0, 0.0)),))
     tuning = tune_for("pelican2", bench, [1])
     assert tuning.exit == Exit.UNDECIDED
@@ -151,7 +154,7 @@ def test_arms_without_limits_or_friction_are_told(tmp_path):
 @pytest.mark.parametrize(
     ("wishes", "option"), [({"overshoot": 0}, "--overshoot"), ({"peak_share": 2}, "--peak-share")]
 )
-def test_targets_that_mean_nothing_are_refused(wishes, option):
+def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option: str) -> None:
     with pytest.raises(InputError, match=option):
         Wishes(**wishes)
 
@@ -168,7 +171,9 @@ def test_targets_that_mean_nothing_are_refused(wishes, option):
         (["--settle", "1", "--start", "45,45,90"], "is where the motion starts"),
     ],
 )
-def test_options_that_do_not_fit_are_refused(monkeypatch, capsys, words, said):
+def test_options_that_do_not_fit_are_refused(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
     monkeypatch.setattr(sys, "argv", ["lyapcheck", "tune", "buap3", *words])
     with pytest.raises(SystemExit) as left:
         cli.main()
@@ -177,7 +182,7 @@ def test_options_that_do_not_fit_are_refused(monkeypatch, capsys, words, said):
 
 
 @pytest.mark.slow
-def test_gains_are_of_so_many_digits(tuned):
+def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
     for one in tuned.own:
         assert isinstance(one.gains, GainSet)
         assert all((k * 1000).denominator == 1 and k > 0 for k in (*one.gains.kp, *one.gains.kv))
@@ -185,7 +190,7 @@ def test_gains_are_of_so_many_digits(tuned):
 
 
 @pytest.mark.slow
-def test_targets_are_written_only_where_a_set_meets_them(tmp_path):
+def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None:
     """1000 is met by every set, 10⁻⁹ by none; then ``--best`` writes one, marked."""
     arm, out = tmp_path / "arm.toml", tmp_path / "gains.toml"
     arm.write_text(ONE_JOINT)
@@ -223,7 +228,7 @@ torque_limit = 10
 """.format(coulomb="0.1")
 
 
-def test_a_target_that_is_met_to_the_last_digit_is_told():
+def test_a_target_that_is_met_to_the_last_digit_is_told() -> None:
     """Without overshoot the worst ratio is 0, and nothing is divided by it."""
     task = task_for(1, [0.8], None, None, 5.0)
     tuning = tune_for("pendulum1", Trials(Wishes(overshoot=1000), (task,)), [1])
@@ -250,7 +255,9 @@ NUMBERS = st.one_of(st.just(math.nan), KNOWN)
     ),
     kept=st.booleans(),
 )
-def test_every_number_of_a_trial_has_words(rows, asked, kept):
+def test_every_number_of_a_trial_has_words(
+    rows: list[tuple[tuple[float, ...], ...]], asked: Wishes, kept: bool
+) -> None:
     model, bench = robots.load("reyes-kelly2"), Trials(asked, (task_for(2, [0.8, 0.8], None, None, 5.0),))
     sets = []
     for k, row in enumerate(rows):
