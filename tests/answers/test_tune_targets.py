@@ -1,9 +1,12 @@
 """Gains for targets: proposed for one joint, tried on the whole arm, accepted by the gate."""
 
+from __future__ import annotations
+
 import math
 import sys
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -44,14 +47,14 @@ WISHES = Wishes(overshoot=8, settle=2.2, rest_error=22)
 
 
 @pytest.fixture(scope="module")
-def tuned():
+def tuned() -> BenchTuning:
     """Both ways for m = 1 on the paper's arm, beside Table 2."""
     paper = replace(read_gain_file(paper_gain_file()), path="Table 2")
     return tune_for("buap3", Trials(WISHES, (PAPER_TASK,)), [1], against=paper)
 
 
 @pytest.mark.slow
-def test_stability_by_proof_meets_what_19_cannot(tuned):
+def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     theirs, by_19, by_proof = tuned.sets
     assert (theirs.source, by_19.stable, by_proof.stable) == ("Table 2", "(19)", "proof")
     assert (by_19.gains.condition, by_proof.gains.condition) == (("10i", "19"), ("10i", "scalar"))
@@ -69,7 +72,7 @@ def test_stability_by_proof_meets_what_19_cannot(tuned):
 
 
 @pytest.mark.slow
-def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band():
+def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band() -> None:
     """A joint that settles at 3.2 s, after the 3 s that are watched at least."""
     arm, gains = robots.load("pendulum1"), GainSet("slow", 1, (Fraction(3),), (Fraction(1, 10),))
     task = task_for(1, [0.8], None, None, 5.0)
@@ -81,7 +84,7 @@ def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band():
     assert not tried(gains, [arm], Trials(Wishes(settle=0.1), (task,))).kept
 
 
-def test_stability_is_proved_over_the_ranges_that_are_asked_for():
+def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     """Friction that may vanish leaves LaSalle's theorem, where the nominal one gives a V that falls."""
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
@@ -108,7 +111,7 @@ def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning):
 
 
 @pytest.mark.slow
-def test_the_gate_accepts_the_gain_file(tuned, tmp_path):
+def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
     (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
     (by_proof,) = gate(read_gain_file(tmp_path / "g.toml"))
     assert (by_proof.name, by_proof.verdict) == ("tau_m1_proof", "accepted")
@@ -118,7 +121,7 @@ def test_the_gate_accepts_the_gain_file(tuned, tmp_path):
 
 
 @pytest.mark.slow
-def test_targets_that_nothing_reaches_are_said_to_be_not_reached():
+def test_targets_that_nothing_reaches_are_said_to_be_not_reached() -> None:
     bench = Trials(Wishes(settle=0.01), (PAPER_TASK,), ("proof",))
     tuning = tune_for("buap3", bench, [2])
     assert tuning.exit == Exit.UNDECIDED
@@ -127,7 +130,7 @@ def test_targets_that_nothing_reaches_are_said_to_be_not_reached():
     assert "misses settling time, simulated / target: base " in title
 
 
-def test_the_worst_of_all_arms_and_motions_counts():
+def test_the_worst_of_all_arms_and_motions_counts() -> None:
     model, gains = robots.load("buap3"), read_gain_file(paper_gain_file()).gains[0]
     heavy = model.fixed(base_inertia=2)
     near = replace(PAPER_TASK, q_d=(0.1, 0.1, 0.1))
@@ -189,7 +192,7 @@ def test_gains_that_a_computer_cannot_run_are_told_from_those_that_it_can():
     assert float(found.gains.kv[0]) <= 0.5 * 0.25 / (0.01 * 2)
 
 
-def test_arms_without_limits_or_friction_are_told(tmp_path):
+def test_arms_without_limits_or_friction_are_told(tmp_path: Path) -> None:
     bench = Trials(Wishes(overshoot=5), (replace(PAPER_TASK, q_d=(0.5, 0.5), q0=(0.0, 0.0), w0=(0.0, 0.0)),))
     tuning = tune_for("pelican2", bench, [1])
     assert tuning.exit == Exit.UNDECIDED
@@ -199,7 +202,7 @@ def test_arms_without_limits_or_friction_are_told(tmp_path):
 @pytest.mark.parametrize(
     ("wishes", "option"), [({"overshoot": 0}, "--overshoot"), ({"peak_share": 2}, "--peak-share")]
 )
-def test_targets_that_mean_nothing_are_refused(wishes, option):
+def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option: str) -> None:
     with pytest.raises(InputError, match=option):
         Wishes(**wishes)
 
@@ -220,7 +223,9 @@ def test_targets_that_mean_nothing_are_refused(wishes, option):
         (["--settle", "1", "--start", "45,45,90"], "is where the motion starts"),
     ],
 )
-def test_options_that_do_not_fit_are_refused(monkeypatch, capsys, words, said):
+def test_options_that_do_not_fit_are_refused(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
     monkeypatch.setattr(sys, "argv", ["lyapcheck", "tune", "buap3", *words])
     with pytest.raises(SystemExit) as left:
         cli.main()
@@ -229,7 +234,7 @@ def test_options_that_do_not_fit_are_refused(monkeypatch, capsys, words, said):
 
 
 @pytest.mark.slow
-def test_gains_are_of_so_many_digits(tuned):
+def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
     for one in tuned.own:
         assert isinstance(one.gains, GainSet)
         assert all((k * 1000).denominator == 1 and k > 0 for k in (*one.gains.kp, *one.gains.kv))
@@ -237,7 +242,7 @@ def test_gains_are_of_so_many_digits(tuned):
 
 
 @pytest.mark.slow
-def test_targets_are_written_only_where_a_set_meets_them(tmp_path):
+def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None:
     """1000 is met by every set, 10⁻⁹ by none; then ``--best`` writes one, marked."""
     arm, out = tmp_path / "arm.toml", tmp_path / "gains.toml"
     arm.write_text(ONE_JOINT)
@@ -275,7 +280,7 @@ torque_limit = 10
 """.format(coulomb="0.1")
 
 
-def test_a_target_that_is_met_to_the_last_digit_is_told():
+def test_a_target_that_is_met_to_the_last_digit_is_told() -> None:
     """Without overshoot the worst ratio is 0, and nothing is divided by it."""
     task = task_for(1, [0.8], None, None, 5.0)
     tuning = tune_for("pendulum1", Trials(Wishes(overshoot=1000), (task,)), [1])
@@ -302,7 +307,9 @@ NUMBERS = st.one_of(st.just(math.nan), KNOWN)
     ),
     kept=st.booleans(),
 )
-def test_every_number_of_a_trial_has_words(rows, asked, kept):
+def test_every_number_of_a_trial_has_words(
+    rows: list[tuple[tuple[float, ...], ...]], asked: Wishes, kept: bool
+) -> None:
     model, bench = robots.load("reyes-kelly2"), Trials(asked, (task_for(2, [0.8, 0.8], None, None, 5.0),))
     sets = []
     for k, row in enumerate(rows):

@@ -36,6 +36,7 @@ def ended(tmp_path_factory):
     done = subprocess.run(
         [sys.executable, "-m", "tests.cli.user_files", str(folder)],
         cwd=ROOT,
+        env={**os.environ, "MALLOC_ARENA_MAX": "1"},  # a heap of 64 MB a thread would be growth
         capture_output=True,
         text=True,
         check=False,

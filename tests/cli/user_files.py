@@ -9,6 +9,7 @@ import os
 import resource
 import shutil
 import sys
+import threading
 from pathlib import Path
 
 from tests.helpers.command import lyapcheck
@@ -74,6 +75,7 @@ def main(folder):
     """Run all commands on all kinds in a folder, and print a list of what came of it."""
     for name, text in (("gains", GAINS), ("recorded", RECORDED), ("overlay", OVERLAY)):
         (folder / f"{name}.toml").write_text(text, encoding="utf-8")
+    threading.stack_size(1 << 18)  # those of timers that are cancelled and not yet gone are no growth either
     result = []
     with one_process():
         for kind in KINDS:

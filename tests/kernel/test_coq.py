@@ -1,5 +1,7 @@
 """Coq's kernel itself: what it accepts, what it refuses, and what is said where there is no Coq."""
 
+from __future__ import annotations
+
 import json
 import re
 import shutil
@@ -7,11 +9,13 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
 from lyapcheck.answers.recheck import _copied
-from lyapcheck.check.certificate import certificate_of
+from lyapcheck.check.certificate import Certificate, certificate_of
 from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
@@ -28,7 +32,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.errors import InputError
 from lyapcheck.kernel import coq
-from lyapcheck.kernel.coq import Coq, CoqRefused, axioms_of, formal, golden, sources
+from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, formal, golden, sources
 from lyapcheck.kernel.judge import HEAD, judged, theorem_file
 from lyapcheck.kernel.sampled import sampled_script
 from lyapcheck.kernel.statements import proposition
@@ -40,7 +44,9 @@ from tests.kernel.test_statements import GOOD, OWN
 needs_coq = pytest.mark.skipif(shutil.which("coqc") is None, reason="needs coqc")
 
 
-def test_without_coqc_it_says_what_to_install(monkeypatch, capsys):
+def test_without_coqc_it_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     from lyapcheck.cli.main import main
 
     place = str(GOOD / "pub.7g.m1.json")
@@ -55,7 +61,7 @@ def test_without_coqc_it_says_what_to_install(monkeypatch, capsys):
     assert "apt-get install --no-install-recommends coq libcoq-interval" in err
 
 
-def test_a_folder_that_cannot_take_the_files_is_named(tmp_path):
+def test_a_folder_that_cannot_take_the_files_is_named(tmp_path: Path) -> None:
     (tmp_path / "from" / "library").mkdir(parents=True)
     (tmp_path / "to").mkdir()
     (tmp_path / "to" / "library").write_text("something else")
@@ -63,13 +69,13 @@ def test_a_folder_that_cannot_take_the_files_is_named(tmp_path):
         _copied(str(tmp_path / "from"), tmp_path / "to")
 
 
-def test_nothing_of_the_library_is_left_out_or_assumed():
+def test_nothing_of_the_library_is_left_out_or_assumed() -> None:
     forbidden = re.compile(r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|bypass_check|Unset)\b")
     assert {path.name for path in formal().glob("*.v")} == {*sources(), "Headlines.v"}
     assert not [name for name in sources() if forbidden.search((formal() / name).read_text(encoding="utf-8"))]
 
 
-def test_the_golden_lists_are_coqs_and_no_longer():
+def test_the_golden_lists_are_coqs_and_no_longer() -> None:
     assert golden("real") == {
         "ClassicalDedekindReals.sig_forall_dec",
         "ClassicalDedekindReals.sig_not_dec",
@@ -80,7 +86,7 @@ def test_the_golden_lists_are_coqs_and_no_longer():
     assert modules == {"PrimInt63", "Uint63", "PrimFloat", "FloatAxioms"}
 
 
-def test_axioms_are_read_line_by_line():
+def test_axioms_are_read_line_by_line() -> None:
     assert axioms_of("Closed under the global context\n") == set()
     assert axioms_of("Axioms:\nA.b : nat\nC.long\n  : forall n,\n    n = n\n") == {"A.b", "C.long"}
     with pytest.raises(CoqRefused, match="is assumed"):
@@ -90,10 +96,10 @@ def test_axioms_are_read_line_by_line():
 
 
 @pytest.fixture(scope="module")
-def shown(tmp_path_factory):
+def shown(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, CompletedProcess[str]]:
     """What the command says, and its files, where compiled files of something else had been before."""
 
-    def made():
+    def made() -> tuple[Path, CompletedProcess[str]]:
         place = tmp_path_factory.mktemp("shown")
         library = place / "library"
         library.mkdir()
@@ -110,21 +116,21 @@ def shown(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def folder(shown, tmp_path_factory):
+def folder(shown: tuple[Path, CompletedProcess[str]], tmp_path_factory: pytest.TempPathFactory) -> Path:
     """One for Coq, with the library that the command has compiled."""
     place = tmp_path_factory.mktemp("kernel")
     shutil.copytree(shown[0] / "library", place / "library")
     return place
 
 
-def asked(folder, *places):
+def asked(folder: Path, *places: str) -> dict[str, Kernel]:
     outcome = recheck(gather([GOOD / place for place in places]))
     return {one.file: one for one in judged(outcome, folder, 600, lambda note: None)}
 
 
 @needs_coq
 @pytest.mark.slow
-def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms(folder):
+def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms(folder: Path) -> None:
     result = asked(
         folder, "pub.7g.m1.json", "ext.V-is-positive-definite.json", "pub.17a.json", "pub.2.8.json"
     )
@@ -142,7 +148,7 @@ def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms
 
 @needs_coq
 @pytest.mark.slow
-def test_the_kernel_refuses_what_is_false(folder):
+def test_the_kernel_refuses_what_is_false(folder: Path) -> None:
     """Theorems with one number changed, behind the back of the small checker."""
     ours = Coq(folder, 600)
     head = "Require Import Lyapcheck.Certificates.\nOpen Scope R_scope.\n"
@@ -153,7 +159,7 @@ def test_the_kernel_refuses_what_is_false(folder):
             ours.accept("false_one", head + false)
 
 
-def faulty(one):
+def faulty(one: Certificate) -> dict[str, Certificate]:
     """The certificate of an ε₀ with one thing wrong in each."""
     statement, proof = one.statement, one.proof
     assert isinstance(statement, Decreasing)
@@ -178,7 +184,7 @@ ONE = certificate_of((OWN / "reyes-kelly2.m1.certified.json").read_bytes())[0]
 
 
 @pytest.mark.parametrize("name", faulty(ONE))
-def test_the_small_checker_refuses_planted_faults(name):
+def test_the_small_checker_refuses_planted_faults(name: str) -> None:
     with pytest.raises((Refused, BrokenTree)):
         verify(faulty(ONE)[name].statement, faulty(ONE)[name].proof)
 
@@ -186,7 +192,7 @@ def test_the_small_checker_refuses_planted_faults(name):
 STATE = certificate_of((OWN / "reyes-kelly2.m1.falsified.json").read_bytes())[0]
 
 
-def faulty_state():
+def faulty_state() -> dict[str, Certificate]:
     """The certificate of a refuted ε₀ with one thing wrong in each."""
     statement, proof = STATE.statement, STATE.proof
     assert isinstance(statement, Decreasing)
@@ -202,14 +208,14 @@ def faulty_state():
 
 
 @pytest.mark.parametrize("name", faulty_state())
-def test_the_small_checker_refuses_faults_planted_in_a_state(name):
+def test_the_small_checker_refuses_faults_planted_in_a_state(name: str) -> None:
     with pytest.raises(Refused):
         verify(faulty_state()[name].statement, faulty_state()[name].proof)
 
 
 @needs_coq
 @pytest.mark.slow
-def test_a_state_against_an_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder):
+def test_a_state_against_an_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder: Path) -> None:
     ours = Coq(folder, 600)
     ours.accept("state", theorem_file(STATE))
     printed = ours.accept("asked_state", "Require Printed.state.\nPrint Assumptions Printed.state.claim.\n")
@@ -221,7 +227,7 @@ def test_a_state_against_an_eps0_is_a_theorem_of_coqs_and_planted_faults_are_non
 
 @needs_coq
 @pytest.mark.slow
-def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder):
+def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folder: Path) -> None:
     ours = Coq(folder, 600)
     ours.accept("certified", theorem_file(ONE))
     printed = ours.accept("asked", "Require Printed.certified.\nPrint Assumptions Printed.certified.claim.\n")
@@ -231,7 +237,7 @@ def test_a_certified_eps0_is_a_theorem_of_coqs_and_planted_faults_are_none(folde
             ours.accept("fault", false)
 
 
-def less(one):
+def less(one: Certificate) -> Certificate:
     """The certificate with a hundredth less on the right, of its first part if it has several."""
     statement, proof = one.statement, one.proof
     if isinstance(statement, AllOf):
@@ -250,7 +256,9 @@ def less(one):
 @needs_coq
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["ext.norms", "pub.12", "arc.share"])
-def test_statements_for_every_n_and_implications_are_theorems_of_coqs_and_false_ones_are_none(folder, name):
+def test_statements_for_every_n_and_implications_are_theorems_of_coqs_and_false_ones_are_none(
+    folder: Path, name: str
+) -> None:
     one = certificate_of((GOOD / f"{name}.json").read_bytes())[0]
     ours = Coq(folder, 600)
     ours.accept("every_n", theorem_file(one))
@@ -282,7 +290,7 @@ REALS = {
 
 @needs_coq
 @pytest.mark.slow
-def test_names_of_statements_are_those_of_the_page_of_definitions_and_of_coqs_reals(folder):
+def test_names_of_statements_are_those_of_the_page_of_definitions_and_of_coqs_reals(folder: Path) -> None:
     """Other files of the library have vectors and norms of their own."""
     places = {name: f"Lyapcheck.Definitions.{name}" for name in DEFINED.split()}
     places |= {name: f"Coq.Reals.{place}" for name, place in REALS.items()}
@@ -306,12 +314,12 @@ def test_names_of_statements_are_those_of_the_page_of_definitions_and_of_coqs_re
         "2.1",
     ],
 )
-def test_claims_of_the_table_are_theorems_of_coqs(folder, name):
+def test_claims_of_the_table_are_theorems_of_coqs(folder: Path, name: str) -> None:
     one = certificate_of((OWN / f"{name}.json").read_bytes())[0]
     Coq(folder, 600).accept("one_of_the_table", theorem_file(one))
 
 
-def false_ones():
+def false_ones() -> dict[str, Certificate]:
     """Statements with one number changed, so that they are false."""
     arm = certificate_of((OWN / "arm.21.m1.json").read_bytes())[0]
     heavy, small, printed = (
@@ -335,7 +343,7 @@ def false_ones():
 @needs_coq
 @pytest.mark.slow
 @pytest.mark.parametrize("name", false_ones())
-def test_false_statements_of_the_table_are_no_theorems_of_coqs(folder, name):
+def test_false_statements_of_the_table_are_no_theorems_of_coqs(folder: Path, name: str) -> None:
     with pytest.raises(CoqRefused):
         Coq(folder, 600).accept("false_of_the_table", theorem_file(false_ones()[name]))
 
@@ -376,8 +384,8 @@ def test_an_axiom_of_its_own_is_no_proof(folder):
 @needs_coq
 @pytest.mark.slow
 def test_the_command_shows_it_and_believes_no_file_that_is_there(
-    shown,
-):
+    shown: tuple[Path, CompletedProcess[str]],
+) -> None:
     place, done = shown
     assert done.returncode == 0, done.stderr
     (row,) = json.loads(done.stdout)["certificates"]

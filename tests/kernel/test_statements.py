@@ -1,5 +1,7 @@
 """What Coq is asked is printed from a certificate: all of its data, nothing else, byte for byte."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -7,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.check.certificate import certificate_of
+from lyapcheck.check.certificate import Certificate, certificate_of
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.stability import Stable
@@ -27,7 +29,7 @@ GOLDEN = HERE / "statements.txt"
 
 
 @cache
-def certificates():
+def certificates() -> list[tuple[str, Certificate]]:
     """The committed certificates by their places."""
     return [
         (path.relative_to(folder).as_posix(), certificate_of(path.read_bytes())[0])
@@ -36,9 +38,9 @@ def certificates():
     ]
 
 
-def page():
+def page() -> str:
     """All pairs, each statement once."""
-    lines = {}
+    lines: dict[str, None] = {}
     for _, one in certificates():
         try:
             theorem_file(one)
@@ -51,11 +53,11 @@ def page():
 
 
 @pytest.mark.slow
-def test_what_coq_is_asked_is_what_is_written_down():
+def test_what_coq_is_asked_is_what_is_written_down() -> None:
     assert page() == GOLDEN.read_text(encoding="utf-8")
 
 
-def test_every_number_of_a_statement_is_in_the_theorem():
+def test_every_number_of_a_statement_is_in_the_theorem() -> None:
     relation = Relation(("h", 7, ("var", "x")), "<=", ("num", "4115/226"))
     asked = shown(
         ForAll(relation, Fraction(-3, 4), None, open_low=True), certificates()[0][1].proof, "proved"
@@ -63,7 +65,7 @@ def test_every_number_of_a_statement_is_in_the_theorem():
     assert asked == "forall v_x : R, ((-3 / 4) < v_x) -> ((h 7 v_x) <= (4115 / 226))"
 
 
-def numbers_changed(value):
+def numbers_changed(value: object) -> object:
     """The same statement with another number in it, the first that there is."""
     if isinstance(value, Relation):
         return replace(value, right=("add", value.right, ("num", "1/7")))
@@ -73,14 +75,14 @@ def numbers_changed(value):
 @pytest.mark.parametrize(
     "place", one_in(2, ["pub.7g.m1.json", "pub.T2.pd.base.json", "pub.17a.json", "pub.18.json"])
 )
-def test_another_number_is_another_theorem(place):
+def test_another_number_is_another_theorem(place: str) -> None:
     one = dict(certificates())[place]
     name = "conclusion" if hasattr(one.statement, "conclusion") else "relation"
     other = replace(one.statement, **{name: numbers_changed(getattr(one.statement, name))})
     assert shown(other, one.proof, one.verdict) != shown(one.statement, one.proof, one.verdict)
 
 
-def test_the_tracking_scheme_is_printed_of_its_own_torque_alone():
+def test_the_tracking_scheme_is_printed_of_its_own_torque_alone() -> None:
     one = dict(certificates())["21.m1.json"].statement
     assert isinstance(one, Stable)
     system = one.argument.system
@@ -92,7 +94,7 @@ def test_the_tracking_scheme_is_printed_of_its_own_torque_alone():
         proposition(less)
 
 
-def test_an_arm_that_tracks_is_printed_with_the_velocity_of_its_goal():
+def test_an_arm_that_tracks_is_printed_with_the_velocity_of_its_goal() -> None:
     one = dict(certificates())["arm.21.m1.json"].statement
     assert isinstance(one, StableArm)
     assert proposition(one).endswith(" (117843957 # 3355443200)%Q (2 # 1)%Q")
@@ -101,7 +103,7 @@ def test_an_arm_that_tracks_is_printed_with_the_velocity_of_its_goal():
         proposition(replace(one, numbers=without))
 
 
-def test_a_coriolis_matrix_that_is_printed_is_not_taken_for_that_of_christoffel():
+def test_a_coriolis_matrix_that_is_printed_is_not_taken_for_that_of_christoffel() -> None:
     with pytest.raises(NotPrinted, match="a printed Coriolis matrix"):
         proposition(dict(certificates())["ext.RateOfMass.printed.json"].statement)
 
@@ -142,19 +144,19 @@ def test_a_letter_of_a_certificate_is_not_taken_for_the_vector_of_a_norm() -> No
 
 
 @pytest.mark.parametrize("name", ["x. Admitted", "x)(", "forall", "α", "x′", "h", "(*", "e_1", "e1"])
-def test_no_name_of_a_variable_is_a_word_of_coqs(name):
+def test_no_name_of_a_variable_is_a_word_of_coqs(name: str) -> None:
     printed = identifier(name)
     assert printed.startswith("v_")
     assert printed.replace("_", "").isalnum()
     assert printed.isascii()
 
 
-def test_different_names_are_different_identifiers():
+def test_different_names_are_different_identifiers() -> None:
     names = ["e_1", "e1", "e", "e_", "e′", "ε", "_3b5_", "e_5f_1", "e__1"]
     assert len({identifier(name) for name in names}) == len(names)
 
 
-def test_an_operation_that_coqs_reals_do_not_have_is_not_printed():
+def test_an_operation_that_coqs_reals_do_not_have_is_not_printed() -> None:
     with pytest.raises(NotPrinted, match="sech"):
         expression(("sech", ("var", "x")))
 
@@ -162,5 +164,5 @@ def test_an_operation_that_coqs_reals_do_not_have_is_not_printed():
 @pytest.mark.parametrize(
     ("value", "text"), [("-1/2", "(-1 / 2)"), ("3", "3"), ("-3", "(-3)"), ("7/3", "(7 / 3)")]
 )
-def test_numbers_bind_tightly(value, text):
+def test_numbers_bind_tightly(value: str, text: str) -> None:
     assert rational(Fraction(value)) == text
