@@ -132,7 +132,7 @@ BAD = [
     ("report --format html,docx", ["'docx' is not a format"]),
     ("report --robot nobody", ["robot = nobody: is neither"]),
     ("report --gains none.toml", ["none.toml: file: cannot be read"]),
-    ("report --out TABLE2", ["--out = TABLE2: is a file; name a folder"]),
+    ("report --out TABLE2", ["--out = TABLE2: cannot be made (File exists)"]),
 ]
 
 

@@ -33,7 +33,7 @@ from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
-from lyapcheck.report.build import build, render, require_folder, write
+from lyapcheck.report.build import build, render, write
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
 from lyapcheck.report.drawings import file_stem
@@ -340,13 +340,6 @@ def test_a_refused_write_leaves_the_old_report_whole(tmp_path: Path) -> None:
         write({"figures/a.svg": "new", "report.md": "new"}, tmp_path)
     assert (tmp_path / "report.md").read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["figures", "report.md"]
-
-
-def test_a_folder_that_is_a_file_is_refused_before_any_work(tmp_path: Path) -> None:
-    (tmp_path / "out").write_text("")
-    with pytest.raises(InputError, match="is a file"):
-        require_folder("--out", tmp_path / "out")
-    require_folder("--out", tmp_path / "new" / "deep")
 
 
 def test_a_refusal_in_another_process_comes_back_whole() -> None:
