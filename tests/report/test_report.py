@@ -40,9 +40,8 @@ from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_plot, indices_plot
 from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
-from lyapcheck.report.gain_rows import EpsilonRow
 from lyapcheck.report.jobs import done, map_job
-from lyapcheck.report.model import Report, Subject, anchor, applies
+from lyapcheck.report.model import EpsilonRow, Report, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
 from lyapcheck.report.text import span_words, witness_words
