@@ -15,6 +15,7 @@ import os
 import stat
 import tempfile
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -103,15 +104,12 @@ def made_with() -> str:
 
 @cache
 def _versions() -> tuple[tuple[str, str], ...]:
-    return tuple((name, _version(name)) for name in BEHIND)
-
-
-def _version(name: str) -> str:
-    """Of a package, empty where it is not installed."""
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return ""
+    """Of each package, empty where it is not installed."""
+    known = {}
+    for name in BEHIND:
+        with suppress(PackageNotFoundError):
+            known[name] = version(name)
+    return tuple((name, known.get(name, "")) for name in BEHIND)
 
 
 def exact(*subjects: object) -> str:

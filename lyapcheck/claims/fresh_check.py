@@ -64,31 +64,21 @@ def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
     if not certificates:
         return {}
     files = {f"{number}.json": key for number, key in enumerate(certificates)}
-    answer = answer_of({name: certificates[key].text() for name, key in files.items()})
-    if answer["alarms"]:
-        raise ContradictionError(
-            [(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]]
-        )
-    rows = {row["file"]: row for row in answer["certificates"]}
-    return {key: _judged(rows[name], certificates[key]) for name, key in files.items()}
-
-
-def answer_of(files: Mapping[str, str]) -> dict[str, Any]:
-    """What a fresh process of the checker answers about certificates, texts by the names of their files.
-
-    Raises:
-        RuntimeError: it does not answer.
-    """
     with temporary_folder() as folder:
-        for name, text in files.items():
-            Path(folder, name).write_text(text, encoding="utf-8")
+        for name, key in files.items():
+            Path(folder, name).write_text(certificates[key].text(), encoding="utf-8")
         words = command("lyapcheck.check", "--format", "json", folder)
         run = subprocess.run(words, capture_output=True, env=environment(), check=False)
     try:
         answer: dict[str, Any] = json.loads(run.stdout)
     except ValueError as error:
         raise RuntimeError(f"the checker fails: {run.stderr.decode('utf-8', 'replace').strip()}") from error
-    return answer
+    if answer["alarms"]:
+        raise ContradictionError(
+            [(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]]
+        )
+    rows = {row["file"]: row for row in answer["certificates"]}
+    return {key: _judged(rows[name], certificates[key]) for name, key in files.items()}
 
 
 def _judged(row: dict[str, Any], certificate: Certificate) -> Judged:

@@ -7,7 +7,6 @@ import os
 import platform
 import shutil
 import subprocess
-import tempfile
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -15,7 +14,7 @@ from functools import cache
 from pathlib import Path
 
 from lyapcheck import store
-from lyapcheck.temporary import pending
+from lyapcheck.temporary import temporary_folder
 
 OFF = "LYAPCHECK_NO_COMPILER"
 """Set to 1, this environment variable keeps lyapcheck from compiling anything."""
@@ -130,7 +129,7 @@ def library(key: str, command: str, source: Callable[[], str | None]) -> ctypes.
         source: writes the C text; asked only where nothing is kept.
     """
     try:
-        with tempfile.TemporaryDirectory(prefix="lyapcheck-") as name, pending(name):
+        with temporary_folder() as name:
             path = Path(name, "kernel.so")
             body = store.kept(ROOM, f"{key}.so")
             if body is not None:

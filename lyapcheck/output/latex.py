@@ -22,36 +22,32 @@ def render(document: doc.Document) -> str:
 def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
     for block in blocks:
         yield ""
-        yield from _block(block, level)
-
-
-def _block(block: doc.Block, level: int) -> Iterator[str]:
-    match block:
-        case doc.Paragraph(text):
-            yield latex_text(text)
-        case doc.Bullets(items):
-            yield r"\begin{itemize}"
-            yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
-            yield r"\end{itemize}"
-        case doc.Code(text):
-            yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
-        case doc.Equation(_, latex):
-            yield from (r"\[", printable(latex), r"\]")
-        case doc.Figure(path, caption):
-            yield from (latex_text(caption), r"\begin{quote}\ttfamily", latex_text(path), r"\end{quote}")
-        case doc.Section(title, blocks):
-            yield f"{HEADINGS[min(level, len(HEADINGS) - 1)]}{{{latex_text(title)}}}"
-            yield from _blocks(blocks, level + 1)
-        case doc.Table():
-            if block.caption:
-                yield from (latex_text(block.caption), "")
-            columns = map(_column, zip(block.heads, *block.rows, strict=True), block.align)
-            yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
-            yield r"\hline"
-            yield _row(block.heads)
-            yield r"\hline"
-            yield from map(_row, block.rows)
-            yield from (r"\hline", r"\end{tabular}")
+        match block:
+            case doc.Paragraph(text):
+                yield latex_text(text)
+            case doc.Bullets(items):
+                yield r"\begin{itemize}"
+                yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
+                yield r"\end{itemize}"
+            case doc.Code(text):
+                yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
+            case doc.Equation(_, latex):
+                yield from (r"\[", printable(latex), r"\]")
+            case doc.Figure(path, caption):
+                yield from (latex_text(caption), r"\begin{quote}\ttfamily", latex_text(path), r"\end{quote}")
+            case doc.Section(title, inner):
+                yield f"{HEADINGS[min(level, len(HEADINGS) - 1)]}{{{latex_text(title)}}}"
+                yield from _blocks(inner, level + 1)
+            case doc.Table():
+                if block.caption:
+                    yield from (latex_text(block.caption), "")
+                columns = map(_column, zip(block.heads, *block.rows, strict=True), block.align)
+                yield rf"\begin{{tabular}}{{{''.join(columns)}}}"
+                yield r"\hline"
+                yield _row(block.heads)
+                yield r"\hline"
+                yield from map(_row, block.rows)
+                yield from (r"\hline", r"\end{tabular}")
 
 
 def _lines(text: str) -> Iterator[str]:

@@ -19,30 +19,26 @@ def render(document: doc.Document, level: int = 1) -> str:
 def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
     for block in blocks:
         yield ""
-        yield from _block(block, level)
-
-
-def _block(block: doc.Block, level: int) -> Iterator[str]:
-    match block:
-        case doc.Paragraph(text):
-            yield markdown_text(text)
-        case doc.Bullets(items):
-            yield from _bullets(items)
-        case doc.Code(text):
-            yield from _fenced(text)
-        case doc.Equation(_, latex):
-            yield from _fenced(latex, "math")
-        case doc.Figure(path, caption):
-            yield from (f"![{markdown_text(caption)}]({quote(path)})", "", markdown_text(caption))
-        case doc.Section(title, blocks):
-            yield f"{'#' * min(level, 6)} {markdown_text(title)}"
-            yield from _blocks(blocks, level + 1)
-        case doc.Table():
-            if block.caption:
-                yield from (markdown_text(block.caption), "")
-            yield _row(block.heads)
-            yield f"| {' | '.join('---' if side == 'l' else '---:' for side in block.align)} |"
-            yield from map(_row, block.rows)
+        match block:
+            case doc.Paragraph(text):
+                yield markdown_text(text)
+            case doc.Bullets(items):
+                yield from (f"- {markdown_text(item)}" for item in items)
+            case doc.Code(text):
+                yield from _fenced(text)
+            case doc.Equation(_, latex):
+                yield from _fenced(latex, "math")
+            case doc.Figure(path, caption):
+                yield from (f"![{markdown_text(caption)}]({quote(path)})", "", markdown_text(caption))
+            case doc.Section(title, inner):
+                yield f"{'#' * min(level, 6)} {markdown_text(title)}"
+                yield from _blocks(inner, level + 1)
+            case doc.Table():
+                if block.caption:
+                    yield from (markdown_text(block.caption), "")
+                yield _row(block.heads)
+                yield f"| {' | '.join('---' if side == 'l' else '---:' for side in block.align)} |"
+                yield from map(_row, block.rows)
 
 
 def _fenced(text: str, language: str = "") -> Iterator[str]:
@@ -51,10 +47,6 @@ def _fenced(text: str, language: str = "") -> Iterator[str]:
     yield f"{fence}{language}"
     yield from map(printable, text.splitlines())
     yield fence
-
-
-def _bullets(items: Iterable[str]) -> Iterator[str]:
-    return (f"- {markdown_text(item)}" for item in items)
 
 
 def _row(cells: Sequence[str]) -> str:

@@ -56,23 +56,20 @@ class _Writer:
     def blocks(self, blocks: Iterable[doc.Block]) -> Iterator[str]:
         for block in blocks:
             yield ""
-            yield from self.block(block)
-
-    def block(self, block: doc.Block) -> Iterator[str]:
-        match block:
-            case doc.Paragraph(text):
-                yield from _wrapped(text)
-            case doc.Bullets(items):
-                yield from self.bullets(items)
-            case doc.Code(text) | doc.Equation(text):
-                yield from (f"    {printable(line)}" for line in text.splitlines())
-            case doc.Figure(path, caption):
-                yield from _wrapped(f"{caption} [{path}]")
-            case doc.Section(title, blocks):
-                yield self.title(title, "─")
-                yield from self.blocks(blocks)
-            case doc.Table():
-                yield from self.table(block)
+            match block:
+                case doc.Paragraph(text):
+                    yield from _wrapped(text)
+                case doc.Bullets(items):
+                    yield from self.bullets(items)
+                case doc.Code(text) | doc.Equation(text):
+                    yield from (f"    {printable(line)}" for line in text.splitlines())
+                case doc.Figure(path, caption):
+                    yield from _wrapped(f"{caption} [{path}]")
+                case doc.Section(title, inner):
+                    yield self.title(title, "─")
+                    yield from self.blocks(inner)
+                case doc.Table():
+                    yield from self.table(block)
 
     def bullets(self, items: Iterable[str]) -> Iterator[str]:
         for item in items:

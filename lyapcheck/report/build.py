@@ -36,7 +36,7 @@ from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
 from lyapcheck.report.page.shell import render as page
-from lyapcheck.temporary import pending, try_writing, work_in
+from lyapcheck.temporary import pending, temporary_folder, work_in
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
@@ -62,7 +62,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     model, notes, gate = load(subject.robot), published_notes(), _gate(subject)
     # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
     pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), work_in)
-    with tempfile.TemporaryDirectory(prefix="lyapcheck-") as place, pending(place), pool_of((place,)) as pool:
+    with temporary_folder() as place, pool_of((place,)) as pool:
         with main_unnamed():
             jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
@@ -207,22 +207,6 @@ def render(report: Report, formats: Sequence[str] = USUAL, appendix: bool = Fals
     if set(formats) & {"html", "md"}:
         files |= {f"figures/{name}": drawing for name, drawing in report.figures.items()}
     return {**files, **report.certificates}
-
-
-def require_folder(option: str, folder: Path) -> None:
-    """Refuse a folder that could not be written at the end, before the work is done.
-
-    Raises:
-        InputError: it is a file, or neither it nor its parents can be written.
-    """
-    if folder.exists() and not folder.is_dir():
-        raise argument_error(option, folder, "is a file", "name a folder")
-    nearest = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
-    try:
-        try_writing(nearest)
-    except OSError as error:
-        rule = f"{nearest} cannot be written to ({error.strerror})"
-        raise argument_error(option, folder, rule, "name a folder elsewhere") from error
 
 
 def write(files: Mapping[str, str | bytes], folder: Path) -> None:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lyapcheck.report.gain_rows import KINDS
+from lyapcheck.report.model import KINDS
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.report.experiment import StudyRow
     from lyapcheck.report.figures.style import Files
-    from lyapcheck.report.gain_rows import EpsilonRow, RunRow
     from lyapcheck.report.jobs import GainData
+    from lyapcheck.report.model import EpsilonRow, RunRow
 
 
 def draw_family(ms: Sequence[int]) -> Files:

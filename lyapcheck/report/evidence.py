@@ -22,8 +22,7 @@ from lyapcheck.report.experiment import (
     together_words,
     value_words,
 )
-from lyapcheck.report.gain_rows import KINDS, EpsilonRow, RunRow
-from lyapcheck.report.model import Report
+from lyapcheck.report.model import KINDS, EpsilonRow, Report, RunRow
 from lyapcheck.report.text import fixed, joined
 
 DIGITS = 12

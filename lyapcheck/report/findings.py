@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.report.experiment import NumberRow, StudyRow
-    from lyapcheck.report.gain_rows import EpsilonRow
+    from lyapcheck.report.model import EpsilonRow
     from lyapcheck.report.notes import Notes
 
 SAME = 0.02

@@ -14,7 +14,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.gain_rows import KINDS, LINKED, EpsilonRow, RunRow
+from lyapcheck.report.model import KINDS, LINKED, EpsilonRow, RunRow
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
@@ -169,6 +169,7 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     """The four ε₀ of one gain set, and the reference simulation."""
+    from lyapcheck.answers.gate.friction import rest_errors
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
 
@@ -177,15 +178,9 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     row, files = _epsilon(gain_set, model, seed)
     eps0 = float(row.certified or row.scalar or 0.0)
     run = _simulated(gain_set, model, eps0)
-    return GainData(row, run, _run_row(run, _rest(gain_set, model)), files)
-
-
-def _rest(gain_set: GainSet, model: RobotModel) -> float | None:
-    """How far off dry friction may hold a joint, degrees; none for anywhere."""
-    from lyapcheck.answers.gate.friction import rest_errors
-
-    errors = rest_errors(gain_set, model)
-    return None if None in errors else max(math.degrees(e) for e in errors if e is not None)
+    errors = rest_errors(gain_set, model)  # how far off dry friction may hold a joint; none for anywhere
+    rest = None if None in errors else max(math.degrees(e) for e in errors if e is not None)
+    return GainData(row, run, _run_row(run, rest), files)
 
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRow, dict[str, str]]:

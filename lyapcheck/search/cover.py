@@ -41,6 +41,7 @@ class CoverOutcome:
         reason: why not, when not proved.
         point: the point that resisted, if one did.
         tree: when proved, the cuts in preorder: a digit for a side, a dot for a box that was proved.
+        scales: of these boxes, where they have some.
     """
 
     proved: bool
@@ -48,6 +49,7 @@ class CoverOutcome:
     reason: str = ""
     point: Array | None = None
     tree: str = ""
+    scales: str = ""
 
 
 def cover(

@@ -6,7 +6,6 @@ those of the eigenvector of the smallest eigenvalue, again and again: there they
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -21,7 +20,7 @@ from lyapcheck.family import named
 from lyapcheck.intervals import Interval
 from lyapcheck.intervals.arm import dh_range, h_range
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST
+from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, CoverOutcome
 from lyapcheck.search.cuts import Nodes, halve
 
 MULTIPLIERS = (-2, 0)
@@ -29,21 +28,6 @@ MULTIPLIERS = (-2, 0)
 ROUNDS = 6
 LEAST = 1e-7
 """What the smallest eigenvalue has to exceed, w in units of b^−½: doubles are not balls."""
-
-
-@dataclass(frozen=True)
-class Covered:
-    """A tree of boxes with their scales; without them why not."""
-
-    boxes: int
-    tree: str = ""
-    scales: str = ""
-    reason: str = ""
-
-    @property
-    def proved(self) -> bool:
-        """Whether all boxes were shown."""
-        return bool(self.tree)
 
 
 class ErrorBoxes:
@@ -66,8 +50,8 @@ class ErrorBoxes:
         self.fast = np.array([float(x) for x in self.form.fast])
         self.kp = np.array([float(k) for k in loop.kp])
 
-    def covered(self, max_boxes: int) -> Covered:
-        """A tree of boxes from 0 to R within a budget."""
+    def covered(self, max_boxes: int) -> CoverOutcome:
+        """A tree of boxes from 0 to R within a budget, with their scales."""
         nodes = Nodes()
         start = np.stack([np.zeros(self.n), np.array(self.loop.farthest)])[None]
         stack, seen = [(start, nodes.add(1))], 0
@@ -79,18 +63,18 @@ class ErrorBoxes:
                 boxes, names = boxes[: CHUNK // 4], names[: CHUNK // 4]
             seen += len(boxes)
             if seen > max_boxes:
-                return Covered(seen, reason=f"{EXHAUSTED}; allow more boxes")
+                return CoverOutcome(False, seen, f"{EXHAUSTED}; allow more boxes")
             proved, signs = self.judged(boxes)
             for k in np.flatnonzero(proved):
                 scales[int(names[k])] = "".join(map(chr, signs[k]))
             rest = boxes[~proved]
             if len(rest):
                 if np.max(rest[:, 1] - rest[:, 0], axis=1).min() < 2 * SMALLEST or self._resists(rest):
-                    return Covered(seen, reason=RESISTS)
+                    return CoverOutcome(False, seen, RESISTS)
                 sides = self.sides(rest)
                 stack.append((halve(rest, sides), nodes.cut(names[~proved], sides)))
         tree, order = nodes.preorder()
-        return Covered(seen, tree, "".join(scales[name] for name in order))
+        return CoverOutcome(True, seen, tree=tree, scales="".join(scales[name] for name in order))
 
     def _resists(self, boxes: Array) -> bool:
         """Whether the middle of one of some boxes cannot be shown alone."""

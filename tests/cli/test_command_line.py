@@ -135,7 +135,7 @@ BAD = [
     ("report --robot reyes-kelly2", [f"tau_{k} has gains for 3 joints" for k in ("m1", "m2", "m3", "pd")]),
     ("report --compare nowhere", ["cannot be read"]),
     ("report --gains none.toml", ["none.toml: file: cannot be read"]),
-    ("report --out TABLE2", ["--out = TABLE2: is a file; name a folder"]),
+    ("report --out TABLE2", ["--out = TABLE2: cannot be made (File exists)"]),
 ]
 
 

@@ -33,16 +33,15 @@ from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
-from lyapcheck.report.build import build, render, require_folder, write
+from lyapcheck.report.build import build, render, write
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
 from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_plot, indices_plot
 from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
-from lyapcheck.report.gain_rows import EpsilonRow
 from lyapcheck.report.jobs import done, map_job
-from lyapcheck.report.model import Subject, anchor, applies
+from lyapcheck.report.model import EpsilonRow, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
 from lyapcheck.report.sampled import sampled_section

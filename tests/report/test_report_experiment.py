@@ -28,8 +28,7 @@ from lyapcheck.report.experiment import (
     value_words,
 )
 from lyapcheck.report.findings import findings
-from lyapcheck.report.gain_rows import RunRow
-from lyapcheck.report.model import Report
+from lyapcheck.report.model import Report, RunRow
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.plain import read
 from lyapcheck.robots import load

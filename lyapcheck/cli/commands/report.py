@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.progress import progress
+from lyapcheck.cli.show import open_folder
 from lyapcheck.cli.values import add_no_store, require_joints, robot_name
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
@@ -69,7 +70,7 @@ def run(
       lyapcheck report --format html,pdf --compare reports/before
       lyapcheck report --m 1 2 --robot arm.urdf --gains gains.toml --out reports/arm
     """
-    from lyapcheck.report.build import render, require_folder, write
+    from lyapcheck.report.build import build, render, write
     from lyapcheck.report.compare import compare as compared
     from lyapcheck.report.compare import read_report
     from lyapcheck.report.document import ReportAnswer, require_typst
@@ -78,10 +79,8 @@ def run(
     if "pdf" in formats:
         require_typst()
     old = None if compare is None else read_report(compare)
-    require_folder("--out", out)
     subject = replace(_subject(",".join([*m, *members]), robot, gains), map=map)
-    from lyapcheck.report.build import build
-
+    open_folder("--out", out)
     with progress("report") as advance:
         report = build(subject, advance)
     files = render(report, formats, appendix)
