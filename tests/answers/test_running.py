@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -65,7 +66,9 @@ def test_simulations_stay_within_what_is_said_of_them(tmp_path: Path) -> None:
     done = invoke(*words, "--format", "json")
     (row,) = json.loads(done.stdout)["results"]
     assert any("leaves at most pivot 14.64°" in text for text in row["as_run"])  # atanh(3/12)
-    assert 14.5 < abs(row["final_error"][0]) <= 14.64
+    e = math.radians(row["final_error"][0])
+    assert 12 * math.tanh(abs(e)) == pytest.approx(3 * math.cos(e), rel=1e-3)  # Δg at q = 90° − e
+    assert abs(e) <= math.atanh(3 / 12)
 
 
 def test_a_sweep_has_a_loop(tmp_path: Path) -> None:
