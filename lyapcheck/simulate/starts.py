@@ -44,6 +44,12 @@ class Starts:
         rng = np.random.default_rng(self.seed)
         return np.array(q0) + rng.uniform(-self.spread, self.spread, (self.count, len(q0)))
 
+    def motions(self, q0: Sequence[float]) -> tuple[Array, Array]:
+        """(count, n) starts as `around`, and goals a quarter to all of the spread towards the middle."""
+        starts, rng = self.around(q0), np.random.default_rng([self.seed, 1])
+        step = self.spread * rng.uniform(0.25, 1.0, starts.shape)
+        return starts, starts - np.copysign(step, starts - np.array(q0))
+
 
 @dataclass(frozen=True, eq=False)
 class Sweep:

@@ -16,23 +16,34 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.gain_file import bench_file_text
+from lyapcheck.answers.tune.limits import arm_limits
 from lyapcheck.answers.tune.response.answer import BenchTuning, Candidate
-from lyapcheck.answers.tune.response.search import Joint, proposal
-from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, tried
+from lyapcheck.answers.tune.response.search import Search
+from lyapcheck.answers.tune.response.trial import (
+    BY_19,
+    BY_PROOF,
+    Trial,
+    Trials,
+    Wishes,
+    as_run,
+    tried,
+)
 from lyapcheck.answers.tune.response.tuning import accepted, tune_for
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import varied_limits
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
-from lyapcheck.family import named
+from lyapcheck.files.loop import NOTHING
 from lyapcheck.output.formats import Format
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.starts import Starts
 from lyapcheck.simulate.task import PAPER_TASK, task_for
 from lyapcheck.verdicts import Exit
 from tests.helpers.command import invoke
 
-WISHES = Wishes(overshoot=5, settle=1.5, rest_error=22)
+WISHES = Wishes(overshoot=8, settle=2.2, rest_error=22)
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +57,7 @@ def tuned() -> BenchTuning:
 def test_stability_by_proof_meets_what_19_cannot(tuned: BenchTuning) -> None:
     theirs, by_19, by_proof = tuned.sets
     assert (theirs.source, by_19.stable, by_proof.stable) == ("Table 2", "(19)", "proof")
-    assert (by_19.gains.condition, by_proof.gains.condition) == (("10p", "19"), ("10p", "scalar"))
+    assert (by_19.gains.condition, by_proof.gains.condition) == (("10i", "19"), ("10i", "scalar"))
     assert tuned.met(by_proof)
     assert not tuned.met(by_19)
     assert theirs.trial.worst(WISHES) > 10
@@ -65,12 +76,12 @@ def test_a_motion_is_watched_until_its_energy_keeps_it_in_the_band() -> None:
     """A joint that settles at 3.2 s, after the 3 s that are watched at least."""
     arm, gains = robots.load("pendulum1"), GainSet("slow", 1, (Fraction(3),), (Fraction(1, 10),))
     task = task_for(1, [0.8], None, None, 5.0)
-    trial = tried(gains, [arm], [task], Wishes(overshoot=10, settle=0.1), exact=True)
+    trial = tried(gains, [arm], Trials(Wishes(overshoot=10, settle=0.1), (task,)), exact=True)
     run = simulate(gains, arm, [0.8], T=3 * trial.T, points=101)
     assert (trial.T, trial.kept) == (6.0, True)
     assert trial.settled[0] == pytest.approx(run.settling[0], rel=1e-5)
     assert trial.overshoot[0] == pytest.approx(run.overshoot[0], rel=1e-5)
-    assert not tried(gains, [arm], [task], Wishes(settle=0.1)).kept
+    assert not tried(gains, [arm], Trials(Wishes(settle=0.1), (task,))).kept
 
 
 def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
@@ -78,21 +89,23 @@ def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
     ranges = {arm: varied_limits(arm, varies)}
-    assert accepted(gains, BY_PROOF, arm, None, None).deciding == ("10p", "scalar")
-    assert accepted(gains, BY_PROOF, arm, None, ranges).deciding == ("10p", "lasalle")
-    assert accepted(gains, BY_19, arm, None, ranges) is None
+    assert accepted(gains, BY_PROOF, arm, None, None, NOTHING).deciding == ("10i", "scalar")
+    assert accepted(gains, BY_PROOF, arm, None, ranges, NOTHING).deciding == ("10i", "lasalle")
+    assert accepted(gains, BY_19, arm, None, ranges, NOTHING).verdict == "rejected"
 
 
 @pytest.mark.slow
 def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning) -> None:
-    result = tuned.sets[-1]
-    run = simulate(result.gains, robots.load("buap3"), PAPER_TASK.q_d, T=6.0)
-    np.testing.assert_allclose(result.trial.overshoot, run.overshoot, rtol=1e-3, atol=1e-3)
-    np.testing.assert_allclose(result.trial.settled, run.settling, rtol=1e-2)
+    result, arm = tuned.sets[-1], robots.load("buap3")
+    run = simulate(result.gains, arm, PAPER_TASK.q_d, T=9.0)
+    alone = tried(result.gains, [arm], tuned.bench, exact=True)
+    np.testing.assert_allclose(alone.overshoot, run.overshoot, rtol=1e-3, atol=1e-3)
+    np.testing.assert_allclose(alone.settled, run.settling, rtol=1e-2)
     limits = [float(most) for most in run.torque_limit if most is not None]
-    np.testing.assert_allclose(result.trial.share, run.peak_torque / limits, rtol=1e-4)
-    assert np.all(run.overshoot <= 5)
-    assert np.all(run.settling <= 1.5)
+    np.testing.assert_allclose(alone.share, run.peak_torque / limits, rtol=1e-4)
+    assert np.all(alone.overshoot <= result.trial.overshoot)
+    assert np.all(result.trial.overshoot <= 8)
+    assert np.all(result.trial.settled <= 2.2)
     for kp, f, rest in zip(result.gains.kp, (7.17, 7.17, 1.734), result.trial.rest, strict=True):
         assert float(kp) * math.tanh(math.radians(rest)) == pytest.approx(f, rel=1e-5)
 
@@ -102,8 +115,8 @@ def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> N
     (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
     (by_proof,) = gate(read_gain_file(tmp_path / "g.toml"))
     assert (by_proof.name, by_proof.verdict) == ("tau_m1_proof", "accepted")
-    assert by_proof.deciding == ("10p", "scalar")
-    (again,) = gate(read_gain_file(tmp_path / "g.toml"), deciding=("10p", "19"))
+    assert by_proof.deciding == ("10i", "scalar")
+    (again,) = gate(read_gain_file(tmp_path / "g.toml"), deciding=("10i", "19"))
     assert again.standing == "breaks (19), stability proved otherwise"
 
 
@@ -121,27 +134,62 @@ def test_the_worst_of_all_arms_and_motions_counts() -> None:
     model, gains = robots.load("buap3"), read_gain_file(paper_gain_file()).gains[0]
     heavy = model.fixed(base_inertia=2)
     near = replace(PAPER_TASK, q_d=(0.1, 0.1, 0.1))
-    alone = [tried(gains, [arm], [task], WISHES) for arm in (model, heavy) for task in (PAPER_TASK, near)]
-    together = tried(gains, [model, heavy], [PAPER_TASK, near], WISHES)
+    alone = [
+        tried(gains, [arm], Trials(WISHES, (task,))) for arm in (model, heavy) for task in (PAPER_TASK, near)
+    ]
+    together = tried(gains, [model, heavy], Trials(WISHES, (PAPER_TASK, near)))
     np.testing.assert_array_equal(together.overshoot, np.max([one.overshoot for one in alone], axis=0))
     np.testing.assert_array_equal(together.share, np.max([one.share for one in alone], axis=0))
 
 
-@pytest.mark.slow
-def test_one_joint_alone_is_tuned_to_its_targets() -> None:
-    """A pendulum without gravity: the program's gains keep what was asked of it."""
-    joint = Joint(0.5, 0.1, 0.0, 0.0, 0.8, math.inf, 50.0, 50.0)
-    kp, kv = proposal(joint, named("hyperbolic", 1), Wishes(overshoot=2, settle=1.0))
-    assert kp + kv <= 50.001
-    from scipy.integrate import solve_ivp
+@pytest.mark.parametrize("name", ["buap3", "reyes-kelly2"])
+def test_the_search_is_never_worse_than_the_rule_of_thumb(name: str) -> None:
+    """98 % of (10i) with damping ratio 0.9, of which it starts; every set that is tried keeps (10i)."""
+    model, limits = robots.load(name), arm_limits(name, robots.load(name).n, None, ())
+    bench = Trials(Wishes(overshoot=5, settle=1.5), (task_for(model.n, [0.8] * model.n, None, None, 5.0),))
+    search = Search(bench, [model], limits, 1, BY_PROOF)
+    thumb = search.set_of(search.first())
+    for kp, kv, torque, pull in zip(thumb.kp, thumb.kv, limits.torque, limits.gravity, strict=True):
+        assert float((kp + kv) / (torque - pull)) == pytest.approx(0.98, abs=2e-3)
+    found = search.run()
+    assert found.trial.worst(bench.wishes) < tried(thumb, [model], bench, exact=True).worst(bench.wishes)
+    sets = [search.set_of(search.first() + shift) for shift in (-3.0, 0.1, 3.0)]
+    for one in (found.gains, *sets):
+        rows = zip(one.kp, one.kv, limits.torque, limits.gravity, strict=True)
+        assert all(kp + kv < torque - pull for kp, kv, torque, pull in rows)  # γ_1 = 1
+        assert min(one.kv) > Fraction(1, 100)  # a joint that friction damps today
 
-    def rate(_: float, y: np.ndarray) -> list[float]:
-        return [-y[1], (kp * math.tanh(y[0]) - kv * math.tanh(y[1]) - 0.1 * y[1]) / 0.5]
 
-    t = np.linspace(0, 4, 4001)
-    e = solve_ivp(rate, (0, 4), [0.8, 0.0], t_eval=t, rtol=1e-8, atol=1e-10).y[0]
-    assert -e.min() / 0.8 < 0.025
-    assert np.all(np.abs(e[t > 1.05]) < 0.0205 * 0.8)
+def test_a_share_of_the_motions_may_be_what_counts() -> None:
+    model, gains = (
+        robots.load("reyes-kelly2"),
+        GainSet("g", 1, (Fraction(30), Fraction(5)), (Fraction(5), Fraction(1))),
+    )
+    starts, goals = Starts(9, 1.0, 3).motions([0.0, 0.0])
+    assert np.all(np.abs(goals) <= 1.0)
+    assert np.all((np.abs(goals - starts) >= 0.25) & (np.abs(goals - starts) <= 1.0))
+    tasks = tuple(task_for(2, goal, start, None, 5.0) for start, goal in zip(starts, goals, strict=True))
+    wishes = Wishes(overshoot=5, settle=1.5)
+    alone = np.array([tried(gains, [model], Trials(wishes, (task,))).overshoot for task in tasks])
+    for quantile, place in ((1.0, 8), (0.5, 4), (0.1, 0)):
+        together = tried(gains, [model], Trials(wishes, tasks, quantile=quantile))
+        np.testing.assert_array_equal(together.overshoot, np.sort(alone, axis=0)[place])
+
+
+def test_gains_that_a_computer_cannot_run_are_told_from_those_that_it_can() -> None:
+    """k_v of 800 on 0.25 kg·m² at 1 kHz; what the search finds there is at most half of J/(T (1 + d))."""
+    model, bench = (
+        robots.load("pendulum1"),
+        Trials(Wishes(overshoot=5, settle=3), (task_for(1, [0.8], None, None, 5.0),)),
+    )
+    record = LoopRecord(period=Fraction(1, 100))
+    wild = GainSet("w", 1, (Fraction(3),), (Fraction(800),))
+    seen = as_run(wild, [model], bench, record)
+    assert seen.unrest.startswith("limit cycle seen: pivot")
+    assert not seen.kept
+    found = Search(bench, [model], arm_limits("pendulum1", 1, None, ()), 1, BY_PROOF, record).run()
+    assert not found.trial.unrest
+    assert float(found.gains.kv[0]) <= 0.5 * 0.25 / (0.01 * 2)
 
 
 def test_arms_without_limits_or_friction_are_told(tmp_path: Path) -> None:
@@ -166,6 +214,10 @@ def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option:
         (["--goal", "1,2,3"], "--goal = 1,2,3: has a meaning with targets only"),
         (["--settle", "-1"], "--settle = -1: must be above 0, up to 1e+06"),
         (["--settle", "1", "--goal", "1,2"], "write --goal 45,45,45"),
+        (["--runs", "3"], "--runs = 3: has a meaning with targets only"),
+        (["--settle", "1", "--runs", "0"], "--runs = 0 within 90: must be 1 to 64 motions"),
+        (["--settle", "1", "--spread", "5"], "--spread = 5.0: has a meaning with --runs only"),
+        (["--settle", "1", "--quantile", "2"], "--quantile = 2.0: must be above 0, up to 1"),
         (["--best"], "--best = True: has a meaning with targets only"),
         (["--settle", "1", "--goal", "0,0,0"], "--goal = 0,0,0: is where the motion starts"),
         (["--settle", "1", "--start", "45,45,90"], "is where the motion starts"),
@@ -198,7 +250,7 @@ def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None
     easy = invoke(*words, "1000", "--out", str(out))
     assert easy.exit_code == 0
     assert easy.stdout.startswith("! simulated: tau_m1")
-    assert {one.condition[0] for one in read_gain_file(out).gains} == {"10p"}
+    assert {one.condition[0] for one in read_gain_file(out).gains} == {"10i"}
     assert invoke("gate", str(out)).exit_code == 0
     out.unlink()
     hard = invoke(*words, "1e-9", "--stability", "proof", "--out", str(out))

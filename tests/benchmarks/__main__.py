@@ -6,7 +6,7 @@ import sys
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from . import batches, commands, throughput
+from . import batches, commands, throughput, tuning
 
 OUT = Path(__file__).parents[2] / "reports" / "benchmarks.md"
 PACKAGES = ("lyapcheck", "numpy", "scipy", "casadi", "python-flint", "cvxpy", "clarabel", "numba", "diffrax")
@@ -41,6 +41,13 @@ BATCHES = """## Many runs at once
 Five seconds of the three-joint arm with tau_m2 of Table 2 from random positions, relative tolerance 1e-9 a
 step. Wall time, median of three after one that warms up (compiling not counted). The difference is that of
 final states, rad and rad/s, from lyapcheck's at 1e-13.
+"""
+TUNING = """## Gains for targets
+
+The worst simulated value over its target: overshoot 10 % (buap3: 5 %), settled within 2 s (1.5 s), 0.9 of
+each torque limit, in a motion of 45° of every joint by (11). Evolution is SciPy's, population 15, 400
+evaluations, seed 0, over the same sets and from the same rule of thumb: 98 % of (10i), damping ratio 0.9.
+Below 1.02 `tune` is as good. Processor times of the search alone.
 """
 
 
@@ -87,6 +94,7 @@ def main():
         (EPSILON, commands.ARMS_HEAD, commands.epsilon()),
         (RATES, throughput.HEAD, throughput.rows()),
         (BATCHES, batches.HEAD, batches.rows()),
+        (TUNING, tuning.HEAD, tuning.rows()),
     )
     sections = [(text, head, list(shown(rows))) for text, head, rows in parts]
     OUT.write_text(markdown(sections), encoding="utf-8")

@@ -38,6 +38,7 @@ from lyapcheck.simulate.run import Run
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
 
 EXPERIMENT = "experiment"
@@ -56,6 +57,11 @@ def _paper(one: Run) -> dict[str, Any] | None:
         return None
     settling = None if paper.settling is None else list(paper.settling)
     return {"L2": paper.L2, "settling": settling, "final_error": list(paper.final_error)}
+
+
+def _loop_text(loop: LoopRecord) -> str:
+    unknown = "" if loop.knows_gravity else f", unknown {loop.unknown_text}"
+    return loop.text + unknown
 
 
 def _printed(name: str) -> Callable[[Run], Any]:
@@ -105,7 +111,7 @@ FIELDS = (
     Field("", _printed("L2"), csv="printed_L2"),
     Field("", _printed("settling"), each=True, csv="printed_settling"),
     Field("", _printed("final_error"), each=True, csv="printed_final_error"),
-    Field("loop", "loop.text"),
+    Field("loop", "loop", to=_loop_text),
     Field("unrest", "unrest", to=vars, csv=None),
     Field("", "unrest.sentence", csv="unrest"),
     *BREACH,
@@ -129,7 +135,9 @@ class SetPointRuns(Simulation[Run]):
         """How the loop was sampled, and how far from the goal the runs end."""
         loops = dict.fromkeys(one.loop for one in self.results)
         sampled = [one for one in self.results if one.loop is not None and one.complete]
-        ways = "".join(", as on the bench" if loop == Bench() else f", {loop.text}" for loop in loops if loop)
+        ways = "".join(
+            f", {'as on the bench' if loop == Bench() else _loop_text(loop)}" for loop in loops if loop
+        )
         ends = [(float(abs(x)), i) for one in sampled for i, x in enumerate(one.indices.final_error)]
         angle, i = max(ends, default=(0.0, 0))
         if angle <= math.degrees(BAND):

@@ -42,6 +42,8 @@ PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
 ONE = (Fraction(1),)
 COMPARED = range(2, 7)
 """So many members are compared by runs of each."""
+MOST_RUNS, MOST_SPREAD = 64, 90.0
+"""Random motions, and degrees about their middle."""
 WAYS = ("19", "proof")
 """How stability may be shown."""
 FORMATS = (*Format, "toml")
@@ -53,6 +55,8 @@ def trials_of(
     wishes: dict[str, float],
     peak_share: str,
     motion: tuple[str | None, list[str] | None],
+    drawn: tuple[int | None, float | None, int | None],
+    quantile: float,
     ways: tuple[str, ...],
     digits: int,
 ) -> Trials:
@@ -64,6 +68,8 @@ def trials_of(
     from lyapcheck.answers.tune.response.trial import Trials, Wishes
     from lyapcheck.simulate.results import LEAST_STEP
 
+    if not 0 < quantile <= 1:
+        raise argument_error("--quantile", quantile, "must be above 0, up to 1", "write --quantile 0.9")
     tasks = tasks_of(robot, *motion)
     for task, goal in zip(tasks, motion[1] or [""], strict=True):
         if not any(abs(step) >= LEAST_STEP for step in task.step):
@@ -74,7 +80,19 @@ def trials_of(
             "--peak-share", peak_share, "is one share with targets", "write --peak-share 0.8"
         )
     share = None if shares[0] == 1 else float(shares[0])
-    return Trials(Wishes(**wishes, peak_share=share), tasks, ways, digits)
+    runs, spread, seed = drawn
+    if runs is not None:
+        from lyapcheck.cli.task import starts_of
+
+        size = MOST_SPREAD if spread is None else spread
+        if not 1 <= runs <= MOST_RUNS or not 1 <= size <= MOST_SPREAD:
+            rule = f"must be 1 to {MOST_RUNS} motions within 1 to {MOST_SPREAD:g} degrees"
+            raise argument_error("--runs", f"{runs} within {size:g}", rule, "write --runs 16 --spread 90")
+        middle = tasks[0].q0
+        pairs = zip(*starts_of(runs, size, seed).motions(middle), strict=True)
+        random = [replace(tasks[0], q0=tuple(a.tolist()), q_d=tuple(b.tolist())) for a, b in pairs]
+        tasks = (*(tasks if motion[1] else ()), *random)
+    return Trials(Wishes(**wishes, peak_share=share), tasks, ways, digits, quantile)
 
 
 def tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:
@@ -189,6 +207,12 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--start", metavar="ANGLES", help=about)
     about = "With targets: where a motion ends, degrees; may be repeated. The paper's, or 45 for each joint."
     parser.add_argument("--goal", metavar="ANGLES", action="append", help=about)
+    about = "With targets: so many random motions from rest, beside those of --goal."
+    parser.add_number("--runs", int, about)
+    parser.add_number("--spread", float, "Degrees: with --runs, motions lie so far about --start; 90.")
+    parser.add_number("--seed", int, "Of the random motions; 0.")
+    about = "With targets: the share of motions that are to meet them, joint by joint; 1 is all."
+    parser.add_number("--quantile", float, about, default=1.0)
     about = "With targets: how stability is to be shown."
     parser.add_choice("--stability", ("both", *WAYS), about, default="both")
     about = "Share that k_v takes, at least, of the largest that (19) admits; 1 if missing."
@@ -218,6 +242,10 @@ def run(
     peak_share: str,
     start: str | None,
     goal: list[str] | None,
+    runs: int | None,
+    spread: float | None,
+    seed: int | None,
+    quantile: float,
     stability: str,
     kv_share: str | None,
     kv_min: str | None,
@@ -237,9 +265,10 @@ def run(
     For each m the largest k_p, and beside it the largest k_v, that meet (10p) and (19), exact to the last
     digit: no gain can be one unit larger.
 
-    With --overshoot, --settle or --rest-error: gains that meet these best in motions from rest to rest, tried
-    on the whole arm, once with (19) and once with stability by a proof that does without it. Only sets that
-    meet the targets are written; --best writes the best one if there is none.
+    With --overshoot, --settle or --rest-error: gains within (10i) that meet these best in motions from rest
+    to rest, tried on the whole arm and at the ends of its assumed numbers, once with (19) and once with
+    stability by a proof that does without it. With --rate or [loop] in the arm file they are run as a
+    computer does. Only sets that meet the targets are written; --best writes the best one if there is none.
 
     Exit code 0: every m has gains, or the targets are met, 2: unusable input or no gains exist, 3: the arm's
     limits are not known, or the targets were not reached.
@@ -247,6 +276,7 @@ def run(
     Examples:
       lyapcheck tune buap3 --m 1:5
       lyapcheck tune buap3 --overshoot 5 --settle 1.5 --rest-error 22 --m 1
+      lyapcheck tune arm.toml --overshoot 10 --settle 2 --runs 16 --spread 60 --rate 1000
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
     from lyapcheck.answers.tune.gain_file import gain_file_text
@@ -269,11 +299,18 @@ def run(
     if wishes:
         wrong.reading(_refuse, others, "cannot go with targets", "leave one of them out")
         ways = WAYS if stability == "both" else (stability,)
-        bench = wrong.reading(trials_of, robot, wishes, peak_share, (start, goal), ways, digits)
+        drawn = (runs, spread, seed)
+        if runs is None:
+            wrong.reading(
+                _refuse, {"--spread": spread, "--seed": seed}, "has a meaning with --runs only", "add --runs"
+            )
+        motion = (start, goal)
+        bench = wrong.reading(trials_of, robot, wishes, peak_share, motion, drawn, quantile, ways, digits)
     else:
-        motion = {"--start": start, "--goal": goal and goal[0], "--best": best or None}
+        several = {"--runs": runs, "--spread": spread, "--seed": seed}
+        given = {"--start": start, "--goal": goal and goal[0], "--best": best or None, **several}
         repair = "add --overshoot, --settle or --rest-error"
-        wrong.reading(_refuse, motion, "has a meaning with targets only", repair)
+        wrong.reading(_refuse, given, "has a meaning with targets only", repair)
     wrong.raise_all()
     assert run is not None
     if compare is not None and against is not None:

@@ -14,6 +14,7 @@ from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.control.gains import Bounds, GainSet
+from lyapcheck.control.sampling import record_of, time_text
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
@@ -34,6 +35,8 @@ STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
 """The condition of a set that shows stability, in words."""
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
 NONE = "—"
+MOST_NAMED = 3
+"""Motions that are named."""
 FAR = 100
 """Ratios from here on are not told apart."""
 NOTES = (
@@ -125,7 +128,10 @@ class BenchTuning(Answer):
         without = (
             "without the dry friction of the file" if self.dry else "of an arm file without dry friction"
         )
-        return f"{motions} of (11) at an infinite rate, {without}"
+        record = record_of(self.loop, NOTHING, self.model.loop)
+        if record is None or record.period is None:
+            return f"{motions} of (11) at an infinite rate, {without}"
+        return f"{motions} at {time_text(record.period)}, {record.how}, {without}"
 
     @property
     def good(self) -> list[Candidate]:
@@ -156,7 +162,12 @@ class BenchTuning(Answer):
 
     def document(self) -> Document:
         """What was asked, all sets beside each other, then each by itself."""
-        tasks = "; ".join(f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks)
+        named = [f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks]
+        tasks = "; ".join(named[:MOST_NAMED])
+        if len(named) > MOST_NAMED:
+            tasks = f"{len(named)} motions, such as {tasks}"
+        if self.bench.quantile < 1:
+            tasks += f"; of each number {100 * self.bench.quantile:g} % of the motions count"
         arms = f", each on {self.arms}" if self.arms else ""
         asked = Paragraph(f"Asked: {self.bench.wishes.text()}. Simulated from rest, {tasks}{arms}.")
         assumed = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
@@ -221,7 +232,9 @@ class BenchTuning(Answer):
             joints = [f"{joint} {_times(ratio)}" for joint, ratio in rows if ratio > 1]
             if joints:
                 result.append(f"misses {NAMES[name]}, simulated / target: {', '.join(joints)}")
-        if not one.trial.kept:
+        if one.trial.unrest:
+            result.append(one.trial.unrest)
+        elif not one.trial.kept:
             result.append(
                 f"after {one.trial.T:g} s the energy left does not exclude that a joint leaves its band"
             )
@@ -314,7 +327,7 @@ class BenchTuning(Answer):
 
 
 def _angles(values: tuple[float, ...]) -> str:
-    return f"({', '.join(f'{math.degrees(x):g}' for x in values)})°"
+    return f"({', '.join(f'{math.degrees(x):.4g}' for x in values)})°"
 
 
 def _degrees_of(values: tuple[float, ...]) -> list[float | None]:

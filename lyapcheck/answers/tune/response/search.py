@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress, silent
-from lyapcheck.answers.tune.response.trial import BY_19, Trial, Trials, tried, tried_all
+from lyapcheck.answers.tune.response.trial import BY_19, Trial, Trials, Wishes, as_run, tried, tried_all
 from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.threshold import scaled
@@ -25,14 +25,21 @@ from lyapcheck.robots.numeric import NumericModel
 
 if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits
+    from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
 
 SHARE, DAMPING, FLOOR = 0.98, 0.9, 0.05
 """Of (10i), of the first set; the damping ratio of it, and what k_v alone gives every joint at least."""
-SPREADS = (0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02)
-"""Of the logarithms of the gains, round by round."""
+SPREADS, BETTER, NARROWER = (0.5, 0.02), 0.99, 0.75
+"""Of the logarithms of the gains, first and last; narrower where the worst does not come below this share."""
+MOST_STEPS = 25_000
+"""Of the integrator, all rounds together: an arm that is stiff has fewer rounds."""
+BRIEFLY = 0.4
+"""So much of the time of `tried` a motion is watched while searching."""
 MOTIONS, SETS = 640, (12, 64)
 """Motions of a round, and the fewest and most sets that share them."""
+SHARES_OF_DAMPING = (0.5, 0.25, 0.1)
+"""Of J/(T (1 + d)), which k_v must stay below in the loop of a computer, one after the other."""
 POSTURES = 21
 """On the straight way of each task, for the inertia that a joint feels there."""
 
@@ -46,6 +53,25 @@ class Found:
     tries: int
 
 
+@dataclass(frozen=True, eq=False)
+class _Try:
+    """Logarithms of gains (n, 2), what they do, and the worst ratio of each joint (n,)."""
+
+    score: tuple[float, float]
+    """The worst first; ratios that are close count as the same, so that others may get better."""
+    logs: Array
+    trial: Trial
+    ratios: Array
+
+    @classmethod
+    def of(cls, logs: Array, trial: Trial, wishes: Wishes) -> _Try:
+        ratios = np.max([*trial.ratios(wishes).values()], axis=0)
+        return cls((round(float(np.max(ratios)), 3), float(np.sum(np.square(ratios)))), logs, trial, ratios)
+
+    def __lt__(self, other: _Try) -> bool:
+        return self.score < other.score
+
+
 class Search:
     """The gains of one member of the family, with one way to show stability.
 
@@ -55,10 +81,20 @@ class Search:
         limits: of the arm; torque limits and friction are known.
         m: the member.
         way: ``19`` or ``proof``.
+        record: how a computer runs them; ``None`` at an infinite rate.
     """
 
-    def __init__(self, bench: Trials, models: Sequence[RobotModel], limits: Limits, m: int, way: str) -> None:
+    def __init__(
+        self,
+        bench: Trials,
+        models: Sequence[RobotModel],
+        limits: Limits,
+        m: int,
+        way: str,
+        record: LoopRecord | None = None,
+    ) -> None:
         self.bench, self.models, self.limits, self.m, self.way = bench, models, limits, m, way
+        self.record = record if record is not None and record.period is not None else None
         n, unit = limits.n, Fraction(1, 10**bench.digits)
         ones = (Fraction(1),) * n
         gamma = gamma_of(GainSet("γ", m, ones, ones))
@@ -77,36 +113,64 @@ class Search:
         return min(self.most_kv) >= 1
 
     def run(self, progress: Progress = silent) -> Found:
-        """The best set that was tried; the rule of thumb is among them."""
-        rng, bench = np.random.default_rng(0), self.bench
-        few, many = SETS
-        count = min(max(MOTIONS // (len(bench.tasks) * len(self.models)), few), many)
-        combined = best = self.first()
-        tries: list[tuple[tuple[float, ...], Array, Array]] = []
-        for k, spread in enumerate(SPREADS):
-            about = np.where(np.arange(count)[:, None, None] % 2, best, combined)
+        """The best set that was tried; where a computer cannot run it, that with less k_v."""
+        if self.record is None:
+            return self._best(progress)
+        for share in SHARES_OF_DAMPING:
+            most = share * self._lightest / (float(self.record.period or 0) * (1 + self.record.delay))
+            units = np.maximum(most / float(self.unit), 1.0).astype(int).tolist()
+            self.most_kv = [min(pair) for pair in zip(self.most_kv, units, strict=True)]
+            found = self._best(progress)
+            trial = as_run(found.gains, self.models, self.bench, self.record)
+            if not trial.unrest:
+                break
+        return replace(found, trial=trial)
+
+    def _best(self, progress: Progress) -> Found:
+        """The best set that was tried with (11); the rule of thumb is among them."""
+        rng, (few, many), (spread, least) = np.random.default_rng(0), SETS, SPREADS
+        count = min(max(MOTIONS // (len(self.bench.tasks) * len(self.models)), few), many)
+        combined = self.first()
+        tries = self._try([combined, self._damped(combined)])
+        best, steps = min(tries), 0
+        while spread > least and steps < MOST_STEPS:
+            about = np.where(np.arange(count)[:, None, None] % 2, best.logs, combined)
             drawn = about + spread * rng.standard_normal(about.shape)
-            sets = [combined, *drawn[1:]]
-            trials = tried_all(list(map(self.set_of, sets)), self.models, bench)
-            ratios = [np.max([*trial.ratios(bench.wishes).values()], axis=0) for trial in trials]
-            tries += [(_score(ratio), ratio, logs) for ratio, logs in zip(ratios, sets, strict=True)]
-            best = min(tries, key=lambda one: one[0])[2]
-            picked = np.argmin([ratio for _, ratio, _ in tries], axis=0)
-            combined = np.array([tries[one][2][i] for i, one in enumerate(picked)])
-            progress((k + 1) / len(SPREADS), "")
-        gains = self.set_of(best)
-        return Found(gains, tried(gains, self.models, bench, exact=True), len(tries))
+            now = self._try([combined, *drawn[1:]])
+            tries += now
+            steps += max(one.trial.steps for one in now)
+            last, best = best, min(tries)
+            spread *= 1.0 if best.score[0] < BETTER * last.score[0] else NARROWER
+            picked = np.argmin([one.ratios for one in tries], axis=0)
+            combined = np.array([tries[k].logs[i] for i, k in enumerate(picked)])
+            progress(
+                max(steps / MOST_STEPS, math.log(SPREADS[0] / spread) / math.log(SPREADS[0] / least)), ""
+            )
+        gains = self.set_of(best.logs)
+        return Found(gains, tried(gains, self.models, self.bench, exact=True), len(tries))
+
+    def _try(self, logs: Sequence[Array]) -> list[_Try]:
+        trials = tried_all([self.set_of(one) for one in logs], self.models, self.bench, BRIEFLY)
+        return [_Try.of(one, trial, self.bench.wishes) for one, trial in zip(logs, trials, strict=True)]
 
     def first(self) -> Array:
         """The logarithms of k_p and k_v (n, 2) by the rule of thumb."""
         most, J = SHARE * self._largest, self._inertia
-        friction = np.array([float(b.value) for b in self.models[0].viscous])
         half = DAMPING * np.sqrt(J)
-        root = np.sqrt(half * half + most + friction) - half  # of k_p + 2 ζ √(J k_p) = most + b
+        root = np.sqrt(half * half + most + self._friction) - half  # of k_p + 2 ζ √(J k_p) = most + b
         kp = np.minimum(root * root, most)
         return np.asarray(
-            np.log(np.stack([kp, np.maximum(2 * half * np.sqrt(kp) - friction, float(self.unit))], axis=1))
+            np.log(
+                np.stack([kp, np.maximum(2 * half * np.sqrt(kp) - self._friction, float(self.unit))], axis=1)
+            )
         )
+
+    def _damped(self, logs: Array) -> Array:
+        """The same k_v as far as they may be, with k_p small enough for the damping ratio."""
+        kp, kv = np.exp(logs).T
+        kv = np.minimum(kv, np.array(self.most_kv) * float(self.unit))
+        most = ((kv + self._friction) / (2 * DAMPING)) ** 2 / self._inertia
+        return np.asarray(np.log(np.stack([np.minimum(kp, most), kv], axis=1)))
 
     def set_of(self, logs: Array) -> GainSet:
         """Gains as decimals within (10i), and (19) where it is to hold; k_v damps without friction too."""
@@ -121,17 +185,24 @@ class Search:
         return GainSet(name, self.m, tuple(kp), tuple(kv))
 
     @cached_property
+    def _friction(self) -> Array:
+        return np.array([float(b.value) for b in self.models[0].viscous])
+
+    @cached_property
     def _largest(self) -> Array:
         return np.array(self.most_sum) * float(self.unit)
 
     @cached_property
     def _inertia(self) -> Array:
         """(n,) kg·m²: the largest M_ii on the way of the tasks."""
+        return np.asarray(np.diagonal(self._mass, axis1=1, axis2=2).max(axis=0))
+
+    @cached_property
+    def _lightest(self) -> Array:
+        """(n,) kg·m²: the least that a joint feels there while the others are free."""
+        return np.asarray(1 / np.diagonal(np.linalg.inv(self._mass), axis1=1, axis2=2).max(axis=0))
+
+    @cached_property
+    def _mass(self) -> Array:
         ways = np.vstack([np.linspace(task.q0, task.q_d, POSTURES) for task in self.bench.tasks])
-        mass = NumericModel(self.models[0]).mass(ways)
-        return np.asarray(np.diagonal(mass, axis1=1, axis2=2).max(axis=0))
-
-
-def _score(ratio: Array) -> tuple[float, ...]:
-    """The worst first; ratios that are close count as the same, so that others may get better."""
-    return (round(float(np.max(ratio)), 3), float(np.sum(np.square(ratio))))
+        return NumericModel(self.models[0]).mass(ways)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,12 +15,16 @@ from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.digits import at_most
 from lyapcheck.simulate import results as indices
 from lyapcheck.simulate.batch import Runs, simulate_many
+from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.results import torque_limits
+from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import LONGEST, gains_for
+from lyapcheck.simulate.trial import experiment
 
 if TYPE_CHECKING:
     from lyapcheck._types import Array
     from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.task import Task
 
@@ -125,6 +129,10 @@ class Trial:
     late: Array
     T: float
     kept: bool
+    steps: int = 0
+    """Of the integrator, of all motions together."""
+    unrest: str = ""
+    """What a run as a computer has it shows against the gains."""
 
     def ratios(self, wishes: Wishes) -> dict[str, Array]:
         """What was seen over what was asked, by wish, (n,); 1 where it is just met."""
@@ -171,9 +179,10 @@ def tried_all(
     goals, starts = (np.tile([getattr(task, end) for task in tasks], (len(sets), 1)) for end in ("q_d", "q0"))
     each = [one for one in sets for _ in tasks]
     edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
-    seen = []
+    seen, steps = [], 0
     for model in models:
         runs = simulate_many(each, model, goals, starts, T, points=POINTS, tolerance=TOLERANCE, motions=True)
+        steps += int(runs.steps.max())
         seen.append(_seen(runs, each, model, goals, starts, edge))
     shape = (len(models), len(sets), len(tasks), -1)
     columns = [np.stack(column).reshape(shape) for column in zip(*seen, strict=True)]
@@ -184,9 +193,36 @@ def tried_all(
         rest = np.max([[*map(_degrees_above, rest_errors(one, model))] for model in models], axis=0)
         over, time, torque, end = of
         result.append(
-            Trial(over, np.where(np.isinf(time), np.nan, time), torque, rest, end, T, bool(np.all(kept)))
+            Trial(
+                over, np.where(np.isinf(time), np.nan, time), torque, rest, end, T, bool(np.all(kept)), steps
+            )
         )
     return result
+
+
+def as_run(gains: GainSet, models: Sequence[RobotModel], bench: Trials, record: LoopRecord) -> Trial:
+    """The worst of all motions as a computer runs them, see `tried`; without dry friction and load."""
+    (trial,), loop = tried_all([gains], models, bench), Bench.of(replace(record, **_KNOWN))
+    rows, unrest = [], ""
+    for model in models:
+        free = replace(model, coulomb=(None,) * model.n)
+        limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
+        for task in bench.tasks:
+            try:
+                run = experiment(gains, free, task.q_d, task.q0, T=trial.T, bench=loop)
+            except SimulationFailed as failure:
+                return replace(trial, unrest=failure.reason, kept=False)
+            still = np.abs(run.e[0]) < indices.LEAST_STEP
+            late = np.abs(run.e[3 * len(run.t) // 4 :]).max(axis=0) / np.where(still, 1.0, np.abs(run.e[0]))
+            settled = np.where(still, 0.0, np.nan_to_num(run.settling, nan=np.inf))
+            rows.append((np.nan_to_num(run.overshoot), settled, run.peak_torque / limits, late))
+            unrest = unrest or ("" if run.unrest is None else run.unrest.sentence)
+    over, time, share, late = (bench.worst(np.array(column)) for column in zip(*rows, strict=True))
+    settled = np.where(np.isinf(time), np.nan, time)
+    return Trial(over, settled, share, trial.rest, late, trial.T, not unrest, unrest=unrest)
+
+
+_KNOWN: dict[str, Any] = {"unknown_payload": Fraction(0), "gravity_error": Fraction(0)}
 
 
 def _seen(

@@ -17,9 +17,10 @@ from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials,
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.control.limits import varied_limits
+from lyapcheck.control.sampling import record_of
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import corners, corners_text, outside
+from lyapcheck.robots.vary import at_values, corners, corners_text, outside
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
@@ -68,13 +69,14 @@ def tune_for(
     limits = arm_limits(robot, model.n, bounds, varies)
     ranges = {robot: varied_limits(robot, varies)} if varies else None
     arms, tried_on = _arms(robot, model, varies)
+    record = record_of(loop, NOTHING, model.loop)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
     reasons = [*unknown(limits), *(text for text in impossible(limits) if "gravity" in text)]
     for done, (m, way) in enumerate([] if reasons else jobs):
         note = f"m = {m}, {IN_WORDS[way]}"
         told = part(on_progress or silent, done / len(jobs), (done + 1) / len(jobs), note)
-        search = Search(bench, arms, limits, m, way)
+        search = Search(bench, arms, limits, m, way, record)
         if not search.possible:
             reasons.append(_none(m, way, limits))
             continue
@@ -101,9 +103,18 @@ def tune_for(
 
 
 def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tuple[RobotModel, ...], str]:
-    """The arms that gains are tried on, and what these are; empty for the arm of the file alone."""
+    """The arms that gains are tried on, and what these are; empty for the arm of the file alone.
+
+    Without ranges to vary: also the ends of what is assumed, all together; viscous friction that is assumed
+    without a range may be down to a tenth.
+    """
     if not varies:
-        return (model,), ""
+        low, high = {}, {}
+        for key, number in model.numbers.items():
+            if number.assumed and (number.ranged or key.endswith("_viscous")):
+                low[key], high[key] = number.bounds if number.ranged else (number.value / 10, number.value)
+        arms = [at_values(model, values) for values in (low, high) if values]
+        return (model, *arms), "the arm of the file and both ends of its assumed numbers" if arms else ""
     ranged = load(robot, vary=varies)
     ends = tuple(arm for _, arm in corners(ranged, varies))
     text = corners_text(ranged, varies)
