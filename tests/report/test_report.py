@@ -344,13 +344,6 @@ def test_a_refused_write_leaves_the_old_report_whole(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["figures", "report.md"]
 
 
-def test_a_folder_that_is_a_file_is_refused_before_any_work(tmp_path):
-    (tmp_path / "out").write_text("")
-    with pytest.raises(InputError, match="is a file"):
-        require_folder("--out", tmp_path / "out")
-    require_folder("--out", tmp_path / "new" / "deep")
-
-
 def test_a_refusal_in_another_process_comes_back_whole():
     refused = argument_error("--robot", "x", "is wrong", "mend it")
     again = pickle.loads(pickle.dumps(refused))
