@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
 from lyapcheck.cli.stopping import Stopping
+from lyapcheck.cli.values import chosen
 from lyapcheck.errors import InputError, argument_error, nearest
 from lyapcheck.libraries import missing
 from lyapcheck.output.escapes import printable
@@ -118,7 +119,7 @@ def run(words: Sequence[str]) -> int:
     command = load(words[0])
     parser = Parser(prog=f"lyapcheck {words[0]}", description=command.run.__doc__)
     command.arguments(parser)
-    return int(command.run(**parser.parse(words[1:])))
+    return int(command.run(**chosen(parser.parse(words[1:]))))
 
 
 def main() -> None:

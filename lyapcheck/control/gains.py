@@ -15,6 +15,7 @@ from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.places import KeyPath, Place
 from lyapcheck.files.toml import GAINS, TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
+from lyapcheck.robots.choice import placed, split
 
 # --- Which conditions decide about a gain set: those asked for, else its own, else the paper's two.
 
@@ -241,9 +242,7 @@ def _check_lengths(gains: tuple[GainSet, ...], bounds: Bounds, notes: Notes) -> 
 
 def beside(robot: str | None, file: Path) -> str | None:
     """A robot named by a path is meant relative to the gain file."""
-    if robot is not None and robot.endswith((".toml", ".urdf")) and not Path(robot).is_absolute():
-        return str(file.parent / robot)
-    return robot
+    return None if robot is None else placed(robot, lambda path: str(file.parent / path))
 
 
 @contextmanager
@@ -264,7 +263,8 @@ def arm_named_in(file: GainFile, replaced: str | None = None) -> Iterator[None]:
 
 def _misnamed(file: GainFile, problem: Problem) -> Problem:
     """A problem with the name or path of the arm at the key of the gain file; others are in the arm file."""
-    whole = problem.key == "file" and problem.line is None and problem.file == file.robot
+    path = split(file.robot or "")[0]
+    whole = problem.key == "file" and problem.line is None and problem.file == path
     if problem.key != "robot" and not whole:
         return problem
     as_written = file.robot if file.document is None else file.document.data["robot"]

@@ -11,6 +11,7 @@ from lyapcheck.control.gravity import Gravity, RefutedBound, computed_bounds, se
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import Number, RobotModel, load
+from lyapcheck.robots.choice import named
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
@@ -198,7 +199,7 @@ def limits_for(
     Raises:
         InputError: no arm and no bounds, an unknown arm, or another number of joints.
     """
-    bounds, name = gain_file.bounds, robot or gain_file.robot
+    bounds, name = gain_file.bounds, named(robot, gain_file.robot)
     n = gain_file.gains[0].n
     if name is None:
         if None in (bounds.torque, bounds.gravity, bounds.viscous_min):

@@ -71,6 +71,13 @@ def open_document(path: Path, shown: str | None = None, bound: Bound = TOML) -> 
         raise _too_long(name, text) from None
 
 
+def quoted(text: str) -> str:
+    """A TOML basic string; JSON escapes the same characters the same way."""
+    import json
+
+    return json.dumps(text, ensure_ascii=False)
+
+
 def _too_long(name: str, text: str) -> InputError:
     """An integer that Python refuses to read, because that takes a time quadratic in its digits."""
     result = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)

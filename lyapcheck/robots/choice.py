@@ -6,7 +6,7 @@ gain file, a plan or an answer that names the arm has all of it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -14,6 +14,9 @@ from urllib.parse import quote, unquote
 
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
+
+FILES = (".toml", ".urdf", ".xacro", ".xml", ".mjcf", ".sdf")
+"""How names of files of arms and robots end."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,24 @@ def split(arm: str) -> tuple[str, Choice]:
             repair = f"write {path}#tip=LINK, #base=LINK, #fixed.JOINT=VALUE or #xacro.NAME=VALUE"
             raise argument_error("robot", arm, f"chooses {key}, which means nothing", repair)
     return path, Choice(links.get("base", ""), links.get("tip", ""), fixed, xacro)
+
+
+def named(given: str | None, own: str | None) -> str | None:
+    """The arm that ``--robot`` gives, else the one that a file names, with what is chosen of it.
+
+    Args:
+        given: an arm, or only a choice such as ``#tip=hand``.
+        own: the arm of the file.
+    """
+    if given is None or not given.startswith("#"):
+        return given or own
+    return None if own is None else split(given)[1].of(own)
+
+
+def placed(robot: str, place: Callable[[str], str]) -> str:
+    """An arm whose path is changed if it is one, with what is chosen of it; a built-in arm stays."""
+    path, choice = split(robot)
+    return choice.of(place(path)) if path.lower().endswith(FILES) else robot
 
 
 def held_at(text: str, subject: str) -> Fraction:

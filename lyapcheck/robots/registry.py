@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 from fractions import Fraction
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import argument_error, nearest
 from lyapcheck.extensions import folders
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.toml import open_document
+from lyapcheck.files.toml import open_document, quoted
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.choice import Choice, split
 from lyapcheck.robots.plant import RobotModel
@@ -159,11 +158,6 @@ def _overlay(model: RobotModel, path: Path, folder: Path, choice: Choice) -> str
             unit = "N·m·s/rad" if key == "viscous" else "N·m"
             lines.append(f"{'' if known else '# '}{key} = {value}  # {unit}")
     return "\n".join(lines) + "\n"
-
-
-def quoted(text: str) -> str:
-    """A text as TOML writes it."""
-    return json.dumps(text, ensure_ascii=False)
 
 
 def _from(file: Path, folder: Path) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_certificates, add_format, add_vary, varies
+from lyapcheck.cli.values import add_certificates, add_format, add_robot, add_vary, varies
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
@@ -24,7 +24,7 @@ GAMMAS = ("true", "printed")
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("files", metavar="FILE...", nargs="+", help="Gain files (TOML).")
-    parser.add_argument("--robot", metavar="ROBOT", help="An arm that replaces the one the files name.")
+    add_robot(parser, "An arm that replaces the one the files name.")
     about = (
         "A condition that must hold; may be repeated. 10i: 10p without its √n. scalar and global: dV/dt < 0 "
         "proved for the arm; lasalle: stability without friction. "
@@ -70,6 +70,7 @@ def run(
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.control.limits import ArmLimits, varied_limits
     from lyapcheck.errors import InputError, Problem
+    from lyapcheck.robots.choice import named
 
     folder = None
     if certificates is not None:
@@ -84,7 +85,7 @@ def run(
         for done, file in enumerate(files):
             try:
                 gain_file = read_gain_file(file)
-                name = robot or gain_file.robot
+                name = named(robot, gain_file.robot)
                 if ranges and name is not None and name not in arms:
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)

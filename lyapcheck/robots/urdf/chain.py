@@ -121,7 +121,8 @@ def _refuse(strange: Sequence[UrdfJoint], chain: Run, choice: Choice, notes: Urd
     behind = (
         "" if last is chain[-1] else f", or begin behind it: {options(last.child, choice.tip, choice.fixed)}"
     )
-    repair = f"hold it: {hold}{behind}, or end the arm before it: {options(choice.base, first.parent, choice.fixed)}"
+    ended = options(choice.base, first.parent, choice.fixed)
+    repair = f"hold it: {hold}{behind}, or end the arm before it: {ended}"
     notes.fail(first.element, f"joint {first.name}", "", rule + more, repair)
 
 
