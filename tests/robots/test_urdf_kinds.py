@@ -204,6 +204,9 @@ def test_a_sound_body_may_have_a_link_off_by_rounding(tmp_path: Path, size: str,
 BODY_OF = f'<inertial><origin xyz="0.1 0 0"/><mass value="1"/>{INERTIA}</inertial>'
 
 
+KINDS = {"c": "continuous", "p": "prismatic", "x": "fixed", "f": "floating"}
+
+
 def tree(*branches: str) -> str:
     """A robot of branches ``LINK:KIND NAME, KIND NAME …``, each joint with a link of its name."""
     parts = ['<link name="root"/>']
@@ -212,12 +215,9 @@ def tree(*branches: str) -> str:
         for words in joints.split(","):
             kind, name = words.split()
             mimic = '<mimic joint="a1"/>' if kind == "mimic" else ""
-            kind = {"r": "revolute", "c": "continuous", "p": "prismatic", "x": "fixed", "f": "floating"}.get(
-                kind, "revolute"
-            )
             parts.append(
-                f'<link name="{name}">{BODY_OF}</link><joint name="{name}" type="{kind}"><parent link="{above}"/>'
-                f'<child link="{name}"/><origin xyz="0.2 0 0.1"/><axis xyz="0 1 0"/>{mimic}'
+                f'<link name="{name}">{BODY_OF}</link><joint name="{name}" type="{KINDS.get(kind, "revolute")}">'
+                f'<parent link="{above}"/><child link="{name}"/><origin xyz="0.2 0 0.1"/><axis xyz="0 1 0"/>{mimic}'
                 '<limit effort="9" velocity="1"/></joint>'
             )
             above = name
@@ -275,7 +275,7 @@ def advised(error: InputError) -> Iterator[str]:
 
 
 def tried(folder: Path, text: str, choice: str) -> list[str | None]:
-    """What to try next, nothing where the arm loads or a link is the wrong one, ``None`` where no advice is given."""
+    """What to try next: nothing where the arm loads or a link is a wrong one, ``None`` without advice."""
     try:
         load(folder, text, choice)
     except InputError as error:
@@ -344,7 +344,7 @@ def test_an_arm_file_chooses_as_a_name_does(tmp_path: Path) -> None:
         ("#base=tool&tip=lower", "base = tool: is not between base and lower"),
         ("#fixed.elbo=0", "fixed = elbo: is no joint of this file; name one, for instance elbow"),
         ("#fixed.elbow=x", "x is no decimal number"),
-        ("#fixed.elbow=0&fixed.shoulder=0", "has no revolute joint on this chain; choose --tip upper"),
+        ("#fixed.elbow=0&fixed.shoulder=0", "has no revolute joint on this chain; choose --tip lower"),
         ("#angle=3", "chooses angle, which means nothing"),
         ("#xacro.a=3", "is no xacro file"),
     ],
