@@ -157,7 +157,7 @@ def gains_on_arm(file: Path, robot: str | None, **numbers: Any) -> tuple[GainFil
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
 
-    gain_file = read_gain_file(file)
+    gain_file = read_gain_file(file, robot)
     name = robot_name(robot, [gain_file])
     with arm_named_in(gain_file, robot):
         return gain_file, name, load(name, **numbers)

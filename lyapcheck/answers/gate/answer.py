@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.answers.gate.friction import Fact, damping_lines, farthest, friction_lines, held
-from lyapcheck.answers.gate.judge import BREAKS_19, GRAVITY, GateResult
+from lyapcheck.answers.gate.judge import BREAKS_19, DAMPED, GRAVITY, GateResult
 from lyapcheck.answers.gate.words import (
     KEYS,
     RULES,
@@ -94,7 +94,7 @@ def _proof(known: Check, where: str) -> str:
 
 def _accepting(result: GateResult) -> str:
     """The options with which the gate would accept, by what this run has shown; empty where it has not."""
-    if result.verdict_of((GRAVITY,)) == REJECTED:
+    if result.verdict_of((GRAVITY, DAMPED)) == REJECTED:
         return ""  # a false bound of gravity is rejected whatever decides
     known = result.stable
     instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}

@@ -9,9 +9,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers
+from lyapcheck.check.statement import Relation
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions, gamma_of
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, GainFile, GainSet, deciding_for
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.limits import ArmLimits, Limits, limits_for
+from lyapcheck.control.threshold import number
 from lyapcheck.errors import argument_error
 from lyapcheck.promise import all_say
 
@@ -20,6 +24,8 @@ if TYPE_CHECKING:
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
+DAMPED = "damped"
+"""A joint with k_v = 0: it is rejected, as the theory asks for K_v > 0."""
 GRAVITY = "gravity"
 """A stated bound that the arm itself breaks: it is rejected, whatever else decides."""
 MOST_EXPLAINED = 300
@@ -71,7 +77,7 @@ class GateResult:
 
         Without a promise about the arm as it was given, checks that all pass are ``undecided``.
         """
-        result = self.verdict_of((*self.deciding, GRAVITY))
+        result = self.verdict_of((*self.deciding, GRAVITY, DAMPED))
         return UNDECIDED if result == ACCEPTED and not self.grounds.promises else result
 
     @property
@@ -87,7 +93,7 @@ class GateResult:
             self.verdict != REJECTED
             or self.stable is None
             or self.saturates
-            or self.verdict_of((GRAVITY,)) == REJECTED
+            or self.verdict_of((GRAVITY, DAMPED)) == REJECTED
         ):
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
@@ -140,7 +146,7 @@ class GateResult:
 
     def decides(self, check: Check) -> bool:
         """Whether the verdict follows from a check."""
-        return check.id in self.deciding or check.id == GRAVITY
+        return check.id in (*self.deciding, GRAVITY, DAMPED)
 
 
 def judged_sets(
@@ -173,19 +179,32 @@ def judged_sets(
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        checks = (*broken, *conditions[key].all(gains, names), *certificates)
+        undamped = _undamped(gains)
+        checks = (*broken, *undamped, *conditions[key].all(gains, names), *certificates)
         more = len(results) < explained
-        passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
+        asked_for = (*names, GRAVITY, DAMPED)
+        passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
         result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 
 
+def _undamped(gains: GainSet) -> list[Check]:
+    """A check that is refuted for each joint with k_v = 0."""
+    positive = [Constant(Relation(("num", "0"), "<", number(kv))) for kv in gains.kv]
+    return [
+        Check(DAMPED, i, judged_statement(positive[i], [ExactNumbers()]), kv)
+        for i, kv in enumerate(gains.kv)
+        if kv == 0
+    ]
+
+
 def _looked_into(result: GateResult, viscous_min: Fraction | None) -> GateResult:
     """The same, with a proof of stability where (19) fails and none was asked for."""
     model = result.limits.model
-    if result.verdict_of(("19",)) != REJECTED or model is None or result.stable is not None:
+    known = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
+    if known or model is None or result.verdict_of(("19",)) != REJECTED:
         return result
     from lyapcheck.answers.gate.otherwise import proved_otherwise
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 from math import degrees
 
-from lyapcheck.answers.gate.judge import GRAVITY, GateResult
+from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, UNDECIDED, Check
@@ -25,6 +25,7 @@ RULES = {
     "global": "dV/dt < 0 at each state but the goal with the ε₀ shown, box by box",
     "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
     "with or without friction (Khalil 2002, corollary 4.2)",
+    DAMPED: "k_v > 0, which the theory asks for: without it a joint has only its own friction to damp it",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }
 KEYS = {
@@ -35,6 +36,7 @@ KEYS = {
     "scalar": "",
     "global": "",
     "lasalle": "",
+    DAMPED: "kv",
     GRAVITY: "",
 }
 """The gain to look at when a check fails."""
@@ -72,6 +74,8 @@ def limit_text(check: Check) -> str:
     """The limit to six digits, all correct; ``none`` where there is no limit."""
     if check.id == GRAVITY:
         return ""
+    if check.id == DAMPED:
+        return "k_v > 0"
     if check.id not in _SUBJECTS:
         return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
     return "none" if check.limit is None else _digits(check.limit)
@@ -149,7 +153,9 @@ def _broken(result: GateResult, check: Check) -> str:
 
 
 def _exceeded(result: GateResult, check: Check) -> str:
-    """The posture at which gravity exceeds a stated bound."""
+    """The posture at which gravity exceeds a stated bound, or that nothing but friction damps a joint."""
+    if check.id == DAMPED:
+        return "k_v = 0: this joint has only its friction to damp it; give it a gain"
     for one in result.limits.refuted:
         if check.id == GRAVITY and one.joint == check.joint:
             q = one.refuted.proof.q  # type: ignore[union-attr]

@@ -84,7 +84,7 @@ def run(
     with patient("gate") as advance:
         for done, file in enumerate(files):
             try:
-                gain_file = read_gain_file(file)
+                gain_file = read_gain_file(file, robot, undamped=True)
                 name = named(robot, gain_file.robot)
                 if ranges and name is not None and name not in arms:
                     with arm_named_in(gain_file, robot):
