@@ -78,6 +78,11 @@ def quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
+def key_of(name: str) -> str:
+    """A name as a key of a TOML table."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else quoted(name)
+
+
 def _too_long(name: str, text: str) -> InputError:
     """An integer that Python refuses to read, because that takes a time quadratic in its digits."""
     result = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import argument_error, nearest
 from lyapcheck.extensions import folders
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.toml import open_document, quoted
+from lyapcheck.files.toml import key_of, open_document, quoted
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.choice import Choice, split
 from lyapcheck.robots.plant import RobotModel
@@ -147,7 +147,7 @@ def _overlay(model: RobotModel, path: Path, folder: Path, choice: Choice) -> str
         ("fixed", {joint: decimal_text(value) for joint, value in choice.fixed.items()}),
         ("xacro", {name: quoted(value) for name, value in choice.xacro.items()}),
     ):
-        pairs = ", ".join(f"{quoted(name)} = {value}" for name, value in held.items())
+        pairs = ", ".join(f"{key_of(name)} = {value}" for name, value in held.items())
         lines += [f"{key} = {{ {pairs} }}"] if held else []
     for i, joint in enumerate(model.joints):
         lines += ["", "[[joints]]", f'name = "{joint}"']
