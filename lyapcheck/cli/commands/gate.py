@@ -94,12 +94,15 @@ def run(
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)
+    answer.problems = tuple(problems)
     if answer:
         if folder is not None:
             _write_certificates(folder, answer)
         show(answer, format)
     if problems:
-        raise InputError(problems)
+        unusable = InputError(problems)
+        unusable.told = bool(answer)
+        raise unusable
     return answer.exit_code
 
 
