@@ -92,4 +92,4 @@ def test_others_read_what_is_written(place: Path, capsys: pytest.CaptureFixture[
     suites = junitparser.JUnitXml.fromfile(str(place / "j.xml"))
     suites.update_statistics()
     assert (suites.tests, suites.errors) == (2, 1)
-    assert sarif.load_sarif_file(str(place / "s.sarif")).get_result_count() == 0
+    assert sarif.load_sarif_file(str(place / "s.sarif")).get_result_count() == 1
