@@ -185,6 +185,5 @@ def _hanging(tree: Tree, link: str, choice: Choice) -> list[UrdfJoint]:
 
 def _choosing(tree: Tree, run: Run, choice: Choice) -> str:
     """How to choose a run: by its tip, and by its base where joints above would be of the chain."""
-    above = [joint for joint in tree.path(run[0].parent) if _moves(joint, choice)]
-    alone = all(joint.turns for joint in above) or not any(joint.turns for joint in above)
-    return options("" if alone and not choice.base else run[0].parent, run[-1].child, choice.fixed)
+    above = any(joint.turns and _moves(joint, choice) for joint in tree.path(run[0].parent))
+    return options(run[0].parent if above or choice.base else "", run[-1].child, choice.fixed)
