@@ -41,6 +41,7 @@ def read_mjcf(path: Path, shown: str, root: Element) -> Compiled:
         raise file_error(shown, "is MJCF, which MuJoCo compiles, and that is not installed", repair)
     import mujoco
 
+    mujoco.set_mju_user_warning(lambda message: None)  # which else go to a file in the working directory
     try:
         model = mujoco.MjModel.from_xml_path(str(path))
     except ValueError as error:

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from lyapcheck._types import Progress, part, silent
-from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, unknown_function
+from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, small, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged_statement
@@ -77,7 +77,11 @@ class Prover:
         controlled = ControlledArm(gains, self.model, self.ranges)
         if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
             return Check(name, reason=_TOO_MANY)
-        reason = unknown_function(gains) or self._unphysical(controlled)
+        nominal = self.model.fixed()
+        along = (
+            name == LASALLE and not small(nominal) and nominal.chain is not None
+        )  # which it looks at itself
+        reason = unknown_function(gains) or ("" if along else self._unphysical(controlled))
         proof = None
         if not reason and name == LASALLE:
             return lasalle(self.model, self.ranges)
