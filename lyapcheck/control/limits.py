@@ -54,6 +54,13 @@ class ArmLimits:
     own: RobotModel | None = field(default=None, compare=False, repr=False)
 
     @property
+    def doubts(self) -> tuple[str, ...]:
+        """What looks like a template or another unit, and gravity that no motor holds."""
+        held = [t is None or k < t for t, k in zip(self.torque, self.gravity, strict=True)]
+        above = "Gravity may exceed the torque limit of every joint: are masses in grams, or lengths in mm?"
+        return (*(self.own.doubts if self.own else ()), *(() if any(held) else (above,)))
+
+    @property
     def n(self) -> int:
         """Number of joints."""
         return len(self.joints)
@@ -216,6 +223,7 @@ def limits_for(
     if arm.n != n:
         raise _wrong_arm(gain_file, arm.name, arm.n)
     notes = (*(() if bounds.torque else arm.torque_notes), *(() if bounds.viscous_min else arm.viscous_notes))
+    notes += arm.doubts
     gravity = Gravity(arm.gravity, arm.gravity_notes, arm.refuted)
     if bounds.gravity is not None and arm.model is not None:
         gravity = settled(arm.model, bounds.gravity, arm.own or arm.model)

@@ -7,7 +7,7 @@ from pathlib import Path
 from lyapcheck.errors import argument_error, file_error
 from lyapcheck.files.reader import URDF, read_bytes
 from lyapcheck.libraries import installed
-from lyapcheck.robots.choice import Choice
+from lyapcheck.robots.choice import FILES, Choice
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf import read_urdf
@@ -42,6 +42,8 @@ def read_robot(
     Raises:
         InputError: none of these, a package is missing, or the file describes no arm.
     """
+    if path.suffix.lower() not in FILES and not path.exists():
+        raise file_error(shown, "is no arm file", _READ)
     content = read_bytes(path, URDF, shown)
     if b"<" not in content[:2000] and path.suffix.lower() not in (".urdf", ".xacro", ".xml"):
         raise file_error(shown, "is no arm file", _READ)

@@ -1,5 +1,7 @@
 """URDF files as people have them: every word read, told or refused; encodings; which chain is the arm."""
 
+# ruff: noqa: E501 (tables of texts)
+
 from __future__ import annotations
 
 import re
@@ -148,14 +150,18 @@ BODY = TWO.partition("\n")[2].replace(ROBOT, f"<!-- Größe -->{ROBOT}")
 @pytest.mark.parametrize(
     "data",
     [
-        *(f'<?xml version="1.0" encoding="{code}"?>\n{BODY}'.encode(code) for code in (
-            "ISO-8859-1", "windows-1252", "utf-8", "UTF-16", "ISO-8859-15")),
+        *(
+            f'<?xml version="1.0" encoding="{code}"?>\n{BODY}'.encode(code)
+            for code in ("ISO-8859-1", "windows-1252", "utf-8", "UTF-16", "ISO-8859-15")
+        ),
         b"\xef\xbb\xbf" + BODY.encode(),
         b"\n \n" + f'<?xml version="1.0" encoding="ISO-8859-1"?>\n{BODY}'.encode("ISO-8859-1"),
-        *(f"{doctype}\n{BODY}".encode() for doctype in (
-            "<!DOCTYPE robot>", "<!DOCTYPE robot []>", '<!DOCTYPE robot SYSTEM "urdf.dtd">')),
+        *(
+            f"{doctype}\n{BODY}".encode()
+            for doctype in ("<!DOCTYPE robot>", "<!DOCTYPE robot []>", '<!DOCTYPE robot SYSTEM "urdf.dtd">')
+        ),
     ],
-)  # fmt: skip
+)
 def test_encodings_and_document_types(tmp_path: Path, data: bytes) -> None:
     assert np.array_equal(numbers(load(tmp_path, data)), numbers(load(tmp_path, TWO)))
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.answers.gate.friction import Fact, damping_lines, farthest, friction_lines, held
+from lyapcheck.answers.gate.friction import Fact, damping_lines, farthest, friction_lines, held, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, DAMPED, GRAVITY, GateResult
 from lyapcheck.answers.gate.words import (
     KEYS,
@@ -174,7 +174,8 @@ def _fact(result: GateResult) -> Fact | None:
     model = result.limits.model
     if model is None or not result.explained or result.verdict != ACCEPTED:
         return None
-    return farthest(result.gains, model)
+    words = swinging(result.gains, model)
+    return farthest(result.gains, model) or ((Fraction(0), words) if words else None)
 
 
 def _weight(fact: Fact) -> Fraction:

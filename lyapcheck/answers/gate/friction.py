@@ -48,6 +48,8 @@ SWINGS = 0.5
 """A damping ratio below which a joint overshoots by more than a sixth of its step."""
 POSTURES = 20_000
 """At which M(q) is looked at where it is too long to be written out."""
+HARDLY = 0.1
+"""A damping ratio below which nobody wants gains: they overshoot by more than 70 %."""
 ANYWHERE = Fraction(10**6)
 Fact = tuple[Fraction, str]
 """How far from the goal, in degrees, and in words."""
@@ -77,6 +79,14 @@ def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
         end = f": without dry friction it swings, by about {over:.0f} % of a step"
     soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
     return [f"estimated damping ratio{soft}, at the posture of most inertia: {text}{end}"]
+
+
+def swinging(gains: GainSet, model: RobotModel) -> str:
+    """That gains hardly damp a joint, in words; empty where they do, or nothing is known of it."""
+    if not small(model.fixed()) and not installed("numpy"):
+        return ""
+    least = min(damping_ratios(gains, model))
+    return f"estimated damping ratio {least:.2g}: it hardly stops swinging" if least < HARDLY else ""
 
 
 def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:
