@@ -22,6 +22,7 @@ from lyapcheck.search.closed_loop import mass_of
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
+    from lyapcheck.check.kinds.chain import ChainAbove
     from lyapcheck.check.kinds.decreasing import Decreasing
     from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.check.kinds.sampled import SampledStable
@@ -259,6 +260,14 @@ def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
     return AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(parts, 1))))
 
 
-def definite(arm: RobotModel) -> MassAbove:
-    """Is M(q) positive definite for every arm in the ranges?"""
-    return MassAbove(mass_of(arm), tuple(number.bounds for number in arm.parameters.values()), Fraction(0))
+def definite(arm: RobotModel) -> MassAbove | ChainAbove:
+    """Is M(q) positive definite for every arm in the ranges? Of links where M is too long to be written."""
+    from lyapcheck.check.kinds.chain import ChainAbove
+
+    try:
+        mass = mass_of(arm)
+    except TooManyTerms:
+        if arm.chain is None:
+            raise
+        return ChainAbove(arm.chain.links, Fraction(0))
+    return MassAbove(mass, tuple(number.bounds for number in arm.parameters.values()), Fraction(0))

@@ -19,10 +19,25 @@ class Problem:
     rule: str
     repair: str
 
+    @property
+    def path(self) -> str:
+        """The file that it is about; empty where that is an argument, the environment or a library."""
+        named = self.file in ("argument", "environment") or self.file.startswith("lyapcheck ")
+        return "" if named else self.file
+
+    @property
+    def said(self) -> str:
+        """What is wrong, without the place."""
+        subject = f"{self.key} = {self.value}" if self.value else self.key
+        return printable(f"{subject}: {self.rule}; {self.repair}")
+
+    def data(self) -> dict[str, object]:
+        """Its parts, for programs."""
+        return {key: getattr(self, key) for key in ("file", "line", "key", "value", "rule", "repair")}
+
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
-        subject = f"{self.key} = {self.value}" if self.value else self.key
-        return printable(f"{place}: {subject}: {self.rule}; {self.repair}")
+        return f"{printable(place)}: {self.said}"
 
 
 class InputError(Exception):
@@ -30,6 +45,9 @@ class InputError(Exception):
 
     The command line prints the problems one a line and leaves with exit code 2.
     """
+
+    told = False
+    """Whether an answer that was written has them."""
 
     def __init__(self, problems: Problem | list[Problem]) -> None:
         self.problems = (

@@ -20,6 +20,7 @@ PACKAGES = {
     "scipy": "scipy",
     "shtab": "shtab",
     "sympy": "sympy",
+    "yaml": "pyyaml",
 }
 """What a module is called where packages are installed; python-flint alone judges gains and certificates."""
 RULE = "is not installed, and this needs it"

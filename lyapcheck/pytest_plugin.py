@@ -54,7 +54,7 @@ def assert_accepted(
 
     if conditions is not None and not conditions:
         raise argument_error("conditions", "", "names no condition", "use some, for instance 10p and 19")
-    results = gate(read_gain_file(path), robot, conditions)
+    results = gate(read_gain_file(path, robot, undamped=True), robot, conditions)
     complaints = [line for result in results for line in _complaints(result)]
     if complaints:
         raise AssertionError("\n".join(complaints))

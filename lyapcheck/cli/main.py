@@ -10,11 +10,13 @@ import os
 import select
 import stat
 import sys
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
 from lyapcheck.cli.stopping import Stopping
+from lyapcheck.cli.values import chosen
 from lyapcheck.errors import InputError, argument_error, nearest
 from lyapcheck.libraries import missing
 from lyapcheck.output.escapes import printable
@@ -35,6 +37,8 @@ ABOUT = """Check the Lyapunov proof of bounded hyperbolic controllers for robot 
       lyapcheck robot buap3                  the properties of an arm
       lyapcheck gate --help                  what a command takes
     """
+FOR_PROGRAMS = ("json", "csv", "junit", "sarif", "github")
+"""Formats that are never empty, whatever is wrong with the input."""
 SHELLS = ("bash", "zsh", "fish")
 CLOSED_PIPE = 141
 """128 + SIGPIPE, as a shell reports it: nobody read the result, so it counts as none."""
@@ -118,7 +122,23 @@ def run(words: Sequence[str]) -> int:
     command = load(words[0])
     parser = Parser(prog=f"lyapcheck {words[0]}", description=command.run.__doc__)
     command.arguments(parser)
-    return int(command.run(**parser.parse(words[1:])))
+    try:
+        return int(command.run(**chosen(parser.parse(words[1:]))))
+    except InputError as error:
+        if not error.told:
+            _show_problems(words, error)
+        raise
+
+
+def _show_problems(words: Sequence[str], error: InputError) -> None:
+    """Write what is wrong as a document of the format that was asked for: programs read no standard error."""
+    named = [word.removeprefix("--format=") for word in words if word.startswith("--format=")]
+    named += [after for word, after in pairwise(words) if word == "--format"]
+    if named and named[-1] in FOR_PROGRAMS:
+        from lyapcheck.cli.show import show
+        from lyapcheck.output.unusable import Unusable
+
+        show(Unusable(words[0], error.problems), named[-1])
 
 
 def main() -> None:

@@ -287,8 +287,6 @@ def _by_options(make: Callable[[], Made]) -> Callable[[], Made]:
 
 
 def _goal(target: str | None, model: RobotModel) -> tuple[float, ...]:
-    """What was asked for, or the published goal, which only an arm of three joints has."""
-    if target is None and model.n != 3:
-        rule = f"is missing, and the paper's goal is for 3 joints where {model.name} has {model.n}"
-        raise argument_error("--target", "", rule, f"write --target {','.join(['45'] * model.n)}")
-    return parse_angles("--target", "45,45,90" if target is None else target, model.joints)
+    """What was asked for, or the published goal for an arm of three joints, 45° for each joint of others."""
+    default = "45,45,90" if model.n == 3 else ",".join(["45"] * model.n)
+    return parse_angles("--target", default if target is None else target, model.joints)

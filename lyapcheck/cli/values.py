@@ -139,8 +139,10 @@ def robot_name(robot: str | None, gain_files: Iterable[GainFile]) -> str:
     Raises:
         InputError: nobody names an arm.
     """
+    from lyapcheck.robots.choice import named
+
     files = list(gain_files)
-    name = robot or next((file.robot for file in files if file.robot), None)
+    name = named(robot, next((file.robot for file in files if file.robot), None))
     if name is None:
         rule = f"{', '.join(file.path for file in files)} names no arm and --robot is missing"
         raise argument_error("--robot", "", rule, "add --robot buap3, or robot = … to the file")
@@ -156,7 +158,7 @@ def gains_on_arm(file: Path, robot: str | None, **numbers: Any) -> tuple[GainFil
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.robots import load
 
-    gain_file = read_gain_file(file)
+    gain_file = read_gain_file(file, robot)
     name = robot_name(robot, [gain_file])
     with arm_named_in(gain_file, robot):
         return gain_file, name, load(name, **numbers)
@@ -203,10 +205,51 @@ def add_gain_file(parser: Parser) -> None:
     parser.add_argument("file", metavar="FILE", type=Path, help="A gain file.")
 
 
-def add_robot(parser: Parser) -> None:
-    """``--robot``, a name or a path."""
-    about = "A built-in arm or an arm file, instead of the one the gain file names."
+def add_robot(parser: Parser, about: str = "") -> None:
+    """``--robot``, a name or a path, and what is chosen of it."""
+    about = about or "A built-in arm or an arm file, instead of the one the gain file names."
     parser.add_argument("--robot", metavar="ROBOT", help=about)
+    add_choice_of_arm(parser)
+
+
+def add_choice_of_arm(parser: Parser) -> None:
+    """``--base``, ``--tip``, ``--fixed`` and ``--xacro``, which `chosen` makes part of the arm's name."""
+    about = "The link of a URDF, xacro or MJCF file that the arm begins at."
+    parser.add_argument("--base", metavar="LINK", help=about)
+    about = "The link that it ends at; the longest run of revolute joints if missing."
+    parser.add_argument("--tip", metavar="LINK", help=about)
+    about = "A joint that is held there, rad or m; may be repeated."
+    parser.add_argument("--fixed", metavar="JOINT=VALUE", action="append", help=about)
+    about = "An argument of a xacro file; may be repeated."
+    parser.add_argument("--xacro", metavar="NAME:=VALUE", action="append", help=about)
+
+
+def chosen(values: dict[str, Any]) -> dict[str, Any]:
+    """The values of a command line with what is chosen of the arm as part of ``robot``.
+
+    Raises:
+        InputError: a choice that says nothing.
+    """
+    if "fixed" not in values:
+        return values
+    base, tip, fixed, xacro = (values.pop(key) for key in ("base", "tip", "fixed", "xacro"))
+    if not (base or tip or fixed or xacro):
+        return values
+    from lyapcheck.robots.choice import Choice, held_at
+
+    wrong = Complaints()
+    held = dict(wrong.reading(_pair, "--fixed", word, "=") or ("", "") for word in fixed or ())
+    given = dict(wrong.reading(_pair, "--xacro", word, ":=") or ("", "") for word in xacro or ())
+    wrong.raise_all()
+    at = {joint: held_at(value, joint) for joint, value in held.items()}
+    return values | {"robot": Choice(base or "", tip or "", at, given).of(values["robot"] or "")}
+
+
+def _pair(option: str, word: str, mark: str) -> tuple[str, str]:
+    name, found, value = word.partition(mark)
+    if not found or not name:
+        raise argument_error(option, word, f"must be NAME{mark}VALUE", f"write {option} joint{mark}0")
+    return name, value
 
 
 def add_members(parser: Parser, default: str | None, more: str = "") -> None:

@@ -9,13 +9,14 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Protocol
 
-from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 from lyapcheck.files.places import KeyPath, Place
 from lyapcheck.files.toml import GAINS, TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
+from lyapcheck.robots.choice import named, placed, split
 
 # --- Which conditions decide about a gain set: those asked for, else its own, else the paper's two.
 
@@ -46,6 +47,9 @@ def deciding_for(gains: Conditioned, asked: Sequence[str] | None = None) -> tupl
         asked: conditions of the command line, which go before those of the set; ``None`` without any.
     """
     return tuple(dict.fromkeys(gains.condition or DECIDING if asked is None else asked))
+
+
+Gains = tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
@@ -140,8 +144,13 @@ def one_gain_set(gains: GainSet | str | Path) -> GainSet:
     return file.gains[0]
 
 
-def read_gain_file(path: str | Path) -> GainFile:
+def read_gain_file(path: str | Path, robot: str | None = None, *, undamped: bool = False) -> GainFile:
     """The gain sets of a TOML file, every decimal exact.
+
+    Args:
+        path: of the file.
+        robot: an arm, or a choice of the file's, whose joints gains by name are for instead of the file's.
+        undamped: take k_v = 0, which is a verdict of the gate and a mistake elsewhere.
 
     Raises:
         InputError: everything that is wrong with the file, each problem with its line and repair.
@@ -150,10 +159,11 @@ def read_gain_file(path: str | Path) -> GainFile:
     require_kind(document.name, document.data, GAINS)
     notes = Notes(document.name, document.line)
     top = Fields(document.data, (), notes)
-    robot = top.text("robot") or None
+    own = beside(top.text("robot") or None, Path(path))
     condition = conditions_of(top)
     tables = top.tables("gains", required=True)
-    sets = [gain_set_of(table, index, condition) for index, table in enumerate(tables)]
+    joints = _joints(named(robot, own)) if any(_by_name(table) for table in tables) else None
+    sets = [gain_set_of(table, index, condition, joints, undamped) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds, loop = _bounds(top.table("bounds")), read_loop(top.table("loop"))
     top.close()
@@ -161,7 +171,7 @@ def read_gain_file(path: str | Path) -> GainFile:
     _check_lengths(gains, bounds, notes)
     if notes.problems:
         raise InputError(notes.problems)
-    return GainFile(document.name, beside(robot, Path(path)), gains, bounds, document, loop)
+    return GainFile(document.name, own, gains, bounds, document, loop)
 
 
 def conditions_of(table: Fields) -> tuple[str, ...]:
@@ -181,13 +191,36 @@ def conditions_of(table: Fields) -> tuple[str, ...]:
     return () if wrong else tuple(dict.fromkeys(value))
 
 
-def gain_set_of(table: Fields, index: int, condition: tuple[str, ...] = ()) -> GainSet | None:
+def _by_name(table: Fields) -> bool:
+    return any(isinstance(table.data.get(key), dict) for key in ("kp", "kv"))
+
+
+def _joints(robot: str | None) -> tuple[str, ...]:
+    """The joints of an arm, base first; none where no arm is named.
+
+    Raises:
+        InputError: the arm cannot be read.
+    """
+    from lyapcheck.robots import load
+
+    return () if robot is None else load(robot).joints
+
+
+def gain_set_of(
+    table: Fields,
+    index: int,
+    condition: tuple[str, ...] = (),
+    joints: tuple[str, ...] | None = None,
+    undamped: bool = False,
+) -> GainSet | None:
     """The gain set of one table of a file; nothing where something is wrong with it, which is noted.
 
     Args:
         table: of the file.
         index: its number, from 0.
         condition: of the whole file; that of the set goes before it.
+        joints: of the arm, for gains by name.
+        undamped: whether k_v = 0 may stand.
     """
     name = table.text("name", required=True)
     family = table.choice("family", names(), "hyperbolic")
@@ -197,7 +230,12 @@ def gain_set_of(table: Fields, index: int, condition: tuple[str, ...] = ()) -> G
     angle = table.choice("angle", ("rad", "deg"), "rad")
     if angle == "deg" and family != "linear":
         table.fail("angle", f"the gains of {family} are torques, not torques per angle", "remove angle")
-    kp, kv = table.numbers("kp", required=True), table.numbers("kv", required=True)
+    others = [key for key in table.data if key.lower() in _OTHERS and key not in ("kp", "kv")]
+    for key in others:
+        table.raw(key)
+        table.fail(key, *_OTHERS[key.lower()])
+    kp = _gains(table, "kp", joints, True, not others)
+    kv = _gains(table, "kv", joints, not undamped, not others)
     condition = conditions_of(table) or condition
     table.close()
     if kp is None or kv is None:
@@ -206,6 +244,54 @@ def gain_set_of(table: Fields, index: int, condition: tuple[str, ...] = ()) -> G
         rule = f"has {len(kv)} gain{'s' if len(kv) > 1 else ''} where kp has {len(kp)}"
         table.fail("kv", rule, "give both as many gains as the arm has joints")
     return GainSet(name, m, kp, kv, family, angle, index, condition)
+
+
+_KP = ("is not a key here: the gain of the error is kp", "write kp = …")
+_KV = ("is not a key here: the gain of the speed is kv", "write kv = …")
+_KI = (
+    "is an integral, and outside of the theory: its state is not in the Lyapunov function",
+    "remove it; the gates judge the proportional and derivative part with g(q) in the loop",
+)
+_OTHERS = {"kd": _KV, "d": _KV, "p": _KP, "kp": _KP, "kv": _KV, "ki": _KI, "i": _KI}
+"""What other programs call gains."""
+
+
+def _gains(
+    table: Fields, key: str, joints: tuple[str, ...] | None, positive: bool, required: bool
+) -> Gains | None:
+    """A list of gains, one a joint, or a table of them by joint."""
+    value = table.data.get(key)
+    if isinstance(value, list) and any(isinstance(item, list) for item in value):
+        table.raw(key)
+        table.fail(key, "is a full matrix, and the gains of the theory are diagonal", "write its diagonal")
+        return None
+    if isinstance(value, list) and _commas(value):
+        table.raw(key)
+        table.fail(key, f"has {len(value)} whole numbers, some of them 0", "write 0.2 with a point, not 0,2")
+        return None
+    if not isinstance(value, dict):
+        return table.numbers(key, required, positive)
+    table.raw(key)
+    if not joints:
+        table.fail(key, "is by joint, and the file names no arm", 'add robot = "arm.urdf", or give a list')
+        return None
+    inner = Fields(value, (*table.path, key), table.notes)
+    found = [inner.number(joint, positive) if joint in value else None for joint in joints]
+    for joint in value:
+        if joint not in joints:
+            inner.raw(joint)
+            inner.fail(joint, "is no joint of this arm", nearest(joint, joints, f"use {', '.join(joints)}"))
+    missing = [joint for joint in joints if joint not in value]
+    if missing:
+        table.fail(key, f"has no gain for {', '.join(missing)}", "give each joint of the arm its gain")
+    known = tuple(gain for gain in found if gain is not None)
+    return known if len(known) == len(joints) and len(value) == len(joints) else None
+
+
+def _commas(value: list[Any]) -> bool:
+    """Whether numbers look as if decimal commas had taken them apart: [0,2, 0,2]."""
+    whole = all(isinstance(item, int) and not isinstance(item, bool) for item in value)
+    return whole and len(value) % 2 == 0 and any(item == 0 for item in value[::2])
 
 
 def _bounds(table: Fields | None) -> Bounds:
@@ -245,9 +331,7 @@ def _check_lengths(gains: tuple[GainSet, ...], bounds: Bounds, notes: Notes) -> 
 
 def beside(robot: str | None, file: Path) -> str | None:
     """A robot named by a path is meant relative to the gain file."""
-    if robot is not None and robot.endswith((".toml", ".urdf")) and not Path(robot).is_absolute():
-        return str(file.parent / robot)
-    return robot
+    return None if robot is None else placed(robot, lambda path: str(file.parent / path))
 
 
 @contextmanager
@@ -268,7 +352,8 @@ def arm_named_in(file: GainFile, replaced: str | None = None) -> Iterator[None]:
 
 def _misnamed(file: GainFile, problem: Problem) -> Problem:
     """A problem with the name or path of the arm at the key of the gain file; others are in the arm file."""
-    whole = problem.key == "file" and problem.line is None and problem.file == file.robot
+    path = split(file.robot or "")[0]
+    whole = problem.key == "file" and problem.line is None and problem.file == path
     if problem.key != "robot" and not whole:
         return problem
     as_written = file.robot if file.document is None else file.document.data["robot"]

@@ -11,6 +11,7 @@ from lyapcheck.control.gravity import Gravity, RefutedBound, computed_bounds, se
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import Number, RobotModel, load
+from lyapcheck.robots.choice import named
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
@@ -51,6 +52,13 @@ class ArmLimits:
     gravity_notes: tuple[str, ...] = ()
     refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
     own: RobotModel | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What looks like a template or another unit, and gravity that no motor holds."""
+        held = [t is None or k < t for t, k in zip(self.torque, self.gravity, strict=True)]
+        above = "Gravity may exceed the torque limit of every joint: are masses in grams, or lengths in mm?"
+        return (*(self.own.doubts if self.own else ()), *(() if any(held) else (above,)))
 
     @property
     def n(self) -> int:
@@ -198,7 +206,7 @@ def limits_for(
     Raises:
         InputError: no arm and no bounds, an unknown arm, or another number of joints.
     """
-    bounds, name = gain_file.bounds, robot or gain_file.robot
+    bounds, name = gain_file.bounds, named(robot, gain_file.robot)
     n = gain_file.gains[0].n
     if name is None:
         if None in (bounds.torque, bounds.gravity, bounds.viscous_min):
@@ -215,6 +223,7 @@ def limits_for(
     if arm.n != n:
         raise _wrong_arm(gain_file, arm.name, arm.n)
     notes = (*(() if bounds.torque else arm.torque_notes), *(() if bounds.viscous_min else arm.viscous_notes))
+    notes += arm.doubts
     gravity = Gravity(arm.gravity, arm.gravity_notes, arm.refuted)
     if bounds.gravity is not None and arm.model is not None:
         gravity = settled(arm.model, bounds.gravity, arm.own or arm.model)

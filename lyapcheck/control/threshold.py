@@ -127,7 +127,7 @@ class Threshold:
         """An x where value·h(x) = value·x is above the limit."""
         from lyapcheck.check.statement import Witness
 
-        return [Witness((("x", Fraction(max(0, self.near().upper // value) + 1)),))]
+        return [Witness((("x", Fraction(max(0, self.near().upper // (value or 1)) + 1)),))]
 
 
 def scaled(budget: Fraction, n: int, gamma: Tree | None, operator: str = "<") -> Threshold:

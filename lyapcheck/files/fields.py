@@ -86,7 +86,9 @@ class Fields:
             return None
         if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
             quotes = ", without quotes" if isinstance(value, str) else ""
-            self.fail(key, f"must be a whole number from {low} to {high}", f"write {key} = {low}{quotes}")
+            whole = isinstance(value, Fraction) and value.denominator == 1 and low <= value <= high
+            best = int(value) if whole else low
+            self.fail(key, f"must be a whole number from {low} to {high}", f"write {key} = {best}{quotes}")
             return None
         return value
 

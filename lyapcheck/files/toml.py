@@ -71,6 +71,18 @@ def open_document(path: Path, shown: str | None = None, bound: Bound = TOML) -> 
         raise _too_long(name, text) from None
 
 
+def quoted(text: str) -> str:
+    """A TOML basic string; JSON escapes the same characters the same way."""
+    import json
+
+    return json.dumps(text, ensure_ascii=False)
+
+
+def key_of(name: str) -> str:
+    """A name as a key of a TOML table."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else quoted(name)
+
+
 def _too_long(name: str, text: str) -> InputError:
     """An integer that Python refuses to read, because that takes a time quadratic in its digits."""
     result = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)
@@ -86,12 +98,37 @@ def _syntax(name: str, message: str, text: str) -> InputError:
         return file_error(
             name, "is XML, not TOML", 'give a TOML file, which may name a URDF file: robot = "arm.urdf"'
         )
+    other = other_format(name, text)
+    if other:
+        bring = f"lyapcheck init --from {name} --arm ARM" if other != "MATLAB" else "lyapcheck init"
+        return file_error(name, f"is {other}, not TOML", f"bring its gains over: {bring} writes a gain file")
     line = int(result[1]) if result else _last_assignment(text)
     if what == "Unclosed array" and result is not None:
         before = text.splitlines()[: int(result[1])]
         if "[" not in before[-1][: int(result[2])]:  # it is the next key that does not fit into the array
             line = _last_assignment("\n".join(before[:-1]))
     return InputError(Problem(name, line, "TOML", "", what, "correct the syntax on this line"))
+
+
+def other_format(name: str, text: str) -> str:
+    """YAML, JSON, CSV or MATLAB, by the name of a file or what is in it; empty where it is none of these."""
+    suffix = name.rpartition(".")[2].lower()
+    if suffix in _SUFFIXES:
+        return _SUFFIXES[suffix]
+    lines = [line for line in map(str.strip, text.splitlines()) if line and not line.startswith(("#", "%"))]
+    if not lines:
+        return ""
+    if lines[0].startswith("{") or re.match(r'\[\s*($|\{|")', lines[0]):
+        return "JSON" if text.rstrip().endswith(("}", "]")) else ""
+    if any("=" in line for line in lines):
+        matlab = re.compile(r".*(;$|=\s*diag\b|=\s*\[[^,\]]*\s[^,]*\])")
+        return "MATLAB" if any(map(matlab.match, lines)) else ""
+    if re.match(r"[\w./-]+:(\s|$)|- ", lines[0]):
+        return "YAML"
+    return "CSV" if re.match(r"[^,;]+[,;\t]", lines[0]) else ""
+
+
+_SUFFIXES = {"yaml": "YAML", "yml": "YAML", "json": "JSON", "csv": "CSV", "tsv": "CSV", "m": "MATLAB"}
 
 
 def _last_assignment(text: str) -> int | None:

@@ -7,10 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from lyapcheck.output.document import Document
 from lyapcheck.output.escapes import document_text
+
+if TYPE_CHECKING:
+    from lyapcheck.errors import Problem
 
 # --- What was judged, case by case: for systems that run checks and show the outcome at a line of a file.
 
@@ -67,6 +70,8 @@ class Answer(ABC):
 
     schema: ClassVar[str]
     """Name and version of its JSON, such as ``lyapcheck/gate/1``."""
+    problems: Sequence[Problem] = ()
+    """Input that could not be used; the rest was."""
 
     @abstractmethod
     def document(self) -> Document:

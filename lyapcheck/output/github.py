@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from lyapcheck.errors import Problem
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.escapes import github_property, github_text
 
@@ -17,7 +18,14 @@ def render(answer: Answer) -> str:
     shown = sorted((one for one in result if one.level in COMMANDS), key=lambda one: order.get(one.level, 0))
     title = f"lyapcheck {answer.schema.split('/')[1]}"
     last = f"::notice title={github_property(title)}::{github_text(answer.document().title)}"
-    return "\n".join([*map(_line, shown), last]) + "\n"
+    return "\n".join([*map(_problem, answer.problems), *map(_line, shown), last]) + "\n"
+
+
+def _problem(problem: Problem) -> str:
+    place = [f"file={github_property(problem.path)}"] if problem.path else []
+    place += [f"line={problem.line}"] if problem.path and problem.line else []
+    properties = ",".join([*place, f"title={github_property(problem.key)}"])
+    return f"::error {properties}::{github_text(problem.said)}"
 
 
 def _line(one: Annotation) -> str:

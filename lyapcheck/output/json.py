@@ -26,6 +26,8 @@ def render(answer: Answer) -> str:
     versions = {name: version(name) for name in BEHIND}
     head = {"schema": answer.schema, "version": versions["lyapcheck"], "versions": versions}
     data = head | answer.data()
+    if answer.problems:
+        data["problems"] = [problem.data() for problem in answer.problems]
     try:
         text = laid_out(data)
     except ValueError:  # JSON has no infinity, and no name for what is no number

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from typing import Any
 from urllib.parse import quote
 
+from lyapcheck.errors import Problem
 from lyapcheck.output.answer import Annotation, Answer, Level
 
 LEVELS: Mapping[Level, str] = {Level.FAILED: "error", Level.UNDECIDED: "warning", Level.REMARK: "note"}
@@ -25,24 +26,40 @@ def render(answer: Answer) -> str:
         "rules": [{"id": rule, "shortDescription": {"text": text}} for rule, text in texts.items()],
     }
     results = [_result(one, rules.index(one.rule)) for one in result]
+    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    if answer.problems:
+        told = [_notification(problem) for problem in answer.problems]
+        run["invocations"] = [{"executionSuccessful": False, "toolExecutionNotifications": told}]
     log = {
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
-        "runs": [{"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}],
+        "runs": [run],
     }
     return json.dumps(log, ensure_ascii=False, indent=2) + "\n"
 
 
+def _notification(problem: Problem) -> dict[str, Any]:
+    return {
+        "level": "error",
+        "message": {"text": str(problem)},
+        **_places(problem.path, problem.line or 0, 1),
+    }
+
+
+def _places(path: str, line: int, column: int) -> dict[str, Any]:
+    location: dict[str, Any] = {"artifactLocation": {"uri": quote(path)}}
+    if line:
+        location["region"] = {"startLine": line, "startColumn": max(column, 1)}
+    return {"locations": [{"physicalLocation": location}]} if path else {}
+
+
 def _result(one: Annotation, index: int) -> dict[str, Any]:
-    location: dict[str, Any] = {"artifactLocation": {"uri": quote(one.path)}}
-    if one.line:
-        location["region"] = {"startLine": one.line, "startColumn": max(one.column, 1)}
     return {
         "ruleId": one.rule,
         "ruleIndex": index,
         "level": LEVELS[one.level],
         "message": {"text": f"{one.subject}: {one.message}"},
-        **({"locations": [{"physicalLocation": location}]} if one.path else {}),
+        **_places(one.path, one.line, one.column),
         "partialFingerprints": {"case/v1": _fingerprint(one)},
     }
 

@@ -58,11 +58,14 @@ potential give, see `lyapcheck.robots.printed`.
 
 A **loop** that a computer runs goes into ``[loop]``, see `lyapcheck.files.loop`.
 
-A **URDF file** gives the links, and this file what such files lack, see `lyapcheck.robots.urdf`::
+A **URDF, xacro or MJCF file** gives the links, and this file what it lacks, see `lyapcheck.robots.formats`::
 
     title = "UR5 with friction"
     urdf = "ur5_robot.urdf"             # beside this file, or a path from here
-    tip = "ee_link"                     # optional: the link that ends the chain
+    base = "base_link"                  # optional: the link that the chain begins at
+    tip = "ee_link"                     # optional: the link that ends it
+    fixed = { lift_joint = 0.2 }        # optional: joints that are held, rad or m
+    xacro = { tool = "gripper" }        # optional: arguments of a xacro file
     gravity = [0, 0, -9.81]             # optional
 
     [[joints]]                          # optional: numbers that replace those of the URDF file
@@ -83,6 +86,7 @@ from lyapcheck.files.toml import ARM as TOML_ARM
 from lyapcheck.files.toml import TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import check_positive_definite
+from lyapcheck.robots.choice import Choice
 from lyapcheck.robots.fields import ArmFields, ArmNotes
 from lyapcheck.robots.plans import ModelPlan, read_plan
 from lyapcheck.robots.plant import RobotModel
@@ -98,7 +102,7 @@ def open_arm(path: Path, shown: str) -> TomlFile:
         InputError: not a ``.toml`` file, missing, a folder, too large, not UTF-8 or not TOML.
     """
     if path.suffix.lower() != ".toml" and not path.is_dir():
-        raise file_error(shown, "is no arm file", "give the path of a .toml or .urdf file")
+        raise file_error(shown, "is no arm file", "give the path of a .toml file")
     return open_document(path, shown, ARM)
 
 
@@ -111,6 +115,7 @@ def read_arm(
     spread: Fraction = EXACT,
     vary: tuple[Vary, ...] = (),
     tested: bool = False,
+    choice: Choice | None = None,
 ) -> RobotModel:
     """The arm that a file describes; ``shown`` is the name of the file in messages.
 
@@ -121,6 +126,7 @@ def read_arm(
             of an arm that names a URDF file masses and friction.
         vary: ranges in place of those of the file.
         tested: leave out what finds slips in a file by sampling.
+        choice: of an arm that names a file of a robot, before that of the file.
 
     Raises:
         InputError: the file cannot be read or describes no arm; carries every problem found.
@@ -135,7 +141,11 @@ def read_arm(
     if "urdf" in top.data:  # which also reports what was noted so far
         from lyapcheck.robots.overlay import read_overlay
 
-        return replace(with_ranges(read_overlay(path, title, remarks, top), spread, vary), loop=loop)
+        model = read_overlay(path, title, remarks, top, choice or Choice())
+        return replace(with_ranges(model, spread, vary), loop=loop)
+    if choice:
+        rule = "has no links to choose from: only an arm file that names a robot by urdf = … has"
+        raise file_error(document.name, rule, "leave base, tip, fixed and xacro out")
     plan = read_plan(top)
     top.close()
     if notes.problems or plan is None:

@@ -214,4 +214,11 @@ class RobotModel(Plant):
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted about this arm, one sentence each."""
         assumed = [number.sentence(name) for name, number in self.numbers.items() if number.assumed]
-        return (*self.remarks, *assumed)
+        return (*self.remarks, *self.doubts, *assumed)
+
+    @cached_property
+    def doubts(self) -> tuple[str, ...]:
+        """What looks like a template or another unit; no verdict rests on it."""
+        from lyapcheck.robots.doubts import doubts
+
+        return doubts(self)

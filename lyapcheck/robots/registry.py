@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 from fractions import Fraction
@@ -13,8 +12,9 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import argument_error, nearest
 from lyapcheck.extensions import folders
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.toml import open_document
+from lyapcheck.files.toml import key_of, open_document, quoted
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
+from lyapcheck.robots.choice import Choice, split
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.vary import Vary, require_known
 
@@ -41,11 +41,12 @@ def load(
     spread: Fraction = EXACT,
     vary: tuple[Vary, ...] = (),
 ) -> RobotModel:
-    """The built-in arm of that name, or the arm in that ``.toml`` or ``.urdf`` file.
+    """The built-in arm of that name, or the arm in that file.
 
     Args:
-        name_or_path: the arm.
-        tip: for a URDF file, the link that ends the chain; by default that of the most joints.
+        name_or_path: the arm, of a robot perhaps with what is chosen of it, as in ``arm.urdf#tip=hand``, see
+            `lyapcheck.robots.choice`.
+        tip: the link that ends the chain of a robot; the longest run of revolute joints by default.
         spread: numbers of an arm file that have no range of their own get value·(1 ± spread), 0 ≤ spread < 1;
             of a URDF file masses and friction.
         vary: ranges of some numbers, in place of those of the file.
@@ -53,40 +54,38 @@ def load(
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).
     """
-    if tip is not None and not str(name_or_path).lower().endswith(".urdf"):
-        raise argument_error("tip", tip, f"{name_or_path} is no URDF file", "leave it out")
-    result = _loaded(name_or_path, tip, spread, vary)
+    name, choice = split(str(name_or_path))
+    result = _loaded(name, Choice(tip=tip or "").over(choice), spread, vary)
     require_known(result, vary)
     return result
 
 
 def arm_file(name_or_path: str | Path) -> Path:
     """The file of an arm: that of a built-in one or of an example, or the path itself."""
-    known = _arms() | _examples()
-    return known.get(str(name_or_path), known.get(str(name_or_path).lower(), Path(name_or_path)))
+    known, name = _arms() | _examples(), split(str(name_or_path))[0]
+    return known.get(name, known.get(name.lower(), Path(name)))
 
 
-def _loaded(
-    name_or_path: str | Path, tip: str | None, spread: Fraction, vary: tuple[Vary, ...]
-) -> RobotModel:
-    if str(name_or_path) in names():
-        return _builtin(str(name_or_path), spread, vary)
-    path = arm_file(name_or_path)
-    if path.suffix.lower() == ".urdf":
-        from lyapcheck.robots.urdf import read_urdf
-
-        return with_ranges(read_urdf(path, tip=tip), spread, vary)
+def _loaded(name: str, choice: Choice, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
+    if name in names():
+        if choice:
+            rule = f"{name} is built in, and has no links to choose from"
+            raise argument_error("robot", choice.of(name), rule, "leave base, tip, fixed and xacro out")
+        return _builtin(name, spread, vary)
+    path = arm_file(name)
     if not path.suffix and not path.exists():
-        raise argument_error(
-            "robot", name_or_path, "is neither a built-in arm nor a file", _advice(str(name_or_path))
-        )
-    return read_arm(path, spread=spread, vary=vary)
+        raise argument_error("robot", name, "is neither a built-in arm nor a file", _advice(name))
+    if path.suffix.lower() == ".toml" or path.is_dir():
+        return read_arm(path, spread=spread, vary=vary, choice=choice)
+    from lyapcheck.robots.formats import read_robot
+
+    return with_ranges(read_robot(path, str(path), choice), spread, vary)
 
 
 def _advice(name: str) -> str:
     known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
     guess = nearest(name, [*names(), *_examples()])
-    return f"{guess} {known}; or give the path of an arm file (.toml, .urdf)".lstrip()
+    return f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
 
 
 @lru_cache(maxsize=64)
@@ -117,22 +116,21 @@ def _arms() -> dict[str, Path]:
 _URDF = re.compile(r'^(urdf\s*=\s*")([^"]*)(")', re.MULTILINE)
 
 
-def arm_text(name_or_path: str, folder: Path, tip: str | None = None) -> str:
+def arm_text(name_or_path: str, folder: Path) -> str:
     """The arm file of an arm as it would stand in a folder.
 
     Args:
-        name_or_path: a built-in arm or an arm file, whose text is kept; or a URDF file, which the new file
-            names, with what it says of friction and limits.
+        name_or_path: a built-in arm or an arm file, whose text is kept; or another file of a robot, which the
+            new file names, with what is chosen of it and what it says of friction and limits.
         folder: where the file will stand.
-        tip: for a URDF file, the link that ends the chain; by default that of the most joints.
 
     Raises:
         InputError: no such arm, or a file that describes none.
     """
-    model = load(name_or_path, tip)
+    model, choice = load(name_or_path), split(name_or_path)[1]
     path = arm_file(name_or_path)
-    if path.suffix.lower() == ".urdf":
-        return _overlay(model, path, folder, tip)
+    if path.suffix.lower() != ".toml":
+        return _overlay(model, path, folder, choice)
     text = open_document(path).text
 
     def beside(result: re.Match[str]) -> str:
@@ -141,10 +139,16 @@ def arm_text(name_or_path: str, folder: Path, tip: str | None = None) -> str:
     return _URDF.sub(beside, text)
 
 
-def _overlay(model: RobotModel, path: Path, folder: Path, tip: str | None) -> str:
+def _overlay(model: RobotModel, path: Path, folder: Path, choice: Choice) -> str:
     lines = [f'title = "{model.title}"', f'urdf = "{_from(path, folder)}"']
-    if tip is not None:
-        lines.append(f"tip = {json.dumps(tip, ensure_ascii=False)}  # the link that ends the chain")
+    for key, link in (("base", choice.base), ("tip", choice.tip)):
+        lines += [f"{key} = {quoted(link)}"] if link else []
+    for key, held in (
+        ("fixed", {joint: decimal_text(value) for joint, value in choice.fixed.items()}),
+        ("xacro", {name: quoted(value) for name, value in choice.xacro.items()}),
+    ):
+        pairs = ", ".join(f"{key_of(name)} = {value}" for name, value in held.items())
+        lines += [f"{key} = {{ {pairs} }}"] if held else []
     for i, joint in enumerate(model.joints):
         lines += ["", "[[joints]]", f'name = "{joint}"']
         for key in ("viscous", "coulomb", "torque_limit"):

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from lyapcheck.answers.gate.friction import Fact, damping_lines, farthest, friction_lines, held
-from lyapcheck.answers.gate.judge import BREAKS_19, GRAVITY, GateResult
+from lyapcheck.answers.gate.friction import Fact, damping_lines, farthest, friction_lines, held, swinging
+from lyapcheck.answers.gate.judge import BREAKS_19, DAMPED, GRAVITY, GateResult
 from lyapcheck.answers.gate.words import (
     KEYS,
     RULES,
@@ -103,7 +103,7 @@ def _proof(known: Check, where: str) -> str:
 
 def _accepting(result: GateResult) -> str:
     """The options with which the gate would accept, by what this run has shown; empty where it has not."""
-    if result.verdict_of((GRAVITY,)) == REJECTED:
+    if result.verdict_of((GRAVITY, DAMPED)) == REJECTED:
         return ""  # a false bound of gravity is rejected whatever decides
     known = result.stable
     instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}
@@ -187,6 +187,7 @@ def _fact(result: GateResult) -> Fact | None:
         return None
     unknown, open_ = farthest_unknown(result.checks), open_as_run(result.checks)
     far = farthest(result.gains, model) if unknown is None else unknown
+    open_ = open_ or ("" if far else swinging(result.gains, model) or "")
     if not open_:
         return far
     return (Fraction(0), open_) if far is None else (far[0], f"{far[1]}; {open_}")

@@ -34,6 +34,7 @@ from lyapcheck.control.judgement import (
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.libraries import installed
 from lyapcheck.promise import promised
 from lyapcheck.robots import trig
 
@@ -45,6 +46,10 @@ if TYPE_CHECKING:
 
 SWINGS = 0.5
 """A damping ratio below which a joint overshoots by more than a sixth of its step."""
+POSTURES = 20_000
+"""At which M(q) is looked at where it is too long to be written out."""
+HARDLY = 0.1
+"""A damping ratio below which nobody wants gains: they overshoot by more than 70 %."""
 ANYWHERE = Fraction(10**6)
 Fact = tuple[Fraction, str]
 """How far from the goal, in degrees, and in words."""
@@ -63,7 +68,7 @@ def rest_errors(gains: GainSet, model: RobotModel) -> list[Fraction | None]:
 
 def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
     """How gains swing; floating point."""
-    if not small(model.fixed()):
+    if not small(model.fixed()) and not installed("numpy"):
         return []
     ratios = damping_ratios(gains, model)
     text = ", ".join(f"{joint} {ratio:.2f}" for joint, ratio in zip(model.joints, ratios, strict=True))
@@ -74,6 +79,14 @@ def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
         end = f": without dry friction it swings, by about {over:.0f} % of a step"
     soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
     return [f"estimated damping ratio{soft}, at the posture of most inertia: {text}{end}"]
+
+
+def swinging(gains: GainSet, model: RobotModel) -> str:
+    """That gains hardly damp a joint, in words; empty where they do, or nothing is known of it."""
+    if not small(model.fixed()) and not installed("numpy"):
+        return ""
+    least = min(damping_ratios(gains, model))
+    return f"estimated damping ratio {least:.2g}: it hardly stops swinging" if least < HARDLY else ""
 
 
 def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:
@@ -89,8 +102,16 @@ def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:
 
 @lru_cache(maxsize=8)
 def _inertias(model: RobotModel) -> tuple[float, ...]:
-    """The largest M_ii of each joint as Fourier sums show it, kg·m²."""
+    """The largest M_ii of each joint as Fourier sums show it, or many postures, kg·m²."""
     nominal = model.fixed()
+    if not small(nominal):
+        import numpy as np
+
+        from lyapcheck.robots.numeric import NumericModel
+
+        postures = np.random.default_rng(POSTURES).uniform(-np.pi, np.pi, (POSTURES, model.n))
+        inertias = NumericModel(nominal).mass(postures).diagonal(axis1=1, axis2=2).max(axis=0)
+        return tuple(map(float, inertias))
     return tuple(
         float(largest(harmonics(trig.to_terms(nominal.mass[i][i]), model.n))) for i in range(model.n)
     )

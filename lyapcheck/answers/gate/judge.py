@@ -9,10 +9,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
+from lyapcheck.check.kinds.constant import Constant, ExactNumbers
+from lyapcheck.check.statement import Relation
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions, gamma_of
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, RUNNING, GainFile, GainSet, deciding_for
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.limits import ArmLimits, Limits, limits_for
 from lyapcheck.control.sampling import LoopRecord, record_of
+from lyapcheck.control.threshold import number
 from lyapcheck.errors import argument_error
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.promise import all_say
@@ -22,6 +26,8 @@ if TYPE_CHECKING:
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
+DAMPED = "damped"
+"""A joint with k_v = 0: it is rejected, as the theory asks for K_v > 0."""
 GRAVITY = "gravity"
 """A stated bound that the arm itself breaks: it is rejected, whatever else decides."""
 MOST_EXPLAINED = 300
@@ -75,7 +81,7 @@ class GateResult:
 
         Without a promise about the arm as it was given, checks that all pass are ``undecided``.
         """
-        result = self.verdict_of((*self.deciding, GRAVITY, *self.broken))
+        result = self.verdict_of((*self.deciding, GRAVITY, DAMPED, *self.broken))
         return UNDECIDED if result == ACCEPTED and not self.grounds.promises else result
 
     @property
@@ -139,14 +145,14 @@ class GateResult:
 
     def decides(self, check: Check) -> bool:
         """Whether the verdict follows from a check."""
-        return check.id in (*self.deciding, GRAVITY) or (
+        return check.id in (*self.deciding, GRAVITY, DAMPED) or (
             check.id in self.broken and check.verdict == REJECTED
         )
 
     @property
     def broken(self) -> tuple[str, ...]:
         """What decides without being asked for, since it is rejected."""
-        names = (GRAVITY, *RUNNING)
+        names = (GRAVITY, DAMPED, *RUNNING)
         return tuple(check.id for check in self.checks if check.id in names and check.verdict == REJECTED)
 
 
@@ -184,8 +190,9 @@ def judged_sets(
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
         more = len(results) < explained
-        checks = (*broken, *conditions[key].all(gains, names), *certificates)
-        if record is not None or set(RUNNING) & set(names):
+        undamped = _undamped(gains)
+        checks = (*broken, *undamped, *conditions[key].all(gains, names), *certificates)
+        if not undamped and (record is not None or set(RUNNING) & set(names)):
             from lyapcheck.answers.running import running_checks
 
             viscous_min = gain_file.bounds.viscous_min
@@ -193,7 +200,8 @@ def judged_sets(
                 *checks,
                 *running_checks(gains, limits, record, viscous_min, names, checks, more or not explained),
             )
-        passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
+        asked_for = (*names, GRAVITY, DAMPED)
+        passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
         result = GateResult(
             gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds, record
@@ -202,10 +210,21 @@ def judged_sets(
     return results
 
 
+def _undamped(gains: GainSet) -> list[Check]:
+    """A check that is refuted for each joint with k_v = 0."""
+    positive = [Constant(Relation(("num", "0"), "<", number(kv))) for kv in gains.kv]
+    return [
+        Check(DAMPED, i, judged_statement(positive[i], [ExactNumbers()]), kv)
+        for i, kv in enumerate(gains.kv)
+        if kv == 0
+    ]
+
+
 def _looked_into(result: GateResult, viscous_min: Fraction | None) -> GateResult:
     """The same, with a proof of stability where (19) fails and none was asked for."""
     model = result.limits.model
-    if result.verdict_of(("19",)) != REJECTED or model is None or result.stable is not None:
+    known = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
+    if known or model is None or result.verdict_of(("19",)) != REJECTED:
         return result
     from lyapcheck.answers.gate.otherwise import proved_otherwise
 

@@ -45,8 +45,11 @@ def proved_otherwise(
 
     Soundness: that of ``lyapcheck.check.verify``; that M(q) ≻ 0 is enough is LaSalle's theorem, cited.
     """
-    if unknown_function(gains) or not small(model.fixed()) or (ranges and model.n > FEW_JOINTS):
+    if unknown_function(gains) or (ranges and model.n > FEW_JOINTS):
         return None
+    if not small(model.fixed()):
+        result = lasalle(model, False) if model.fixed().chain is not None else None
+        return result if result is not None and result.verdict == ACCEPTED else None
     arm = model if ranges else model.fixed()
     result = _scalar(gains, arm, viscous_min, ranges)
     if result is None or result.verdict != ACCEPTED:
@@ -138,9 +141,17 @@ def lasalle(model: RobotModel, ranges: bool) -> Check:
 @lru_cache(maxsize=8)
 def positive(arm: RobotModel) -> JudgedStatement:
     """What the checker says of M(q) ≻ 0."""
+    from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
     from lyapcheck.check.kinds.inertia import MassAbove
+    from lyapcheck.robots.dynamics import TooManyTerms
     from lyapcheck.search.closed_loop import mass_of, mass_proof, remember
 
+    try:
+        mass = mass_of(arm)
+    except TooManyTerms:
+        if arm.chain is None:
+            raise
+        return judged_statement(ChainAbove(arm.chain.links, Fraction(0)), [OwnMoments()])
     remember(arm)
-    mass, ranges = mass_of(arm), tuple(number.bounds for number in arm.parameters.values())
+    ranges = tuple(number.bounds for number in arm.parameters.values())
     return judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])

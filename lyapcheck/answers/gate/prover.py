@@ -14,13 +14,13 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from lyapcheck._types import Progress, part, silent
-from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, unknown_function
+from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, small, unknown_function
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
-from lyapcheck.robots.dynamics import FEW_JOINTS
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import DecreaseProof
@@ -38,6 +38,7 @@ SEARCHES = ("numpy", "scipy", "casadi")
 _NOMINAL = "certificates are about the arm at its nominal numbers"
 _RANGED = "certificates are about the arm for all values of its ranges"
 _TOO_MANY = f"over ranges an arm of more than {FEW_JOINTS} joints has no certificate of this kind"
+_TOO_LONG = "M(q) of these links is too long to be written out; --condition lasalle does without"
 _NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
 _OTHER_FRICTION = (
     "[bounds] viscous_min replaces λmin(B), but the friction of every joint is needed; remove it"
@@ -77,7 +78,9 @@ class Prover:
         controlled = ControlledArm(gains, self.model, self.ranges)
         if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
             return Check(name, reason=_TOO_MANY)
-        reason = unknown_function(gains) or self._unphysical(controlled)
+        nominal = self.model.fixed()
+        along = name == LASALLE and not small(nominal) and nominal.chain is not None  # looks at M(q) itself
+        reason = unknown_function(gains) or ("" if along else self._unphysical(controlled))
         proof = None
         if not reason and name == LASALLE:
             return lasalle(self.model, self.ranges)
@@ -103,7 +106,10 @@ class Prover:
     def _unphysical(self, controlled: ControlledArm) -> str:
         """Why there is nothing to prove on this arm, looked at once."""
         if self._fault is None:
-            self._fault = unphysical(controlled)
+            try:
+                self._fault = unphysical(controlled)
+            except TooManyTerms:
+                self._fault = _TOO_LONG
         return self._fault
 
     _fault: str | None = None

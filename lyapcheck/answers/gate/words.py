@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 from math import degrees
 
-from lyapcheck.answers.gate.judge import GRAVITY, GateResult
+from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult
 from lyapcheck.answers.running import HOLDS, SAMPLED, SampledCheck
 from lyapcheck.answers.running.holds import HoldsCheck, falls
 from lyapcheck.answers.running.sampled import unstable_text
@@ -32,6 +32,7 @@ RULES = {
     SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
     "whatever the inertia; values are periods",
     HOLDS: "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
+    DAMPED: "k_v > 0, which the theory asks for: without it a joint has only its own friction to damp it",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }
 KEYS = {
@@ -44,6 +45,7 @@ KEYS = {
     "lasalle": "",
     SAMPLED: "kv",
     HOLDS: "kp",
+    DAMPED: "kv",
     GRAVITY: "",
 }
 """The gain to look at when a check fails."""
@@ -87,6 +89,8 @@ def limit_text(check: Check) -> str:
         return ""
     if check.id == SAMPLED:
         return "none" if check.limit is None else f"{at_least(1000 * check.limit.lower)} ms"
+    if check.id == DAMPED:
+        return "k_v > 0"
     if check.id not in (*_SUBJECTS, HOLDS):
         return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
     return "none" if check.limit is None else _digits(check.limit)
@@ -184,7 +188,9 @@ def _broken(result: GateResult, check: Check) -> str:
 
 
 def _exceeded(result: GateResult, check: Check) -> str:
-    """The posture at which gravity exceeds a stated bound."""
+    """The posture at which gravity exceeds a stated bound, or that nothing but friction damps a joint."""
+    if check.id == DAMPED:
+        return "k_v = 0: this joint has only its friction to damp it; give it a gain"
     for one in result.limits.refuted:
         if check.id == GRAVITY and one.joint == check.joint:
             q = one.refuted.proof.q  # type: ignore[union-attr]

@@ -358,7 +358,16 @@ class Tuning(Answer):
             failed = [str(item.m) for item in self.sets if item.status == status]
             if failed:
                 return f"{MARKS[status]} {self.robot}: {words} for m = {', '.join(failed)}"
-        return f"✓ {self.robot}: the largest gains within (10p) and (19)"
+        swings = next(filter(None, map(self._swings, self.sets)), "")
+        mark, said = ("!", f"; {swings}") if swings else ("✓", "")
+        return f"{mark} {self.robot}: the largest gains within (10p) and (19){said}"
+
+    def _swings(self, item: TunedSet) -> str:
+        """That the gains of a member hardly damp the arm."""
+        from lyapcheck.answers.gate.friction import swinging
+
+        gains, model = item.gains, self.limits.model
+        return "" if gains is None or model is None else swinging(gains, model)
 
     def _notes(self) -> tuple[str, ...]:
         tuned = [item for item in self.sets if item.status == TUNED]

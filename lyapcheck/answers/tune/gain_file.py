@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
@@ -13,6 +12,8 @@ from lyapcheck.answers.tune.answer import TUNED, TunedSet
 from lyapcheck.control.gains import DECIDING, Bounds
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING
+from lyapcheck.files.toml import quoted
+from lyapcheck.robots.choice import placed
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
@@ -87,16 +88,11 @@ def list_text(values: Sequence[Fraction], digits: int) -> str:
     return f"[{', '.join(decimal_text(value, digits) for value in values)}]"
 
 
-def quoted(text: str) -> str:
-    """A TOML basic string; JSON escapes the same characters the same way."""
-    return json.dumps(text, ensure_ascii=False)
-
-
 def beside(robot: str, folder: Path | None) -> str:
     """The path of an arm file from the folder of a gain file; the name of a built-in arm as it is."""
-    if folder is None or not robot.endswith((".toml", ".urdf")):
+    if folder is None:
         return robot
-    return Path(os.path.relpath(robot, folder)).as_posix()
+    return placed(robot, lambda path: Path(os.path.relpath(path, folder)).as_posix())
 
 
 def bench_file_text(tuning: BenchTuning, folder: Path | None = None, *, best: bool = False) -> str:

@@ -14,6 +14,7 @@ from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for, varied_limits
 from lyapcheck.files.decimals import decimal_text, round_down
 from lyapcheck.robots import load
+from lyapcheck.robots.choice import split
 
 if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
@@ -110,7 +111,7 @@ def _without_friction(limits: Limits) -> str:
 
 def _state_it(limits: Limits) -> str:
     """How to state friction in an arm file."""
-    if limits.robot.lower().endswith(".urdf"):
+    if not split(limits.robot)[0].endswith(".toml") and "." in limits.robot:
         return "state it in an arm file that names this URDF, as viscous = … of the joint under [[joints]]"
     return (
         "state it in the arm file as viscous = … of the joint, under [[joints]] where that names a URDF file"

@@ -230,7 +230,8 @@ def lever_bound(
 
     Soundness: g_i = (a_i × fall)·v_i in the frame of joint i, where v_k = c_k + R_{k+1} v_{k+1} with constant
         c_k, so |v_k| ≤ Σ |c|. R_k turns about a_k: what c_k has along it can be counted at the link before
-        instead (k in ``along``), and at joint i itself exerts no torque.
+        instead (k in ``along``), and at joint i itself exerts no torque. |a_i × fall| is at most |fall|, and
+        for the first joint, whose axis does not move, it is what it is.
     """
     of = Algebra(Fraction)
     total, mass, carried = ZERO, ZERO, [ZERO] * 3
@@ -243,7 +244,8 @@ def lever_bound(
             moment = of.cross(link.axis, moment)  # as long as what is left
         carried = of.add(carried, of.scaled(mass, link.origin))
         total += root(of.dot(moment, moment))
-    return Fraction(total * root(of.dot(fall, fall)))
+    across = of.cross(of.apply(links[0].turn, links[0].axis), fall) if i == 0 else fall
+    return Fraction(total * root(of.dot(across, across)))
 
 
 def _ring(n: int) -> tuple[fmpq_mpoly_ctx, Reduce]:

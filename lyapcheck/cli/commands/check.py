@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.values import add_certificates, add_format, add_members, add_no_store
+from lyapcheck.cli.values import add_certificates, add_format, add_members, add_no_store, add_robot
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("proof", metavar="PROOF.py", help="A proof script; published.py is the paper's.")
     add_members(parser, "1:3")
-    parser.add_argument("--robot", metavar="ROBOT", help="A robot name or file; the paper's arm if missing.")
+    add_robot(parser, "A robot name or file; the paper's arm if missing.")
     parser.add_number("--n", int, "Number of joints, in place of a robot.")
     parser.add_argument("--gains", metavar="FILE", help="A gain file; the paper's Table 2 if missing.")
     parser.add_argument(

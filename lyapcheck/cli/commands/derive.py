@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_format, add_members, parse_m
+from lyapcheck.cli.values import add_format, add_members, add_robot, parse_m
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
@@ -18,7 +18,7 @@ def arguments(parser: Parser) -> None:
     add_members(parser, "2")
     parser.add_number("--n", int, "Joints for which V and dV/dt are decided entry by entry.", default=2)
     about = "A built-in arm or an arm file, whose M, C and g are written out; n is then its own."
-    parser.add_argument("--robot", metavar="ROBOT", help=about)
+    add_robot(parser, about)
     add_format(parser, Format)
 
 

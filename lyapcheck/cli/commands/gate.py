@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_certificates, add_format, add_loop, add_vary, loop_of, varies
+from lyapcheck.cli.values import add_certificates, add_format, add_loop, add_robot, add_vary, loop_of, varies
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
@@ -24,7 +24,7 @@ GAMMAS = ("true", "printed")
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("files", metavar="FILE...", nargs="+", help="Gain files (TOML).")
-    parser.add_argument("--robot", metavar="ROBOT", help="An arm that replaces the one the files name.")
+    add_robot(parser, "An arm that replaces the one the files name.")
     about = (
         "A condition that must hold; may be repeated. 10i: 10p without its √n. scalar and global: dV/dt < 0 "
         "proved for the arm; lasalle: stability without friction; sampled: as a computer runs it; holds: the "
@@ -74,6 +74,7 @@ def run(
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.control.limits import ArmLimits, varied_limits
     from lyapcheck.errors import InputError, Problem
+    from lyapcheck.robots.choice import named
 
     folder = None
     if certificates is not None:
@@ -87,8 +88,8 @@ def run(
     with patient("gate") as advance:
         for done, file in enumerate(files):
             try:
-                gain_file = read_gain_file(file)
-                name = robot or gain_file.robot
+                gain_file = read_gain_file(file, robot, undamped=True)
+                name = named(robot, gain_file.robot)
                 if ranges and name is not None and name not in arms:
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)
@@ -97,12 +98,15 @@ def run(
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)
+    answer.problems = tuple(problems)
     if answer:
         if folder is not None:
             _write_certificates(folder, answer)
         show(answer, format)
     if problems:
-        raise InputError(problems)
+        unusable = InputError(problems)
+        unusable.told = bool(answer)
+        raise unusable
     return answer.exit_code
 
 

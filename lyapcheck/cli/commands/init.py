@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.cli.values import add_choice_of_arm
+from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -60,27 +61,42 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     about = "The folder to start them in; this one if missing."
     parser.add_argument("folder", metavar="DIR", nargs="?", type=Path, default=Path(), help=about)
+    about = "Bring gains over from YAML (ros2_control, effort_controllers), JSON, or CSV with a header."
+    parser.add_argument("--from", metavar="FILE", type=Path, dest="source", help=about)
+    parser.add_argument("--arm", metavar="ROBOT", dest="robot", help="The arm of these gains.")
+    add_choice_of_arm(parser)
 
 
-def run(folder: Path) -> Exit:
+def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
     """Start a gain file and an arm file, to be edited: gains.toml and arm.toml.
 
-    Files that are there stay as they are.
+    Files that are there stay as they are. With --from and --arm a gain file alone, whose gains are those of
+    another program by joint: the bounded law of the same slope, cut to (10p).
 
     Exit code 0: both are written, 2: one is there already, or the folder cannot be written.
 
     Examples:
       lyapcheck init bench && lyapcheck gate bench/gains.toml
       lyapcheck tune arm.urdf --out gains.toml    instead, for a URDF file
+      lyapcheck init --from pid.yaml --arm arm.urdf
     """
     from lyapcheck.cli.show import open_folder, write_whole
 
+    if (source is None) != (robot is None):
+        missing = "--arm" if robot is None else "--from"
+        repair = "write --from pid.yaml --arm arm.urdf"
+        raise argument_error(missing, "", "is missing: gains are brought over for an arm", repair)
     place = open_folder("DIR", folder)
-    there = [name for name in (GAINS, ARM) if (place / name).exists()]
+    texts = {GAINS: GAIN_TEXT, ARM: ARM_TEXT}
+    if source is not None and robot is not None:
+        from lyapcheck.answers.tune.brought import brought_file
+
+        texts = {GAINS: brought_file(source, robot, place)}
+    there = [name for name in texts if (place / name).exists()]
     if there:
         rule, repair = "is there already", "name another folder, or move it away"
         raise InputError([Problem("argument", None, str(place / name), "", rule, repair) for name in there])
-    for name, text in ((GAINS, GAIN_TEXT), (ARM, ARM_TEXT)):
+    for name, text in texts.items():
         write_whole(place / name, text)
         print(f"{place / name}")
     print(f"next: lyapcheck gate {place / GAINS}")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder
-from lyapcheck.cli.values import add_no_store, require_joints, robot_name
+from lyapcheck.cli.values import add_no_store, add_robot, require_joints, robot_name
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
@@ -31,7 +31,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("members", metavar="M", nargs="*", help="Members, as --m takes them.")
     about = "Members of the family: 1 2 3, 1,2,5 or 1:12. [1:3, or those of the gain file]"
     parser.add_argument("--m", metavar="M", nargs="+", default=[], help=about)
-    parser.add_argument("--robot", metavar="ROBOT", help="A built-in arm or an arm file.")
+    add_robot(parser, "A built-in arm or an arm file.")
     about = "A gain file; the paper's Table 2 and its PD baseline if missing."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
     about = "Compute the map over m and k_v for the page, some minutes; that of the paper's arm is at hand."

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_certificates, add_format, add_no_store
+from lyapcheck.cli.values import add_certificates, add_choice_of_arm, add_format, add_no_store
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="NAME|FILE", help="A built-in arm, or an arm file (.toml, .urdf).")
-    about = "For a URDF: the link that ends the chain; the longest chain if missing."
-    parser.add_argument("--tip", metavar="LINK", help=about)
+    add_choice_of_arm(parser)
     about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
     parser.add_number("--max-boxes", int, about, least=1)
     about = "Write the arm as an arm file to be edited, - for standard output, and decide nothing."
@@ -34,7 +33,6 @@ def arguments(parser: Parser) -> None:
 
 def run(
     robot: str,
-    tip: str | None,
     max_boxes: int | None,
     export: Path | None,
     certificates: Path | None,
@@ -62,14 +60,14 @@ def run(
         from lyapcheck.robots.registry import arm_text
 
         if str(export) == "-":
-            sys.stdout.write(arm_text(robot, Path(), tip))
+            sys.stdout.write(arm_text(robot, Path()))
             return Exit.PROVED
         require_writable("--export", export)
         if export.exists():
             raise argument_error("--export", export, "is there already", "name another file")
-        write_whole(export, arm_text(robot, export.parent, tip))
+        write_whole(export, arm_text(robot, export.parent))
         return Exit.PROVED
-    model = load(robot, tip)
+    model = load(robot)
     from lyapcheck.answers.robot import build
 
     folder = None if certificates is None else open_folder("--certificates", certificates)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.progress import progress
 from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
-from lyapcheck.cli.values import add_certificates, add_format, add_members, parse_m
+from lyapcheck.cli.values import add_certificates, add_format, add_members, add_robot, parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
@@ -25,7 +25,7 @@ def arguments(parser: Parser) -> None:
     add_members(parser, "1:12")
     parser.add_number("--digits", int, "Significant digits.", default=30)
     about = "Add what this arm's torque limits leave to k_p + k_v of each joint."
-    parser.add_argument("--robot", metavar="ROBOT", help=about)
+    add_robot(parser, about)
     about = "Add the leading terms for m → ∞, and what is left beside them."
     parser.add_argument("--asymptotics", action="store_true", help=about)
     about = "Draw them against m into this folder, as SVG and PNG."

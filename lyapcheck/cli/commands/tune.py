@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.cli.show import require_writable, show, write_whole
 from lyapcheck.cli.values import (
     Complaints,
+    add_choice_of_arm,
     add_format,
     add_loop,
     add_members,
@@ -196,6 +197,7 @@ def gains_beside(robot: str, compare: Path | None) -> GainFile | None:
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="ROBOT", help="A built-in arm or an arm file (.toml, .urdf).")
+    add_choice_of_arm(parser)
     add_members(parser, None, " 1:3 if missing; with targets and more than three joints 1.")
     parser.add_number("--digits", int, "Decimal places of the gains.", default=3)
     parser.add_number("--overshoot", float, "Target: most overshoot, per cent of a joint's step.")

@@ -7,76 +7,140 @@ from fractions import Fraction
 from pathlib import Path
 
 from lyapcheck.check.loop.chain import RigidLink
+from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.errors import InputError
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import impossible_state
+from lyapcheck.robots.chain_bounds import bodily
+from lyapcheck.robots.choice import Choice
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots.urdf.chain import choose_chain, held, options
 from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of
-from lyapcheck.robots.urdf.parts import Triple, UrdfJoint, UrdfNotes, read_parts
+from lyapcheck.robots.urdf.parts import Triple, UrdfJoint, UrdfLink, UrdfNotes, read_parts
 from lyapcheck.robots.urdf.rotations import Roundings
-from lyapcheck.robots.urdf.tree import (
-    Tree,
-    build_tree,
-    check_bodies,
-    choose_chain,
-    held,
-    impossible,
-    moved_bodies,
-    moved_links,
-)
-from lyapcheck.robots.urdf.xml import Element, read_xml
+from lyapcheck.robots.urdf.rotors import rotors
+from lyapcheck.robots.urdf.tree import Tree, build_tree, moved_bodies, moved_links, tensor
+from lyapcheck.robots.urdf.xml import Element
 
+_SHOWN = 8
 EARTH: Triple = (Fraction(0), Fraction(0), Fraction("-9.81"))
 """URDF says nothing of gravity; its base frame has z upwards by custom."""
 
 
 def read_urdf(
-    path: Path, shown: str | None = None, tip: str | None = None, gravity: tuple[Number, ...] | None = None
+    root: Element,
+    path: Path,
+    shown: str,
+    choice: Choice,
+    gravity: tuple[Number, ...] | None = None,
+    remarks: tuple[str, ...] = (),
+    source: str = "",
 ) -> RobotModel:
     """The arm of a URDF file: M, C and g of the revolute joints between its root and one tip.
 
     Decimals are exact; rotations are exactly orthogonal and rounded as ``remarks`` of the model says. Links
-    that fixed joints connect are one body. A joint that is not of the chain is held at its zero position.
+    that fixed joints connect are one body. A joint that is not of the chain is held, at zero or as chosen.
 
     Args:
+        root: ``<robot>``.
         path: the file.
         shown: its name in messages.
-        tip: the link that ends the chain; by default the end of the chain with the most joints.
+        choice: the chain; by default the longest run of revolute joints up to where the chains part.
         gravity: acceleration of free fall in the frame of the root, m/s²; (0, 0, −9.81) by default.
+        remarks: what else is taken for granted.
+        source: where its numbers are printed, the name of the file by default.
 
     Raises:
-        InputError: the file is no URDF, or not of a serial chain of revolute joints; carries every problem.
+        InputError: the file is not of a serial chain of revolute joints; carries every problem.
     """
-    name = str(path) if shown is None else shown
-    notes = UrdfNotes(name)
-    root = read_xml(path, name)
-    tree, chain = _chain(root, tip, notes)
-    check_bodies(moved_links(tree, chain), notes)
+    notes = UrdfNotes(shown)
+    tree, chain = _chain(root, choice, notes)
+    _require_inertia(tree, chain, choice, root, notes)
+    roundings = Roundings()
+    bodies = moved_bodies(tree, chain, choice.fixed, roundings)
+    for body, links in zip(bodies, moved_links(tree, chain), strict=True):
+        if not is_positive_semidefinite(body.inertia):
+            _refuse_body(links, notes)
     if notes.problems:
         raise InputError(notes.problems)
-    roundings = Roundings()
-    bodies = moved_bodies(tree, chain, roundings)
-    remarks = (*roundings.sentences(), *_remarks(tree, chain))
-    model = _model(_Read(path, root, tree, chain, bodies, remarks), gravity or gravity_numbers(EARTH))
+    told = (*remarks, *roundings.sentences(), *_remarks(tree, chain, choice, notes), *rotors(root, chain))
+    read = _Read(path, root, tree, chain, bodies, told, source or path.name)
+    model = _model(read, gravity or gravity_numbers(EARTH))
     broken = impossible_state(model)
     if broken:
-        repair = "every joint must move some inertia: check masses and inertias"
-        notes.fail(root, "robot", "", broken, repair)
+        _refuse_massless(tree, chain, broken, root, notes)
         raise InputError(notes.problems)
     return model
 
 
-def _chain(root: Element, tip: str | None, notes: UrdfNotes) -> tuple[Tree, tuple[UrdfJoint, ...]]:
+def _chain(root: Element, choice: Choice, notes: UrdfNotes) -> tuple[Tree, tuple[UrdfJoint, ...]]:
     links, joints = read_parts(root, notes)
     if notes.problems:
         raise InputError(notes.problems)
     tree = build_tree(links, joints, root, notes)
-    chain = () if tree is None else choose_chain(tree, tip, root, notes)
+    chain = () if tree is None else choose_chain(tree, choice, root, notes)
     if tree is None or notes.problems:
         raise InputError(notes.problems)
     return tree, chain
+
+
+def _require_inertia(
+    tree: Tree, chain: tuple[UrdfJoint, ...], choice: Choice, robot: Element, notes: UrdfNotes
+) -> None:
+    """Refuse an arm whose last joint moves nothing that has mass or inertia: M would be singular."""
+    bodies = moved_links(tree, chain)
+    heavy = [i for i, links in enumerate(bodies) if any(link.mass or any(link.inertia) for link in links)]
+    if heavy and heavy[-1] == len(chain) - 1:
+        return
+    rule, repair = (
+        _bare(tree, bodies),
+        "give the moved links masses and inertias, as CAD programs compute them",
+    )
+    if heavy:
+        last = chain[heavy[-1]]
+        end = options(choice.base, last.child, choice.fixed)
+        rule = f"has a joint {chain[-1].name} that moves no mass: {rule}"
+        repair = f"give it mass and inertia, or end the arm before it: {end}"
+    else:
+        rule += ": this file describes geometry only"
+    notes.fail(robot, "robot", "", rule, repair)
+    raise InputError(notes.problems)
+
+
+def _bare(tree: Tree, bodies: list[list[UrdfLink]]) -> str:
+    """Which of the moved links have no mass, and where they stand in the file."""
+    moved = [link for links in bodies for link in links]
+    bare = [link for link in moved if not link.described]
+    zero = [link for link in moved if link.described and not link.mass]
+    none = sum(not link.described for link in tree.links.values())
+    count = f"{none} of {len(tree.links)} links have no <inertial>"
+    parts = [f"{count}: {_places(bare)}"] if bare else []
+    parts += [f"{'link' if len(zero) == 1 else 'links'} of mass 0: {_places(zero)}"] if zero else []
+    return "; ".join(parts)
+
+
+def _places(links: list[UrdfLink]) -> str:
+    more = f" and {len(links) - _SHOWN} more" if len(links) > _SHOWN else ""
+    return ", ".join(f"{link.name} (line {link.element.line})" for link in links[:_SHOWN]) + more
+
+
+def _refuse_body(links: list[UrdfLink], notes: UrdfNotes) -> None:
+    for link in links:
+        if not is_positive_semidefinite(tensor(link)):
+            repair = "check the signs and the point about which it is given (the centre of mass)"
+            notes.fail(
+                link.element, f"link {link.name}: inertia", "", "must be positive semidefinite", repair
+            )
+
+
+def _refuse_massless(
+    tree: Tree, chain: tuple[UrdfJoint, ...], broken: str, robot: Element, notes: UrdfNotes
+) -> None:
+    bare = _bare(tree, moved_links(tree, chain))
+    repair = f"every joint must move some inertia{': ' if bare else ''}{bare}; check masses and inertias"
+    notes.fail(robot, "robot", "", broken, repair)
 
 
 @dataclass(frozen=True)
@@ -87,10 +151,11 @@ class _Read:
     chain: tuple[UrdfJoint, ...]
     bodies: tuple[RigidLink, ...]
     remarks: tuple[str, ...]
+    source: str
 
 
 def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
-    file, stem = printable(read.path.name), printable(read.path.stem)
+    file, stem = printable(read.source), printable(read.path.name.partition(".")[0] or read.path.stem)
     motors = [motor_of(joint, file) for joint in read.chain]
     numbers = {f"gravity_{letter}": x for letter, x in zip("xyz", gravity, strict=True) if x.value}
     numbers |= link_numbers(read.tree, file) | joint_numbers(read.tree, read.chain, motors, file)
@@ -110,18 +175,14 @@ def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
     )
 
 
-def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...]) -> tuple[str, ...]:
+def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...], choice: Choice, notes: UrdfNotes) -> tuple[str, ...]:
     """What was decided that the file does not say."""
-    result = []
-    still = held(tree, chain)
-    if still:
-        names = ", ".join(f"{joint.name} ({joint.kind})" for joint in still)
-        result.append(f"Joints that are not of the chain are held at their zero position: {names}")
+    result = held(tree, chain, choice.fixed)
     unlimited = [joint.name for joint in chain if joint.effort is None]
     if unlimited:
         result.append(f"No torque limit is known where the file has none or 0: {', '.join(unlimited)}")
-    moved = moved_links(tree, chain)
-    strange = impossible(moved)
+    moved = [link for links in moved_links(tree, chain) for link in links]
+    strange = [link.name for link in moved if not bodily(tensor(link))]
     if strange:
         result.append(
             "No body has the inertia that the file gives, a principal moment above the sum of the others: "
@@ -130,4 +191,7 @@ def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...]) -> tuple[str, ...]:
     massless = [link.name for link in moved if link.mass == 0 and any(link.inertia)]
     if massless:
         result.append(f"No body has an inertia and no mass, as the file gives: {', '.join(massless)}")
-    return tuple(result)
+    bare = [link for link in moved if not link.described and tree.below.get(link.name)]
+    if bare:
+        result.append(f"Links without <inertial> have no mass: {_places(bare)}")
+    return (*result, *notes.told())

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.robots.fields import Number
-from lyapcheck.robots.urdf.parts import INERTIA, Triple, UrdfJoint
+from lyapcheck.robots.urdf.parts import Triple, UrdfJoint
 from lyapcheck.robots.urdf.tree import Tree
+from lyapcheck.robots.urdf.words import INERTIA
 from lyapcheck.robots.urdf.xml import Element
 
 _NO_DAMPING = "the file gives no damping, which means 0; property 2.7 needs more than that"

@@ -25,6 +25,8 @@ from lyapcheck.robots.urdf.parts import Triple
 SNAP = Fraction(1, 10**9)
 """Radians."""
 CLOSE = Fraction(1, 10**15)
+ROUNDED_INERTIA = Fraction(1, 10**12)
+"""Of all moments of a body about its joint: less than the digits of a file say of them."""
 _STEP = Fraction(1, 10**16)
 _LARGE = 10**26
 _BITS = 256
@@ -39,6 +41,12 @@ class Roundings:
 
     snapped: dict[str, Fraction] = field(default_factory=dict)
     rounded: list[str] = field(default_factory=list)
+    mended: list[str] = field(default_factory=list)
+
+    def note(self, place: str) -> None:
+        """Something at that place is rounded."""
+        if place not in self.rounded:
+            self.rounded.append(place)
 
     def sentences(self) -> tuple[str, ...]:
         """What a reader has to know about them."""
@@ -54,7 +62,24 @@ class Roundings:
                 f"Rotations and axes that no exact rational can give are rounded by less than "
                 f"{float(CLOSE):.0e} rad: {', '.join(self.rounded)}"
             )
+        if self.mended:
+            result.append(
+                "Principal moments below 0 by rounding are raised by "
+                f"{float(ROUNDED_INERTIA):.0e} of the moments of the body: {', '.join(self.mended)}"
+            )
         return tuple(result)
+
+
+def oriented(turn: Sequence[Fraction], place: str, roundings: Roundings) -> Rotation:
+    """The rotation of an ``<origin>``: that of three angles (see `from_rpy`), or of a quaternion x y z w."""
+    if len(turn) == 3:
+        return from_rpy((turn[0], turn[1], turn[2]), place, roundings)
+    x, y, z, w = turn
+    exact = _from_quaternion((w, x, y, z))
+    result = tidy(exact)
+    if result != exact:
+        roundings.note(place)
+    return result
 
 
 def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
@@ -67,6 +92,17 @@ def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
     return result
 
 
+def about(axis: Triple, angle: Fraction, place: str, roundings: Roundings) -> Rotation:
+    """The rotation about a unit vector, rad: 1 + sin K + (1 − cos) K² (Rodrigues)."""
+    sine, cosine = _circle(angle, place, roundings)
+    x, y, z = axis
+    cross = [[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]]
+    square = _OF.product(cross, cross)
+    return _rotation(
+        [[UNIT[i][k] + sine * cross[i][k] + (1 - cosine) * square[i][k] for k in range(3)] for i in range(3)]
+    )
+
+
 def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction, Fraction]:
     """Rational (sin, cos) close to those of the angle."""
     quarters, rest = _quarters(angle)
@@ -75,8 +111,7 @@ def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction
             roundings.snapped[place] = max(abs(rest), roundings.snapped.get(place, ZERO))
         sine, cosine = ZERO, Fraction(1)
     else:
-        if place not in roundings.rounded:
-            roundings.rounded.append(place)
+        roundings.note(place)
         t = _half_tangent(rest)
         sine, cosine = 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
     for _ in range(quarters % 4):
@@ -132,7 +167,7 @@ def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
     if length * length == square:
         x, y, z = (component / length for component in vector)
         return x, y, z
-    roundings.rounded.append(place)
+    roundings.note(place)
     size = _root(square)
     direction = [component / size for component in vector]
     pole = max(range(3), key=lambda i: abs(direction[i]))
@@ -197,7 +232,7 @@ def _simultaneous(numbers: list[Fraction]) -> list[int]:
     return [10**17, *(round(x * 10**17) for x in numbers)]
 
 
-def _from_quaternion(q: tuple[int, int, int, int]) -> Rotation:
+def _from_quaternion(q: tuple[int | Fraction, ...]) -> Rotation:
     w, x, y, z = (Fraction(part) for part in q)
     n = w * w + x * x + y * y + z * z
     rows = [

@@ -1,21 +1,27 @@
-"""The chain of moving joints from the root of a URDF tree to one tip."""
+"""The tree of links and joints of a URDF file, and the bodies that the joints of a chain of it move."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fractions import Fraction
+from functools import cached_property
 
 from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.check.numbers.vectors import ZERO, Algebra, is_positive_semidefinite
 from lyapcheck.errors import nearest
-from lyapcheck.robots.chain_bounds import bodily
-from lyapcheck.robots.urdf.parts import MOVING, ORIGIN, Triple, UrdfJoint, UrdfLink, UrdfNotes
-from lyapcheck.robots.urdf.rotations import Rotation, Roundings, from_rpy, tidy, unit
+from lyapcheck.robots.urdf.parts import ORIGIN, Triple, UrdfJoint, UrdfLink, UrdfNotes
+from lyapcheck.robots.urdf.rotations import (
+    ROUNDED_INERTIA,
+    Rotation,
+    Roundings,
+    about,
+    oriented,
+    tidy,
+    unit,
+)
 from lyapcheck.robots.urdf.xml import Element
 
-MOST_JOINTS = 12
 _SHOWN = 8
 
 
@@ -36,26 +42,22 @@ class Tree:
             link = self.above[link].parent
         return result[::-1]
 
-    def moving(self, link: str) -> tuple[UrdfJoint, ...]:
-        """The joints that move between the root and a link."""
-        return tuple(joint for joint in self.path(link) if joint.moves)
+    @cached_property
+    def below(self) -> dict[str, list[UrdfJoint]]:
+        """The joints that hang on each link."""
+        result: dict[str, list[UrdfJoint]] = {}
+        for joint in self.joints.values():
+            result.setdefault(joint.parent, []).append(joint)
+        return result
 
     def downwards(self) -> list[UrdfJoint]:
         """All joints, each after the one above it."""
-        below: dict[str, list[UrdfJoint]] = {}
-        for joint in self.joints.values():
-            below.setdefault(joint.parent, []).append(joint)
         result, waiting = [], [self.root]
         while waiting:
-            here = below.get(waiting.pop(), [])
+            here = self.below.get(waiting.pop(), [])
             result += here
             waiting += [joint.child for joint in here]
         return result
-
-    def tips(self) -> list[str]:
-        """The links that nothing hangs on, in the order of the file."""
-        parents = {joint.parent for joint in self.above.values()}
-        return [link for link in self.links if link not in parents]
 
 
 def build_tree(
@@ -98,106 +100,19 @@ def _connected(tree: Tree, robot: Element, notes: UrdfNotes) -> bool:
     return not lost
 
 
-def choose_chain(tree: Tree, tip: str | None, robot: Element, notes: UrdfNotes) -> tuple[UrdfJoint, ...]:
-    """The moving joints to the tip, or those of the longest chain; empty when a problem was noted."""
-    if tip is not None and tip not in tree.links:
-        near = get_close_matches(tip, tree.links, 3, 0.4) or list(tree.links)[:_SHOWN]
-        notes.fail(robot, "tip", tip, "is no link of this file", f"name one, for instance {', '.join(near)}")
-        return ()
-    searched = tuple(tree.joints.values()) if tip is None else tree.moving(tip)
-    strange = [joint for joint in searched if joint.moves and joint.kind not in MOVING]
-    for joint in strange:
-        _refuse_kind(joint, notes)
-    if strange:
-        return ()
-    chain = _longest(tree, robot, notes) if tip is None else searched
-    chain = tuple(joint for joint in chain if joint.moves)
-    _check_chain(chain, robot, notes)
-    return chain
-
-
-def _check_chain(chain: tuple[UrdfJoint, ...], robot: Element, notes: UrdfNotes) -> None:
-    if not chain:
-        notes.fail(robot, "robot", "", "has no revolute joint on this chain", "name another tip")
-    if len(chain) > MOST_JOINTS:
-        rule = f"has a chain of {len(chain)} joints, more than {MOST_JOINTS}"
-        notes.fail(robot, "robot", "", rule, "choose a tip nearer to the base")
-    for joint in chain:
-        if joint.element.all("mimic"):
-            rule = "mimics another joint, and the paper assumes one motor for each joint"
-            _refuse(joint, rule, notes)
-
-
-def _refuse_kind(joint: UrdfJoint, notes: UrdfNotes) -> None:
-    rule = f"is {joint.kind}, and the paper assumes revolute joints: its bounds on M, C and g do not hold"
-    if joint.kind == "prismatic":
-        rule = "is prismatic, and the paper assumes revolute joints: its bounds on M, C and g fail along it"
-    _refuse(joint, rule, notes)
-
-
-def _refuse(joint: UrdfJoint, rule: str, notes: UrdfNotes) -> None:
-    repair = (
-        f"make it fixed, or end the chain before it: {_write_tip(joint.parent)}; what lies behind a tip is "
-        "held at its zero position"
-    )
-    notes.fail(joint.element, f"joint {joint.name}", "", rule, repair)
-
-
-def _longest(tree: Tree, robot: Element, notes: UrdfNotes) -> tuple[UrdfJoint, ...]:
-    """The chain with the most moving joints; two of the same length are a problem."""
-    chains: dict[tuple[str, ...], str] = {}
-    for tip in tree.tips():
-        chains.setdefault(tuple(joint.name for joint in tree.moving(tip)), tip)
-    most = max(len(names) for names in chains)
-    tips = [tip for names, tip in chains.items() if len(names) == most]
-    if len(tips) > 1 and most:
-        rule = f"has {len(tips)} chains of {most} joints, to the tips {', '.join(tips[:_SHOWN])}"
-        notes.fail(robot, "robot", "", rule, f"choose one: {_write_tip(tips[0])}")
-    return tree.moving(tips[0])
-
-
-def _write_tip(link: str) -> str:
-    """How to end the chain at a link, whatever the command: only ``lyapcheck robot`` takes --tip."""
-    return (
-        f'write tip = "{link}" in an arm file that names this URDF (lyapcheck robot also takes --tip {link})'
-    )
-
-
-def held(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[UrdfJoint]:
-    """The joints that could move but are not of the chain: they are held at their zero position."""
-    return [joint for joint in tree.joints.values() if joint.moves and joint not in chain]
-
-
 def carrier(tree: Tree, chain: tuple[UrdfJoint, ...]) -> Mapping[str, int | None]:
     """For each link the joint of the chain that moves it, counted from 0; ``None`` for the base."""
     numbers = {joint.name: i for i, joint in enumerate(chain)}
-    return {
-        link: max((numbers[j.name] for j in tree.path(link) if j.name in numbers), default=None)
-        for link in tree.links
-    }
+    result: dict[str, int | None] = {tree.root: None}
+    for joint in tree.downwards():
+        result[joint.child] = numbers.get(joint.name, result[joint.parent])
+    return result
 
 
-# --- Whether the bodies of a URDF file can exist.
-
-
-def moved_links(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[UrdfLink]:
-    """The links that the chain moves; those of the base do not matter."""
-    return [tree.links[name] for name, joint in carrier(tree, chain).items() if joint is not None]
-
-
-def check_bodies(links: list[UrdfLink], notes: UrdfNotes) -> None:
-    """Note every link whose inertia is not positive semidefinite: M would not be positive definite."""
-    for link in links:
-        if not is_positive_semidefinite(tensor(link)):
-            repair = "check the signs and the point about which it is given (the centre of mass)"
-            notes.fail(
-                link.element, f"link {link.name}: inertia", "", "must be positive semidefinite", repair
-            )
-
-
-def impossible(links: list[UrdfLink]) -> list[str]:
-    """The links with a principal moment above the sum of the others: no body has that, but many files do."""
-    return [link.name for link in links if not bodily(tensor(link))]
+def moved_links(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[list[UrdfLink]]:
+    """The links of each body that the chain moves, base first; those of the base do not matter."""
+    moved_by = carrier(tree, chain)
+    return [[link for link in tree.links.values() if moved_by[link.name] == i] for i in range(len(chain))]
 
 
 def tensor(link: UrdfLink) -> list[list[Fraction]]:
@@ -220,34 +135,44 @@ class _Pose:
     rotation: Rotation
     place: tuple[Fraction, ...]
 
+    def then(self, rotation: Rotation, place: Sequence[Fraction]) -> _Pose:
+        """The pose of what stands so in this frame."""
+        moved = OF.add(self.place, OF.apply(self.rotation, place))
+        return _Pose(tidy(OF.product(self.rotation, rotation)), tuple(moved))
+
 
 _HERE = _Pose(UNIT, ORIGIN)
 
 
-def moved_bodies(tree: Tree, chain: tuple[UrdfJoint, ...], roundings: Roundings) -> tuple[RigidLink, ...]:
+def moved_bodies(
+    tree: Tree, chain: tuple[UrdfJoint, ...], fixed: Mapping[str, Fraction], roundings: Roundings
+) -> tuple[RigidLink, ...]:
     """The joints of the chain, base first, each with all that it moves up to the next one as one body."""
-    moved_by = carrier(tree, chain)
-    local, joints = _poses(tree, chain, roundings)
+    local, joints = _poses(tree, chain, fixed, roundings)
     result = []
-    for i, joint in enumerate(chain):
+    for joint, links in zip(chain, moved_links(tree, chain), strict=True):
         axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
-        links = [link for link in tree.links.values() if moved_by[link.name] == i]
         result.append(_body(joints[joint.name], axis, links, local, roundings))
     return tuple(result)
 
 
 def _poses(
-    tree: Tree, chain: tuple[UrdfJoint, ...], roundings: Roundings
+    tree: Tree, chain: tuple[UrdfJoint, ...], fixed: Mapping[str, Fraction], roundings: Roundings
 ) -> tuple[Mapping[str, _Pose], Mapping[str, _Pose]]:
     """Every link, and every joint of the chain, in the frame of the joint of the chain before it."""
     links, joints = {tree.root: _HERE}, {}
     for joint in tree.downwards():
-        above = links[joint.parent]
-        turn = from_rpy(joint.rpy, f"joint {joint.name}", roundings)
-        place = OF.add(above.place, OF.apply(above.rotation, joint.xyz))
-        pose = _Pose(tidy(OF.product(above.rotation, turn)), tuple(place))
+        turn = oriented(joint.turn, f"joint {joint.name}", roundings)
+        pose = links[joint.parent].then(turn, joint.xyz)
+        value = fixed.get(joint.name)
         if joint in chain:
             joints[joint.name], pose = pose, _HERE
+        elif value:
+            axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
+            where = f"joint {joint.name}, where it is held"
+            slides = joint.kind == "prismatic"
+            turn = UNIT if slides else about(axis, value, where, roundings)
+            pose = pose.then(turn, OF.scaled(value, axis) if slides else ORIGIN)
         links[joint.child] = pose
     return links, joints
 
@@ -262,10 +187,30 @@ def _body(
     total = [[ZERO] * 3 for _ in range(3)]
     for link, (m, c) in zip(links, masses, strict=True):
         arm = OF.add(c, OF.scaled(Fraction(-1), com))
-        square = OF.dot(arm, arm)
-        spread = [[m * (square * UNIT[i][k] - arm[i] * arm[k]) for k in range(3)] for i in range(3)]
-        total = OF.sum(total, _inertia(link, poses[link.name], roundings), spread)
+        total = OF.sum(total, _inertia(link, poses[link.name], roundings), _point(m, arm))
+    total = _rounded_up(total, _point(mass, com), links, roundings)
     return RigidLink(axis, joint.place, mass, com, tuple(map(tuple, total)), joint.rotation)
+
+
+def _point(m: Fraction, place: Sequence[Fraction]) -> list[list[Fraction]]:
+    """The inertia of a mass at a place."""
+    square = OF.dot(place, place)
+    return [[m * (square * UNIT[i][k] - place[i] * place[k]) for k in range(3)] for i in range(3)]
+
+
+def _rounded_up(
+    total: list[list[Fraction]], around: list[list[Fraction]], links: list[UrdfLink], roundings: Roundings
+) -> list[list[Fraction]]:
+    """An inertia that misses being positive semidefinite by the digits that a program printed, mended."""
+    size = sum((total[i][i] + around[i][i] for i in range(3)), ZERO)
+    if is_positive_semidefinite(total) or size <= 0:
+        return total
+    added = size * ROUNDED_INERTIA
+    mended = [[total[i][k] + added * (i == k) for k in range(3)] for i in range(3)]
+    if not is_positive_semidefinite(mended):
+        return total
+    roundings.mended += [link.name for link in links if not is_positive_semidefinite(tensor(link))]
+    return mended
 
 
 def _centre(link: UrdfLink, pose: _Pose) -> list[Fraction]:
@@ -276,5 +221,5 @@ def _centre(link: UrdfLink, pose: _Pose) -> list[Fraction]:
 def _inertia(link: UrdfLink, pose: _Pose, roundings: Roundings) -> list[list[Fraction]]:
     if not any(link.inertia):
         return [[ZERO] * 3 for _ in range(3)]
-    turn = from_rpy(link.rpy, f"inertia of link {link.name}", roundings)
+    turn = oriented(link.turn, f"inertia of link {link.name}", roundings)
     return OF.congruent(tidy(OF.product(pose.rotation, turn)), tensor(link))

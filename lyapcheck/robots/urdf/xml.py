@@ -1,28 +1,25 @@
 """XML as URDF needs it: elements, attributes and line numbers, and nothing that a hostile file could use.
 
-Document types and entities are refused outright, so that nothing can be expanded or fetched; text between
-tags means nothing in URDF and is dropped.
+Declarations of a document type are refused, and entities that it could declare elsewhere, so that nothing can
+be expanded or fetched. Encodings are those that the file declares, UTF-8 if none.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 from xml.parsers import expat
 
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.fields import RETYPE, UNPRINTABLE
-from lyapcheck.files.reader import URDF, not_utf8, read_bytes
 from lyapcheck.output.escapes import printable
 
 _MOST_ELEMENTS = 100_000
 _MOST_DEPTH = 40
 _LONGEST = 10_000
 _SHOWN = 60
-_DECLARATION = re.compile(rb"\A(?:\xef\xbb\xbf)?\s+<\?xml[^>]*>")
-"""A declaration after white space, which XML forbids and others read; what it says is not needed."""
-_NO_BREAK = re.compile(rb"[^\n]")
+_DECLARED = re.compile(rb"\A\s*<\?xml[^>]*encoding\s*=\s*[\"']([A-Za-z0-9._-]+)")
+_ENTITY = re.compile(rb"&(?!(?:lt|gt|amp|quot|apos|#[0-9a-fA-Fx]+);)")
 
 
 @dataclass(frozen=True)
@@ -33,58 +30,73 @@ class Element:
     attributes: dict[str, str]
     line: int
     children: list[Element] = field(default_factory=list)
+    texts: list[str] = field(default_factory=list)
+
+    @property
+    def text(self) -> str:
+        """What stands between its tags, which no number of a link or joint does."""
+        return "".join(self.texts)
 
     def all(self, tag: str) -> list[Element]:
         """The children with that tag, in order."""
         return [child for child in self.children if child.tag == tag]
 
 
-def read_xml(path: Path, shown: str) -> Element:
-    """The root element of an XML file; ``shown`` is the name of the file in messages.
+def parse_xml(data: bytes, shown: str) -> Element:
+    """The root element of an XML text; ``shown`` is the name of its file in messages.
 
     Raises:
-        InputError: it cannot be read, is too large, not UTF-8, not XML, has a document type or entities, or
-            more elements, deeper nesting or longer attributes than any robot needs.
+        InputError: it is not in its encoding, not XML, declares a document type, or has more elements, deeper
+            nesting or longer attributes than any robot needs.
     """
-    return parse_xml(read_bytes(path, URDF, shown), shown)
-
-
-def parse_xml(data: bytes, shown: str) -> Element:
-    """The root element of an XML text; see ``read_xml``."""
+    # a declaration after white space, which XML forbids and others read
+    text = data.removeprefix(b"\xef\xbb\xbf").lstrip()
+    skipped = data.count(b"\n", 0, len(data) - len(text))
+    declared = _DECLARED.match(text)
+    encoding = declared[1].decode() if declared else "UTF-8"
     try:
-        data.decode("utf-8-sig")
+        if encoding.upper() in ("UTF-8", "UTF8") and not text.startswith((b"\xff\xfe", b"\xfe\xff")):
+            text.decode("utf-8")
+        return _Builder(shown, text, skipped).run()
     except UnicodeDecodeError:
-        raise not_utf8(shown) from None
-    try:
-        return _Builder(shown).run(_DECLARATION.sub(lambda result: _NO_BREAK.sub(b" ", result[0]), data, 1))
+        repair = "save it as UTF-8, or declare its encoding in <?xml … ?>"
+        raise refused(shown, None, "is not UTF-8 text", repair) from None
+    except LookupError:
+        repair = "save it as UTF-8, and declare that"
+        raise refused(shown, 1, f"is in an encoding that is not known, {encoding}", repair) from None
     except expat.ExpatError as error:
         what = expat.ErrorString(error.code)
-        raise refused(
-            shown, error.lineno, f"is not XML: {what}", "correct the syntax near this line"
-        ) from None
+        rule, repair = f"is not XML: {what}", "correct the syntax near this line"
+        raise refused(shown, error.lineno + skipped, rule, repair) from None
 
 
 class _Builder:
     """Builds the tree while expat walks over the text."""
 
-    def __init__(self, shown: str) -> None:
-        self.shown = shown
-        self.parser = expat.ParserCreate("utf-8")
+    def __init__(self, shown: str, text: bytes, skipped: int) -> None:
+        self.shown, self.text, self.skipped = shown, text, skipped
+        self.parser = expat.ParserCreate()
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._text
         self.parser.StartDoctypeDeclHandler = self._doctype
-        self.parser.EntityDeclHandler = self._doctype
+        for declared in ("Entity", "Element", "Attlist", "Notation"):
+            setattr(self.parser, f"{declared}DeclHandler", self._declared)
         self.open: list[Element] = []
         self.root: Element | None = None
         self.count = 0
 
-    def run(self, data: bytes) -> Element:
-        self.parser.Parse(data, True)
+    @property
+    def line(self) -> int:
+        return self.parser.CurrentLineNumber + self.skipped
+
+    def run(self) -> Element:
+        self.parser.Parse(self.text, True)
         assert self.root is not None
         return self.root
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
-        element = Element(tag, attributes, self.parser.CurrentLineNumber)
+        element = Element(tag, attributes, self.line)
         self.count += 1
         if self.count > _MOST_ELEMENTS:
             self._refuse(f"has more than {_MOST_ELEMENTS} elements", "give one robot only")
@@ -95,9 +107,8 @@ class _Builder:
         for key, text in (("tag", tag), *attributes.items()):
             if not (key + text).isprintable():
                 place = f"<{printable(tag)}> {printable(key)}"
-                line = self.parser.CurrentLineNumber
                 raise InputError(
-                    Problem(self.shown, line, place, printable(text)[:_SHOWN], UNPRINTABLE, RETYPE)
+                    Problem(self.shown, self.line, place, printable(text)[:_SHOWN], UNPRINTABLE, RETYPE)
                 )
         if self.open:
             self.open[-1].children.append(element)
@@ -108,11 +119,20 @@ class _Builder:
     def _end(self, tag: str) -> None:
         self.open.pop()
 
-    def _doctype(self, *declared: object) -> None:
+    def _text(self, text: str) -> None:
+        if self.open and len(self.open[-1].texts) < _MOST_DEPTH:
+            self.open[-1].texts.append(text[:_SHOWN])
+
+    def _doctype(self, name: str, system: str | None, public: str | None, inside: bool) -> None:
+        # what is declared elsewhere is never fetched, and expat drops its entities without a word
+        if (system or public) and _ENTITY.search(self.text.replace(b"\0", b"")):
+            self._declared()
+
+    def _declared(self, *declared: object) -> None:
         self._refuse("declares a document type or an entity", "remove it: URDF needs neither")
 
     def _refuse(self, rule: str, repair: str) -> None:
-        raise refused(self.shown, self.parser.CurrentLineNumber, rule, repair)
+        raise refused(self.shown, self.line, rule, repair)
 
 
 def refused(shown: str, line: int | None, rule: str, repair: str) -> InputError:

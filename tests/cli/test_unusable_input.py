@@ -1,0 +1,95 @@
+"""What cannot be used is in every format that a program reads: an error there, never an empty document."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lyapcheck.cli.main import run
+from lyapcheck.errors import InputError
+from tests.helpers.json_schema import faults
+from tests.helpers.urdf_texts import TWO
+
+GOOD = 'robot = "two.urdf"\n[[gains]]\nname = "a"\nm = 1\nkp = [2, 1]\nkv = [0.1, 0.1]\n'
+SHORT = GOOD.replace("[2, 1]", "[2]")
+SCHEMA = json.loads((Path(__file__).parents[1] / "schemas" / "sarif-2.1.0-rtm.5.json").read_text("utf-8"))
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for name, text in (("two.urdf", TWO), ("good.toml", GOOD), ("short.toml", SHORT)):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
+    return tmp_path
+
+
+COMMANDS = [
+    ("gate good.toml short.toml", 1),
+    ("gate short.toml", 0),
+    ("gate nothing.toml", 0),
+    ("gate good.toml --tip nowhere", 0),
+    ("robot short.toml", 0),
+    ("epsilon short.toml", 0),
+    ("bounds short.toml", 0),
+    ("simulate short.toml --time 1", 0),
+    ("robot two.urdf --fixed elbow", 0),
+    ("gate good.toml --nothing", 0),
+]
+
+
+def written(words: str, form: str, capsys: pytest.CaptureFixture[str]) -> tuple[str, InputError]:
+    with pytest.raises(InputError) as caught:
+        run([*words.split(), "--format", form])
+    return capsys.readouterr().out, caught.value
+
+
+@pytest.mark.usefixtures("place")
+@pytest.mark.parametrize(("words", "judged"), COMMANDS)
+def test_every_problem_is_in_every_format(
+    words: str, judged: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, error = written(words, "json", capsys)
+    told = json.loads(text)
+    assert [one["rule"] for one in told["problems"]] == [one.rule for one in error.problems]
+    assert len(told["results"]) == judged
+    text, error = written(words, "junit", capsys)
+    suites = ET.fromstring(text)
+    assert [one.get("message") for one in suites.iter("error")] == list(map(str, error.problems))
+    assert sum(int(suite.get("errors", "")) for suite in suites) == len(error.problems)
+    assert sum(int(suite.get("tests", "")) for suite in suites) == len(error.problems) + judged
+    text, error = written(words, "sarif", capsys)
+    assert list(faults(json.loads(text), SCHEMA, SCHEMA)) == []
+    (invocation,) = json.loads(text)["runs"][0]["invocations"]
+    assert invocation["executionSuccessful"] is False
+    notes: list[dict[str, Any]] = invocation["toolExecutionNotifications"]
+    assert [note["message"]["text"] for note in notes] == list(map(str, error.problems))
+    text, error = written(words, "github", capsys)
+    assert text.count("::error ") == len(error.problems)
+    text, _ = written(words, "csv", capsys)
+    assert list(csv.DictReader(io.StringIO(text)))
+
+
+@pytest.mark.usefixtures("place")
+def test_a_clean_run_has_no_invocation(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["gate", "good.toml", "--format", "sarif"]) in (0, 3)
+    assert "invocations" not in json.loads(capsys.readouterr().out)["runs"][0]
+
+
+@pytest.mark.usefixtures("place")
+def test_others_read_what_is_written(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The parsers of two programs that show such files."""
+    junitparser = pytest.importorskip("junitparser")
+    sarif = pytest.importorskip("sarif.loader")
+    (place / "j.xml").write_text(written(COMMANDS[0][0], "junit", capsys)[0], encoding="utf-8")
+    (place / "s.sarif").write_text(written(COMMANDS[0][0], "sarif", capsys)[0], encoding="utf-8")
+    suites = junitparser.JUnitXml.fromfile(str(place / "j.xml"))
+    suites.update_statistics()
+    assert (suites.tests, suites.errors) == (2, 1)
+    assert sarif.load_sarif_file(str(place / "s.sarif")).get_result_count() == 1
