@@ -14,6 +14,7 @@ from lyapcheck.output.typst import markup
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
 from lyapcheck.report.model import WEIGHTS, Finding, Report
 from lyapcheck.report.plain import plain
+from lyapcheck.report.sampled import sampled_section
 from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from lyapcheck.robots import RobotModel
@@ -41,6 +42,7 @@ class ReportAnswer(Answer):
         blocks = (
             *_front(report),
             *_findings(report),
+            *sampled_section(report),
             Section("ε₀ from both sides", tuple(four_epsilons(report))),
             report.derived.section(),
             *((Section("Claims", tuple(_claims(report))), *evidence(report)) if self.appendix else ()),

@@ -40,7 +40,14 @@ CLASS = "every_function.py"
 ARGUMENT = ("F.arms.origin", "F.arms.above", "F.arms.rate")
 BOUNDS = ("F.h.square", "F.h.bounded", "F.h.slope", "F.h.endless")
 """Its claims that put h_m into the class for every real m ≥ 1."""
-OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS)}
+SAMPLED = "sampled.py"
+"""The loop on a computer, from printed numbers."""
+OTHERS = {
+    "scalar.py": (),
+    "tracking.py": (),
+    CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS),
+    SAMPLED: (),
+}
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""

@@ -17,6 +17,7 @@ from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import BOUNDS, CLASS
 from lyapcheck.report.model import Report, applies, behind, keeps_limits
 from lyapcheck.report.notes import Box
+from lyapcheck.report.sampled import sampled_word
 from lyapcheck.report.text import and_list
 
 THIS_ARM = "arm.stable"
@@ -25,7 +26,7 @@ THIS_ARM = "arm.stable"
 
 @dataclass(frozen=True)
 class Badge:
-    """One of the four words on the first screen; ``tone`` is ``good``, ``bad``, ``warn`` or ``open``."""
+    """One of the words on the first screen; ``tone`` is ``good``, ``bad``, ``warn`` or ``open``."""
 
     subject: str
     word: str
@@ -49,7 +50,7 @@ def sentences(report: Report) -> tuple[str, ...]:
 
 
 def badges(report: Report) -> tuple[Badge, ...]:
-    """Theorem, proof, tables and experiment; of an arm of one's own, its gain sets."""
+    """Theorem, proof, tables, experiment and computer; of an arm of one's own, its gain sets."""
     if report.own:
         return tuple(map(_of_gains, report.gate))
     true, broken = _is_true(report), break_places(report)
@@ -77,7 +78,11 @@ def badges(report: Report) -> tuple[Badge, ...]:
         experiment = Badge(
             "experiment", "not explained" if differs else "explained", "warn" if differs else "good"
         )
-    return theorem, proof, tables, experiment
+    word, all_shown = sampled_word(report) or ("not asked", False)
+    computer = Badge(
+        "on a computer", word, "good" if all_shown else "open" if word == "not asked" else "warn"
+    )
+    return theorem, proof, tables, experiment, computer
 
 
 def chain(report: Report) -> tuple[VerdictBox, ...]:

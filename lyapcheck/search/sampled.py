@@ -24,7 +24,7 @@ from lyapcheck.check.loop.closed_loop import corners_of
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof
 from lyapcheck.control.judgement import refutes
-from lyapcheck.files.decimals import significant_down, significant_up
+from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.robots import trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, Dynamics, Polynomials
 from lyapcheck.robots.fields import Number
@@ -295,3 +295,21 @@ def _accepted(
             if refutes(statement, proof):
                 return proof
     return None
+
+
+def witness_of(proof: GrowingMotion) -> dict[str, str]:
+    """A refutation in words: where, at which period, how fast; a start up to a small factor."""
+    words = {
+        "goal": f"({', '.join(map(decimal_text, proof.goal))})°",
+        "period": f"{decimal_text(1000 * proof.period)} ms",
+        "growth": f"{decimal_text(proof.growth)} times a sample, or more",
+    }
+    n = len(proof.goal)
+    for name, part in (
+        ("away", proof.start[:n]),
+        ("rates", proof.start[n:]),
+        ("parameters", proof.parameters),
+    ):
+        if any(part):
+            words[name] = f"({', '.join(map(decimal_text, part))})"
+    return words

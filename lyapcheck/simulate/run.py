@@ -86,7 +86,7 @@ class Unrest:
         joint: its name.
         angle: degrees, peak to peak in the last fifth of the run; of a load that falls the error at the end.
         torque: N·m, likewise; of a load that falls the most that it asks, there or on the way.
-        most: N·m, what k_p h gives at most against that load.
+        most: N·m, what k_p h gives up to against that load.
         others: how many other joints do the same.
     """
 
@@ -105,7 +105,7 @@ class Unrest:
         if self.kind == LIMIT_CYCLE:
             swings = f"{self.joint}{also} swings by {angle}° and {torque} N·m, peak to peak"
             return f"limit cycle seen: {swings} in the last fifth of the run, and does not die out"
-        load = f"the unknown load asks up to {torque} N·m, k_p h gives at most {at_most(self.most, 3)}"
+        load = f"the unknown load asks up to {torque} N·m, k_p h gives up to {at_most(self.most, 3)}"
         return f"seen to fall: {self.joint}{also} ends {angle}° from the goal; on the way or there {load}"
 
 

@@ -25,23 +25,43 @@ from tests.arena.truths import certified
 
 PRINTED = SampledStable(
     *("hyperbolic", 1, (F(28), F(60), F(5)), (F("0.233"),) * 3, (F("0.406"),) * 3),
-    *((F(0), F("40.28"), F("1.81")), (), (), (), (), ()),
-    *(F("0.0025"), F(1), 0, (F(1),), "goal"),
+    k_g=(F(0), F("40.28"), F("1.81")),
+    links=(),
+    fall=(),
+    mass=(),
+    potential=(),
+    parameters=(),
+    period=F("0.0025"),
+    stretch=F(1),
+    delay=0,
+    taps=(F(1),),
+    conclusion="goal",
 )
 """The paper's, from printed numbers: b_2 > 0.233 + T/2·(60 + 40.28 + 1.81)."""
 NOTHING = ShortPeriod((), ())
-ONE = SampledStable(
-    *("tanh", None, (F(6),), (F(1),), (F(5),), ()),
-    *((), (), ((((((0, 0, 0), F(1)),),),)), (((0, 1, 1), F(-1)),), ((F(1), F(2)),)),
-    *(F(1, 2), F(2), 0, (F(3, 4), F(-1, 4)), "goal"),
+ONE = replace(
+    PRINTED,
+    **{"family": "tanh", "m": None, "kp": (F(6),), "kv": (F(1),), "viscous_min": (F(5),), "k_g": ()},
+    mass=((((((0, 0, 0), F(1)),),),)),
+    potential=(((0, 1, 1), F(-1)),),
+    parameters=((F(1), F(2)),),
+    period=F(37, 100),
+    stretch=F(2),
+    taps=(F(3, 4), F(-1, 4)),
 )
 """g = p sin q, p in [1, 2], read with jitter: 5 > 2·(1 + ½·T·(6 + 2)), so that T < 3/8 is enough."""
-ONE = replace(ONE, period=F(37, 100))
 SHOWN = ShortPeriod((F(2),), (HarmonicSizes(),))
-TWO = SampledStable(
-    *("tanh", None, (F(6), F(1)), (F(1), F(1)), (F(12), F(12)), ()),
-    *(LINKS, vector(1, 0, 0), (), (), ()),
-    *(F(1, 2), F(1), 1, (F(1),), "rest"),
+TWO = replace(
+    PRINTED,
+    **{"family": "tanh", "m": None, "kp": (F(6), F(1)), "kv": (F(1), F(1)), "viscous_min": (F(12), F(12))},
+    **{
+        "k_g": (),
+        "links": LINKS,
+        "fall": vector(1, 0, 0),
+        "period": F(1, 2),
+        "delay": 1,
+        "conclusion": "rest",
+    },
 )
 """|g_1| ≤ 3 and |g_2| ≤ 1: 12 > 1 + 3/2·T·(6 + 3 + 1), so that T < 11/15 is enough."""
 BOTH = ShortPeriod((F(3), F(1)), (OwnLevers((1,)), OwnLevers(())))
@@ -91,6 +111,7 @@ MALFORMED: dict[str, tuple[str, Any]] = {
     "shorter": ("stretch", "9/10"),
     "speeds-up": ("viscous_min", ["-1", "1", "1"]),
     "few-joints": ("viscous_min", ["1", "1"]),
+    "many-joints": ("kp", ["1"] * 10),
     "no-damping": ("kv", ["0", "1", "1"]),
     "no-arm": ("k_g", []),
     "two-arms": ("links", [{}]),

@@ -34,6 +34,10 @@ from lyapcheck.errors import InputError
 from lyapcheck.kernel import coq
 from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, formal, golden, sources
 from lyapcheck.kernel.judge import HEAD, judged, theorem_file
+from lyapcheck.kernel.sampled import sampled_script
+from lyapcheck.kernel.statements import proposition
+from tests.arena.sampled import ONE as ONE_JOINT
+from tests.arena.sampled import PRINTED, not_shown
 from tests.helpers.once import once
 from tests.kernel.test_statements import GOOD, OWN
 
@@ -342,6 +346,30 @@ def false_ones() -> dict[str, Certificate]:
 def test_false_statements_of_the_table_are_no_theorems_of_coqs(folder: Path, name: str) -> None:
     with pytest.raises(CoqRefused):
         Coq(folder, 600).accept("false_of_the_table", theorem_file(false_ones()[name]))
+
+
+@needs_coq
+@pytest.mark.slow
+def test_gains_on_a_computer_are_theorems_of_coqs_and_those_beyond_the_border_are_none(folder: Path) -> None:
+    ours = Coq(folder, 600)
+    for name in ("printed", "printed-border", "printed-rest", "potential"):
+        ours.accept("runs", theorem_file(certificate_of((GOOD / f"{name}.sam.json").read_bytes())[0]))
+    refused = {name: (statement, proof) for name, statement, proof in not_shown()}
+    for name in (
+        "equality",
+        "late",
+        "own-bound-alone",
+        "taps-that-cancel",
+        "range",
+        "low-k_g",
+        "an-angle-twice",
+    ):
+        statement, proof = refused[name]
+        script = sampled_script(PRINTED if statement.k_g else ONE_JOINT, proof)
+        with pytest.raises(CoqRefused, match="Unable to unify"):
+            ours.accept(
+                "runs_not", f"{HEAD}Theorem claim : {proposition(statement)}.\nProof.\n{script}\nQed.\n"
+            )
 
 
 @needs_coq

@@ -11,6 +11,7 @@ import pytest
 
 from lyapcheck.check.certificate import Certificate, certificate_of
 from lyapcheck.check.kinds.for_all import ForAll
+from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Relation
@@ -105,6 +106,31 @@ def test_an_arm_that_tracks_is_printed_with_the_velocity_of_its_goal() -> None:
 def test_a_coriolis_matrix_that_is_printed_is_not_taken_for_that_of_christoffel() -> None:
     with pytest.raises(NotPrinted, match="a printed Coriolis matrix"):
         proposition(dict(certificates())["ext.RateOfMass.printed.json"].statement)
+
+
+def test_every_number_of_gains_on_a_computer_is_in_the_theorem() -> None:
+    of_bounds, of_potential = (
+        dict(certificates())[f"{name}.sam.json"].statement for name in ("printed", "potential")
+    )
+    assert isinstance(of_bounds, SampledStable)
+    assert isinstance(of_potential, SampledStable)
+    third = (Fraction(1, 3),) * 3
+    changes = {
+        "m": 2,
+        "delay": 1,
+        "conclusion": "rest",
+        "taps": third,
+        "period": third[0],
+        "stretch": 3 * third[0] + 1,
+    }
+    changes |= dict.fromkeys(("kp", "kv", "viscous_min", "k_g"), third)
+    asked = {proposition(replace(of_bounds, **{name: value})) for name, value in changes.items()}  # type: ignore[arg-type]
+    assert len(asked | {proposition(of_bounds)}) == len(changes) + 1
+    others = {"potential": (((1, 0, 1), Fraction(1)),), "parameters": ((Fraction(1), Fraction(9)),)}
+    asked = {proposition(replace(of_potential, **{name: value})) for name, value in others.items()}  # type: ignore[arg-type]
+    assert len(asked | {proposition(of_potential)}) == 3
+    with pytest.raises(NotPrinted, match="a chain of links"):
+        proposition(dict(certificates())["links.sam.json"].statement)
 
 
 def test_a_letter_of_a_certificate_is_not_taken_for_the_vector_of_a_norm() -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from random import Random
 
-MODULES = "boxes", "small", "letters", "bounds", "laws", "loop", "properties", "stability"
+MODULES = "boxes", "small", "letters", "bounds", "laws", "loop", "properties", "stability", "sampled"
 OBJECTIONS, JUDGEMENTS = {}, {}
 
 
@@ -33,7 +33,7 @@ def judges(*kinds):
     return lambda function: JUDGEMENTS.update(dict.fromkeys(kinds, function)) or function
 
 
-def objection(statement, seed=0):
+def objection(statement: object, seed: int = 0) -> Objection | None:
     """Why a statement is not true, if that is found."""
     function = _entered(OBJECTIONS).get(type(statement).__name__)
     return None if function is None else function(statement, Random(seed))

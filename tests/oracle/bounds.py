@@ -78,7 +78,8 @@ class Bound:
         if not self.links:
             return np.array(self._place(q, free, number).matrix(self.statement.mass))
         parts = (m * v.T @ v + w.T @ inertia @ w for m, inertia, v, w in self._bodies(q, number))
-        return sum(parts, np.zeros((self.n, self.n)) * number(0))
+        rotors = np.diag([number(link.rotor) for link in self.links])
+        return sum(parts, rotors)
 
     def _coriolis(self, q, x, y, free, number):
         if not self.links:

@@ -45,6 +45,7 @@ from lyapcheck.report.model import Report, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
 from lyapcheck.report.plain import read
+from lyapcheck.report.sampled import sampled_section
 from lyapcheck.report.text import bracket, number, span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sentences
 from tests.helpers.command import invoke
@@ -125,6 +126,9 @@ def test_the_first_screen_answers(report: Report, files: dict[str, str]) -> None
     first = files["index.html"].split('id="findings"')[0]
     assert report.notes.paper.title in first
     assert [badge.word for badge in badges(report)][:2] == ["proved for every n", "breaks at (16), term 6"]
+    assert badges(report)[-1].word == "m = 1: stable at 2.5 ms"
+    (card,) = sampled_section(report)
+    assert [len(getattr(block, "items", ())) for block in card.blocks] == [0, 7, 0]  # six, and k_g
     said = sentences(report)
     assert said[0].startswith("The proposition is true: proved")
     for words in ("every number of joints n", "every odd bounded function", "every real m ≥ 1", "(n = 2)"):

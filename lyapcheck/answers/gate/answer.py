@@ -289,3 +289,6 @@ def _annotations(result: GateResult) -> Iterator[Annotation]:
     if model is not None and stuck:
         lines = friction_lines(result.gains, model, stuck)[: len(stuck)]
         yield said(Level.REMARK, "dry-friction", "γ k_p exceeds the dry friction", "; ".join(lines))
+    run = running_sentences(result.checks, result.limits.joints) if level is Level.PASSED else []
+    if run:
+        yield said(Level.REMARK, "loop", "the loop as a computer runs it", "; ".join(run))

@@ -100,7 +100,8 @@ def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
         return "unstable"
     place = ", ".join(f"{float(x):g}" for x in proof.goal)
     without = " without dry friction and with all gravity known" if alone else ""
-    return f"unstable at {time_text(proof.period)}{without}, at the goal q_d = ({place})°"
+    some = ", of an arm in its ranges" if proof.parameters else ""
+    return f"unstable at {time_text(proof.period)}{without}, at the goal q_d = ({place})°{some}"
 
 
 def sampled_check(

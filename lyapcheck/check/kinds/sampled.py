@@ -152,7 +152,7 @@ class SampledStable(Total):
         goal, late = self.conclusion == GOAL, f"{self.delay} samples later" if self.delay else "at once"
         beside = "and no friction beside B acts" if goal else "and other friction only brakes"
         known = "is that of the arm" if goal else "need not be that of the arm"
-        premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at every posture; no g is given"
+        premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at all postures; no g is given"
         return (
             f"the arm is serial, its joints are revolute: (1) with {arm}",
             f"b_i ≥ {list_text(self.viscous_min)} N·m·s/rad, {beside}",

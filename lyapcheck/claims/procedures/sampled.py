@@ -1,14 +1,15 @@
-"""Gains on a computer: decided by (S), else said how far (S) reaches."""
+"""Gains on a computer: decided by (S), or by a goal of the arm that is unstable; else how far (S) reaches."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
-from lyapcheck.check.kinds.sampled import SampledStable
-from lyapcheck.claims.search_result import SearchResult, procedure, shown, still_open
+from lyapcheck.check.kinds.sampled import GOAL, SampledStable
+from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 from lyapcheck.control.judgement import proves
 from lyapcheck.control.sampled import largest_period, sampled_proof
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
+from lyapcheck.libraries import installed
 
 METHOD = "friction above the held torque, (S)"
 DIGITS = 4
@@ -16,11 +17,17 @@ DIGITS = 4
 
 @procedure(SampledStable)
 def find_sampled(statement: SampledStable) -> SearchResult:
-    """By (S); where that fails, up to which period it holds, and with how much friction it would."""
+    """By (S) or an unstable goal; else up to which period (S) holds, and with how much friction it would."""
     proof = sampled_proof(statement)
     reach = _milliseconds(largest_period(statement))
     if proves(statement, proof):
         return shown(proof, METHOD, largest_period=reach)
+    if statement.conclusion == GOAL and not statement.k_g and installed("numpy") and installed("scipy"):
+        from lyapcheck.search.sampled import refuted_at, witness_of
+
+        against = refuted_at(statement, statement.period)
+        if against is not None:
+            return broken(against, "growing motion at one goal, (R)", witness_of(against))
     rows = zip(statement.viscous_min, statement.needed(statement.k_g or proof.k_g), strict=True)
     more = [
         f"b_{i} > {decimal_text(significant_up(want, DIGITS))}"

@@ -13,6 +13,7 @@ from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
 from lyapcheck.report.gain_map import BOXES
 from lyapcheck.report.model import MapCell, Report
+from lyapcheck.report.sampled import sampled_section
 
 # --- Figures inside the page, in the colours of the page.
 
@@ -77,7 +78,10 @@ def gains_section(report: Report) -> Markup:
         for row in report.runs
     ]
     heading = element("h2", "Gains in motion")
-    return element("section", heading, element("p", *words, class_="quiet"), runs, _map(report), id="gains")
+    card = list(blocks(sampled_section(report), 3))
+    moving = heading, element("p", *words, class_="quiet"), runs
+    sampled = element("div", card, class_="card") if card else None
+    return element("section", *moving, sampled, _map(report), id="gains")
 
 
 def _map(report: Report) -> Markup | None:
