@@ -273,12 +273,6 @@ BROKEN: dict[str, tuple[str | bytes, int | None, str, str, str]] = {
     "kp one number": (changed("[1.5, 2, 3e-1]", "1.5"), 6, "gains[1].kp", "list of numbers", "[1.5, 1.5]"),
     "kp empty": (changed("[1.5, 2, 3e-1]", "[]"), 6, "gains[1].kp", "list of numbers", "[1.0, 1.0]"),
     "kp a table": (changed("[1.5, 2, 3e-1]", "{base = 1.5}"), 6, "gains[1].kp", "no gain for", "each joint"),
-        changed("[1.5, 2, 3e-1]", "{base = 1.5}"),
-        6,
-        "gains[1].kp",
-        "no gain for shoulder, elbow",
-        "each",
-    ),
     "kv too short": (changed("0.20, ", ""), 7, "gains[1].kv", "2 gains where kp has 3", "as the arm"),
     "kv too long": (changed("0.20, ", "1, 1, "), 7, "gains[1].kv", "4 gains where kp has 3", "as the arm"),
     "unknown family": (
