@@ -9,13 +9,12 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.files.decimals import decimal_text
-from tests.promises.draws import FAMILIES, Arm, Ranged, arms, asked, near_the_border, results, shares
+from tests.promises.draws import FAMILIES, Arm, Ranged, arms, asked, drawn, near_the_border, results, shares
 
-FEW = settings(max_examples=12)
 SHARES = st.sampled_from([Fraction(1, 10), Fraction(1, 2), Fraction(99, 100)])
 """Of the largest gains that pass."""
 LITTLE = Ranged(Fraction(1, 10), Fraction(1, 20), Fraction(1, 2))
@@ -110,7 +109,7 @@ def test_v_falls_in_motions_of_a_member_for_the_scalar_epsilon_over_ranges(
 
 
 @pytest.mark.slow
-@FEW
+@drawn(2, 12)
 @given(arms(2), st.sampled_from(FAMILIES), SHARES, shares)
 def test_no_epsilon_promised_over_ranges_is_falsified_at_a_member(
     arm: Arm, family: str, share: Fraction, at: list[Fraction]
