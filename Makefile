@@ -14,7 +14,7 @@ help:
 	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
 	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
-	@echo "make test-robots  arms against Pinocchio; downloads 0.9 GB (pin, example-robot-data)"
+	@echo "make test-robots  arms against Pinocchio and MuJoCo; downloads 1 GB; writes reports/robots.md"
 	@echo "make test-mujoco  motions against MuJoCo; downloads 20 MB (extra mujoco)"
 	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
 	@echo "make promises   what is promised over ranges, asked at 200 members a test; writes reports/promises.md"
@@ -48,10 +48,10 @@ test: .venv/.ready
 test-slow: .venv/.ready
 	$(BIN)/pytest -n 2 -m "slow or hypothesis" --hypothesis-profile thorough
 
-# Packages that only these tests need; users never do.
+# Packages that these tests need; writes reports/robots.md.
 test-robots: .venv/.ready
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots]"
-	$(BIN)/pytest tests/robots/against_pinocchio.py
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[robots,mjcf,xacro]"
+	$(BIN)/pytest tests/robots/against_pinocchio.py tests/robots/against_mujoco.py tests/robots/corpus.py
 
 test-mujoco: .venv/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[mujoco]"

@@ -55,14 +55,15 @@ def read_robot(
         from lyapcheck.robots.mjcf import read_mjcf
 
         compiled = read_mjcf(path, shown, root)
-        return read_urdf(compiled.robot, path, shown, choice, gravity or compiled.gravity, compiled.remarks)
+        fall, remarks = gravity or compiled.gravity, compiled.remarks
+        return read_urdf(compiled.robot, path, shown, choice, fall, remarks, compiled.source)
     if root.tag == "sdf":
         new = path.with_suffix(".urdf").name
         repair = f"convert it: pip install rod && rod -f {path.name} -o {new}"
         raise file_error(shown, "is SDF, which is not read here", repair)
     if root.tag != "robot":
         raise file_error(shown, f"is XML with the root <{root.tag[:40]}>, and no robot", _READ)
-    remarks: tuple[str, ...] = ()
+    remarks = ()
     if has_macros(root):
         root = parse_xml(expanded(path, shown, choice), shown)
         source = f"{path.name} expanded by xacro"

@@ -28,6 +28,7 @@ class Compiled:
     robot: Element
     gravity: tuple[Number, ...]
     remarks: tuple[str, ...]
+    source: str
 
 
 def read_mjcf(path: Path, shown: str, root: Element) -> Compiled:
@@ -77,7 +78,7 @@ class _Reading:
         parts = [part for body in range(m.nbody) for part in self._body(body)]
         robot = Element("robot", {"name": name, "version": "1.1"}, 1, parts)
         gravity = tuple(Number(_exact(x), "m/s²", self.source) for x in m.opt.gravity)
-        return Compiled(robot, gravity, tuple(self._remarks()))
+        return Compiled(robot, gravity, tuple(self._remarks()), self.source)
 
     def _name(self, kind: str, index: int) -> str:
         of = getattr(self.mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
@@ -180,7 +181,6 @@ class _Reading:
 
     def _remarks(self) -> Iterator[str]:
         m = self.m
-        yield f"Numbers are those of {self.source}"
         springs = [self.joints[j] for j in range(m.njnt) if m.jnt_stiffness[j].any()]
         if springs:
             yield f"Springs of joints are not part of the arm: {', '.join(springs)}"

@@ -248,13 +248,7 @@ BROKEN = {
     "integer of many digits": (changed("1.5", HUGE), 6, "number", "absurd length", "physical size"),
     "kp one number": (changed("[1.5, 2, 3e-1]", "1.5"), 6, "gains[1].kp", "list of numbers", "[1.5, 1.5]"),
     "kp empty": (changed("[1.5, 2, 3e-1]", "[]"), 6, "gains[1].kp", "list of numbers", "[1.0, 1.0]"),
-    "kp a table": (
-        changed("[1.5, 2, 3e-1]", "{base = 1.5}"),
-        6,
-        "gains[1].kp",
-        "no gain for shoulder, elbow",
-        "each",
-    ),
+    "kp a table": (changed("[1.5, 2, 3e-1]", "{base = 1.5}"), 6, "gains[1].kp", "no gain for", "each joint"),
     "kv too short": (changed("0.20, ", ""), 7, "gains[1].kv", "2 gains where kp has 3", "as the arm"),
     "unknown family": (
         changed("m = 2", 'm = 2\nfamily = "cubic"'),

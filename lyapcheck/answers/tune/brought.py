@@ -12,7 +12,7 @@ from lyapcheck.control.conditions import Conditions, gamma_of
 from lyapcheck.control.foreign import Pid, read_foreign
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import ArmLimits, arm_limits
-from lyapcheck.files.decimals import decimal_text, round_down
+from lyapcheck.files.decimals import decimal_text, round_down, significant_down
 from lyapcheck.files.toml import key_of, quoted
 
 _PLACES = 6
@@ -74,7 +74,7 @@ def _bounded(i: int, pid: Pid, limits: ArmLimits) -> tuple[Fraction, Fraction, s
         return pid.p, pid.d, ""
     share = Fraction(largest) / (pid.p + pid.d)
     kp, kv = round_down(share * pid.p, _PLACES), round_down(share * pid.d, _PLACES)
-    return kp, kv, f"{pid.joint}: cut to {float(share):.3g} of its slope, for (10p)"
+    return kp, kv, f"{pid.joint}: cut to {decimal_text(significant_down(share, 3))} of its slope, for (10p)"
 
 
 def _table(pids: Sequence[Pid], values: Sequence[Fraction]) -> str:
