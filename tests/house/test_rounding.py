@@ -58,10 +58,12 @@ SEEN = {
     "answers/tune/answer.py:effect_section": "simulated",
     "answers/tune/answer.py:_six": "simulated",
     "answers/tune/answer.py:module": "simulated",
+    "answers/tune/response/answer.py:document": "a share that the user gave",
     "answers/tune/response/answer.py:_missed_in_motions": "the time of a simulated motion",
     "answers/tune/response/answer.py:_angles": "angles that the user gave",
     "answers/tune/response/answer.py:_six": "simulated",
-    "answers/tune/response/search.py:_score": "an order of candidates",
+    "answers/simulate/runs.py:about": "how far from the goal a run ended",
+    "answers/tune/response/search.py:of": "an order of candidates",
     "answers/tune/response/search.py:set_of": "gains, which the gate judges as they are written",
 }
 """The functions of the strict rooms that may round to nearest, each with what it prints."""
