@@ -105,11 +105,7 @@ def mass_positive(robot: RobotModel) -> Statement:
 
 def mass_bounded(robot: RobotModel) -> Statement:
     """‖M(q)‖ ≤ β_M at the robot's nominal numbers."""
-    from lyapcheck.constants.storage import storage_proof
-
-    chain = _chain(robot.fixed())
-    shown = None if chain is None else storage_proof(chain, "lambda_max")
-    return ArmBounds(robot).mass_below() if shown is None else shown.at_end(_with_room(shown.bound))
+    return _along_links(robot, "lambda_max") or ArmBounds(robot).mass_below()
 
 
 def coriolis_bounded(robot: RobotModel) -> Statement:
@@ -118,34 +114,28 @@ def coriolis_bounded(robot: RobotModel) -> Statement:
     Raises:
         Lacking: M(q) is too long to be written out.
     """
-    from lyapcheck.constants.storage import storage_proof
-
-    chain = _chain(robot.fixed())
-    shown = None if chain is None else storage_proof(chain, "k_c")
-    if shown is not None:
-        return shown.at_end(_with_room(shown.bound))
     try:
-        return ArmBounds(robot).coriolis_below()
+        return _along_links(robot, "k_c") or ArmBounds(robot).coriolis_below()
     except TooManyTerms as error:
         raise lacking(str(error)) from None
 
 
 def gravity_bounded(robot: RobotModel) -> Statement:
     """‖g(q)‖, or every |g_i(q)|, is bounded at the robot's nominal numbers."""
-    from lyapcheck.constants.storage import storage_proof
-
-    chain = _chain(robot.fixed())
-    shown = None if chain is None else storage_proof(chain, "k_g")
-    return bounded(gravity_vector(robot.fixed())) if shown is None else shown.at_end(_with_room(shown.bound))
+    return _along_links(robot, "k_g") or bounded(gravity_vector(robot.fixed()))
 
 
-def _with_room(bound: Fraction) -> Fraction:
-    """A bound a thousandth larger, in four digits.
+def _along_links(robot: RobotModel, name: str) -> Statement | None:
+    """A bound of a constant of an arm of many joints: a thousandth larger than was shown, in four digits.
 
     Its proof is looked for again by who decides the claim, maybe in a process with other threads of BLAS,
     where the semidefinite program may end at a slightly larger bound.
     """
-    return significant_up(bound * Fraction(1001, 1000), 4)
+    from lyapcheck.constants.storage import storage_proof
+
+    chain = _chain(robot.fixed())
+    shown = None if chain is None else storage_proof(chain, name)
+    return None if shown is None else shown.at_end(significant_up(shown.bound * Fraction(1001, 1000), 4))
 
 
 def _of_links(robot: RobotModel, identity: str) -> ChainIdentity | None:

@@ -1,6 +1,6 @@
 """Writing what holds between vectors and matrices for every n, with the usual operators.
 
-The functions of ``claims.products`` take these letters as well as lists of entries.
+The functions at the end take these letters as well as lists of entries.
 """
 
 from __future__ import annotations

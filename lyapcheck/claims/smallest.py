@@ -16,7 +16,7 @@ from typing import Any
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
-from lyapcheck.check.expressions.domain import Comparison, Interval
+from lyapcheck.check.expressions.domain import Comparison
 from lyapcheck.check.kinds.all_of import AllOf, OnePart
 from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.implies import Implies
@@ -201,7 +201,7 @@ def _tries(statement: Statement, hand: Hand) -> Iterator[Try]:
             yield vector_relation(statement), [], ({first: t, **rest} for t in hand["x"])
         case ForAll(relation):
             name, inside = statement.variable, statement.interval
-            yield relation, [], ({name: t} for t in hand["x"] if _inside(inside, t))
+            yield relation, [], ({name: t} for t in hand["x"] if t in inside)
 
 
 def _points(variables: Sequence[Variable], hand: Hand) -> Iterator[Point]:
@@ -235,9 +235,3 @@ def _moved(point: Point) -> str:
     errors = [name for name in named if name != "eps0"]
     away = [name for name in errors if point[name]]
     return next(iter(away or errors or named), "")
-
-
-def _inside(interval: Interval, value: Fraction) -> bool:
-    above = interval.low is None or value > interval.low or (value == interval.low and not interval.open_low)
-    below = interval.high is None or value < interval.high
-    return above and (below or (value == interval.high and not interval.open_high))

@@ -15,8 +15,8 @@ References: dissipation inequalities and storage functions, willems1972dissipati
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 
@@ -106,32 +106,13 @@ def doubles(matrix: fmpq_mat) -> Array:
 # --- Proposing storage forms: a semidefinite program in doubles, solved by Clarabel.
 
 
-@dataclass
-class Blocks:
-    """constant + Σ_i x_i slope_i ⪰ 0 for several blocks, each as the vector of its upper triangle."""
-
-    sizes: list[int] = field(default_factory=list)
-    constants: list[Array] = field(default_factory=list)
-    slopes: list[dict[int, Array]] = field(default_factory=list)
-
-    def add(self, constant: Array, slopes: dict[int, Array]) -> None:
-        """One more block."""
-        self.sizes.append(len(constant))
-        self.constants.append(_stacked(constant))
-        self.slopes.append({i: _stacked(slope) for i, slope in slopes.items()})
-
-
-@dataclass(frozen=True, eq=False)
-class ProgramSolution:
-    """The κ_k of the joints, (n,), and of each problem the coefficients of its forms, (n, forms)."""
-
-    prices: Array
-    coefficients: list[Array]
+Block = tuple[Array, dict[int, Array]]
+"""constant + Σ_i x_i slope_i ⪰ 0, slopes by i."""
 
 
 def propose(
     problems: Sequence[StorageProblem], margin: float, prices: Array | None = None, most: float | None = None
-) -> ProgramSolution | None:
+) -> tuple[Array, list[Array]] | None:
     """The least κ for which every slack is at least ``margin`` times the size of the costs; ``None`` without.
 
     Args:
@@ -139,27 +120,48 @@ def propose(
         margin: share of the largest cost.
         prices: κ_k = Σ_i prices_ki x_i of unknowns x with the least Σ x_i, (n, x); one κ for all without.
         most: what no x_i is to exceed.
+
+    Returns:
+        The κ_k of the joints, (n,), and of each problem the coefficients of its forms, (n, forms).
     """
+    from scipy import sparse
+
+    from lyapcheck.convex import solved_cones
+
     n = len(problems[0].stages)
     prices = np.ones((n, 1)) if prices is None else prices
     free = end = prices.shape[1]
-    blocks, ends = Blocks(), []
+    blocks: list[Block] = []
+    ends = []
     for problem in problems:
         size = max(float(np.abs(doubles(stage.cost)).max()) for stage in problem.stages)
         least = margin * (size or 1.0)  # a body without mass costs nothing, and yet a price must be positive
-        _add_blocks(blocks, problem, least, prices, end)
+        blocks += _blocks(problem, least, prices, end)
         ends.append(end := end + n * problem.count)
     if most is not None:
-        for i in range(free):
-            blocks.add(np.array([[most]]), {i: np.array([[-1.0]])})
-    x = solve(blocks, end, free)
-    if x is None:
+        blocks += [(np.array([[most]]), {i: np.array([[-1.0]])}) for i in range(free)]
+    constants, entries, places, begin = [], [], [], 0
+    for constant, slopes in blocks:
+        constants.append(_stacked(constant))
+        stacked = -np.array([_stacked(slope) for slope in slopes.values()])
+        which, row = np.nonzero(stacked)
+        entries.append(stacked[which, row])
+        places.append((begin + row, np.array(list(slopes))[which]))
+        begin += len(constants[-1])
+    table = (np.concatenate(entries), np.hstack(places))
+    rows = sparse.coo_matrix(table, shape=(begin, end)).tocsc()
+    aim = np.zeros(end)
+    aim[:free] = 1.0
+    sizes = [len(constant) for constant, _ in blocks]
+    # also what is not solved may show a bound: exact arithmetic has the last word
+    found = solved_cones(aim, rows, np.concatenate(constants), sizes, 1e-8).values
+    if not found:
         return None
-    parts = np.split(x, [free, *ends])[1:-1]
-    return ProgramSolution(prices @ x[:free], [part.reshape(n, -1) for part in parts])
+    parts = np.split(found[0], [free, *ends])[1:-1]
+    return prices @ found[0][:free], [part.reshape(n, -1) for part in parts]
 
 
-def _add_blocks(blocks: Blocks, problem: StorageProblem, least: float, prices: Array, first: int) -> None:
+def _blocks(problem: StorageProblem, least: float, prices: Array, first: int) -> Iterator[Block]:
     """The conditions of `lyapcheck.check.loop.storage`: affine in x, and from ``first`` on in the forms."""
     count, stages = problem.count, problem.stages
     units = [invariant_form(row, problem.vectors) for row in unit_rows(count)]
@@ -167,7 +169,7 @@ def _add_blocks(blocks: Blocks, problem: StorageProblem, least: float, prices: A
     if any(problem.fall):
         at_base = [float(stored_at_base(stages, [form], problem.fall)) for form in units]
         slopes = {0: np.eye(1)} | {first + i: np.array([[-x]]) for i, x in enumerate(at_base)}
-        blocks.add(np.array([[-least]]), slopes)
+        yield np.array([[-least]]), slopes
     for k in range(len(stages)):
 
         def part(own: fmpq_mat, after: fmpq_mat, kappa: int, k: int = k) -> Array:
@@ -181,35 +183,13 @@ def _add_blocks(blocks: Blocks, problem: StorageProblem, least: float, prices: A
             slopes[first + k * count + i] = part(form, nothing, 0) - constant
             if k + 1 < len(stages):
                 slopes[first + (k + 1) * count + i] = part(nothing, form, 0) - constant
-        blocks.add(constant - least * np.eye(len(constant)), slopes)
+        yield constant - least * np.eye(len(constant)), slopes
 
 
 def _stacked(matrix: Array) -> Array:
     """The upper triangle by columns, off the diagonal times √2, as Clarabel wants it."""
     columns, rows = np.tril_indices(len(matrix))
     return np.asarray(matrix[rows, columns] * np.where(rows == columns, 1.0, np.sqrt(2.0)))
-
-
-def solve(blocks: Blocks, unknowns: int, first: int) -> Array | None:
-    """The x with the least sum of its first entries, as far as the solver comes; ``None`` without."""
-    from scipy import sparse
-
-    from lyapcheck.convex import solved_cones
-
-    constants, entries, places, begin = np.concatenate(blocks.constants), [], [], 0
-    for constant, slopes in zip(blocks.constants, blocks.slopes, strict=True):
-        stacked = -np.array(list(slopes.values()))
-        which, row = np.nonzero(stacked)
-        entries.append(stacked[which, row])
-        places.append((begin + row, np.array(list(slopes))[which]))
-        begin += len(constant)
-    table = (np.concatenate(entries), np.hstack(places))
-    rows = sparse.coo_matrix(table, shape=(begin, unknowns)).tocsc()
-    aim = np.zeros(unknowns)
-    aim[:first] = 1.0
-    # also what is not solved may show a bound: exact arithmetic has the last word
-    found = solved_cones(aim, rows, constants, blocks.sizes, 1e-8).values
-    return found[0] if found else None
 
 
 # --- Proposing what bounds k_c = sup ‖C(q, x)x‖ along a chain: bounds of the rates of M, and shares.
@@ -258,11 +238,10 @@ def prices_shown(
         result = propose(problems, margin, np.diag(weight / share), most)
         if result is None:
             continue
-        least = _SPARE * np.max(np.abs(result.prices / weight)) * weight
-        prices = np.maximum(result.prices * (1 + _SPARE) + least, 0.0)
-        forms = tuple(
-            tuple(tuple(Fraction(float(x)) for x in row) for row in rows) for rows in result.coefficients
-        )
+        kappa, coefficients = result
+        least = _SPARE * np.max(np.abs(kappa / weight)) * weight
+        prices = np.maximum(kappa * (1 + _SPARE) + least, 0.0)
+        forms = tuple(tuple(tuple(Fraction(float(x)) for x in row) for row in rows) for rows in coefficients)
         shown = Shown(tuple(significant_up(Fraction(float(x)), _RATES_DIGITS) for x in prices), forms)
         if shown.holds([problem.stages for problem in problems], problems[0].vectors):
             return shown
@@ -347,9 +326,9 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProo
         if result is None:
             continue
         # a little to the safe side, so that rounding takes nothing from what was proposed
-        found = Fraction(float(result.prices[0]))
+        found = Fraction(float(result[0][0]))
         kappa = _above(found * (1 + Fraction(problem.sign if found > 0 else -1, 10**8)))
-        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result.coefficients[0])
+        forms = tuple(tuple(Fraction(float(x)) for x in row) for row in result[1][0])
         shown = _accepted(BoundWithProof(with_end(statement, problem.sign * kappa), StorageForms(forms)))
         if shown is not None:
             return shown

@@ -6,7 +6,7 @@ References: ``reyes2019family`` (12), (15).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
@@ -84,31 +84,17 @@ def falsify(
         smaller ε₀ fails.
     """
     candidates = _candidates(controlled, math.ceil(starts / 3) if quick else starts, samples, seed)
-    steps = _QUICK if quick else _STEPS
-    return smallest_refuted(controlled, islice(candidates, steps), steps, on_progress)
-
-
-def smallest_refuted(
-    controlled: ControlledArm,
-    candidates: Iterable[tuple[str, States]],
-    steps: int,
-    on_progress: Progress | None = None,
-) -> RisingState | None:
-    """The witness of the smallest ε₀ that some candidates refute.
-
-    Args:
-        candidates: a word for each kind of states, and the states.
-        steps: about how many kinds there are.
-    """
-    progress = on_progress or silent
+    steps, progress = _QUICK if quick else _STEPS, on_progress or silent
     result: list[tuple[float, str, State]] = []
-    for share, (kind, states) in enumerate(candidates, start=1):
+    for share, (kind, states) in enumerate(islice(candidates, steps), start=1):
         progress(min(share / steps, 1.0), f"{kind} states")
         result += _best(controlled, kind, states)
     for reciprocal, kind, state in sorted(result, key=lambda entry: -entry[0]):
-        witness = _confirm(controlled, reciprocal, kind, state)
-        if witness is not None:
-            return witness
+        # a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0
+        for slack in _SLACKS:
+            eps0 = significant_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
+            if (witness := confirmed(controlled, eps0, kind, state)) is not None:
+                return witness
     return None
 
 
@@ -177,15 +163,6 @@ def _exact(row: Array) -> tuple[Fraction, ...]:
     """Short decimals close to the doubles; what is rounding noise beside the others becomes 0."""
     noise = max(1e-12, 1e-8 * float(np.max(np.abs(row))))
     return tuple(Fraction(0) if abs(x) <= noise else Fraction(f"{x:.{DIGITS - 1}e}") for x in row)
-
-
-def _confirm(controlled: ControlledArm, reciprocal: float, kind: str, state: State) -> RisingState | None:
-    """The witness for a short ε₀ just above 1/reciprocal at which balls prove dV/dt > 0."""
-    for slack in _SLACKS:
-        eps0 = significant_up(Fraction(1 / reciprocal) * (1 + slack), _EPS_DIGITS)
-        if (witness := confirmed(controlled, eps0, kind, state)) is not None:
-            return witness
-    return None
 
 
 def confirmed(controlled: ControlledArm, eps0: Fraction, kind: str, state: State) -> RisingState | None:

@@ -146,7 +146,7 @@ def bounds_along(
         uniform = propose(energies, _MARGIN, weight[:, None])
         if uniform is None:
             return None
-        most = MORE * float(uniform.prices[0]) / weight[0]
+        most = MORE * float(uniform[0][0]) / weight[0]
     inertia = prices_shown(energies, weight, shares[0], most)
     rising, falling = [], []
     for joint in range(1, n):

@@ -75,12 +75,8 @@ class Weighted:
     @property
     def products(self) -> tuple[Fraction, ...]:
         """ε₀Λ, joint by joint."""
-        return products(self.proof)
-
-
-def products(proof: DecreaseProof) -> tuple[Fraction, ...]:
-    """ε₀Λ of a proof, joint by joint."""
-    return tuple(proof.loop.eps0 * scale for scale in proof.loop.Lambda)
+        loop = self.proof.loop
+        return tuple(loop.eps0 * scale for scale in loop.Lambda)
 
 
 @dataclass(frozen=True)
