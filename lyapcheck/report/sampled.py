@@ -30,8 +30,8 @@ def sampled_word(report: Report) -> tuple[str, bool] | None:
     left = [row for row in rows if row not in shown]
     asked = [row.decision.promise.asked for row in shown if row.decision.promise is not None]
     periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
-    word = f"stable{' and'.join(sorted(periods))} under suppositions"
-    stable = all_say((row.decision.promise for row in shown), word) if shown else ""
+    at, promises = " and".join(sorted(periods)), [row.decision.promise for row in shown]
+    stable = all_say(promises, f"stable{at} under suppositions") if shown else ""
     parts = [f"{_members(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
     return ("; ".join(parts), not left) if rows else None
 

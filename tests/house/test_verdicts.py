@@ -53,6 +53,7 @@ SAID = {
     "report.jobs": (1, HEADING),
     "report.model": (3, SORTING),
     "report.page.claims": (1, SORTING),
+    "report.sampled": (1, "a sentence that promises alone may say"),
     "report.verdict": (2, GATHERED),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
