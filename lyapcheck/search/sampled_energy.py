@@ -23,7 +23,7 @@ from lyapcheck.search.sampled import corners, plant_of
 SAMPLES, WORST = 3000, 40
 SPARE, SHARE, SPEED = 0.98, 0.2, 1.001
 REACHES = (2.0, 1.5, 3.0)
-KEPT_LEAST, LARGEST_WEIGHT = 1e-4, 50.0
+LEAST_WEIGHT, LARGEST_WEIGHT, STIFFEST, TINY = 1e-4, 50.0, 1.1, 1e-9
 
 
 def falling_energy(statement: SampledFromRest) -> FallingEnergy | None:
@@ -37,9 +37,9 @@ def falling_energy(statement: SampledFromRest) -> FallingEnergy | None:
     least = _least(statement, kv + 0.02 * friction[:, 1] + 1e-3 * kp)
     arm = arm_bounds(statement, tuple(map(_fraction, least)))
     angle = math.radians(float(statement.within))
-    speed = SPEED * math.sqrt(2 * 1.1 * kp.sum() * math.log(math.cosh(angle)) / (1 - SHARE))
+    speed = SPEED * math.sqrt(2 * STIFFEST * kp.sum() * math.log(math.cosh(angle)) / (1 - SHARE))
     for reach in REACHES:
-        proof = _proposed(statement, arm, least, speed, reach, weight)
+        proof = _Program(statement, arm, least, speed, reach, weight).proof()
         if proof is not None and proves(statement, proof):
             return proof
     return None
@@ -67,117 +67,162 @@ def _least(statement: SampledFromRest, wanted: Array) -> Array:
     rules = [m - cp.diag(cp.multiply(u, 1 / scale**2)) >> 0 for m in some] + [u >= 0.85 * t * wanted]
     found = solved(cp.sum(cp.log(u)), rules, [u])
     least = found.values[0] if found.values else t * wanted
-    worst = (
-        1 / np.linalg.eigvals(np.linalg.solve(mass, np.broadcast_to(np.diag(least), mass.shape))).real.max()
-    )
-    return least * min(worst, 1.0) * SPARE
+    root = np.sqrt(least)
+    result: Array = least * min(np.linalg.eigvalsh(mass / np.outer(root, root))[:, 0].min(), 1.0) * SPARE
+    return result
 
 
-def _proposed(
-    statement: SampledFromRest, arm: ArmBounds, least: Array, speed: float, reach: float, weight: Array
-) -> FallingEnergy | None:
-    import cvxpy as cp
+class _Program:
+    """The convex program for one λ: what couples joints is shared out, what is left is definite.
 
-    n, d, T = len(least), statement.delay, float(statement.period)
-    kp, kv = (np.array(row, dtype=float) for row in (statement.kp, statement.kv))
-    mass, slope, symbols = (np.array(x, dtype=float) for x in (arm.mass, arm.slope, arm.symbols))
-    turning = np.array(arm.turning(_fraction(speed)), dtype=float)
-    fastest = speed / np.sqrt(least)
-    sector = 0.999999 * np.tanh(fastest) / fastest
-    gains = Gains(*(tuple(x) for x in (kp, kv)), T, d, 1.0, 1.0, 1.0, tuple(sector))  # type: ignore[arg-type]
-    c, margin = cp.Variable(), cp.Variable()
-    eps, slow, stiff, moved, mean = (cp.Variable(n) for _ in range(5))
-    kept, late = cp.Variable((n, d + 1)), cp.Variable((n, max(d, 1)))
-    pays = {letter: [0.0] * n for letter in "whyr"}
-    unit = {"w": weight, "h": kp, "y": least / T, "r": weight / T**2}
-    rules = [c >= KEPT_LEAST, c <= LARGEST_WEIGHT, margin <= 1, slow >= 0, slow <= eps, stiff >= 0.5 * kp]
-    rules += [stiff <= 1.1 * kp, moved >= 0, mean >= 0, kept >= 0, late >= 0]
-    scale = np.sqrt(np.diag(mass))
-    rows = np.array([(mass[i] * scale[i] / scale).sum() for i in range(n)])
-    rules += [cp.square(eps[i]) * rows[i] <= 0.999 * SHARE * stiff[i] for i in range(n)]
-    rules += [cp.sum(kept[i]) <= 0.999999 * c * (reach - 1) for i in range(n)]
-    shares: dict[tuple[str, int, int], tuple[Any, Any, float]] = {}
+    Args:
+        statement: the loop.
+        arm: its bounds.
+        least: u of them.
+        speed: that motions are to keep.
+        reach: λ.
+        weight: K_v + B, the unit of w².
+    """
 
-    def split(name: str, i: int, j: int, size: float, of: Any, first: str, second: str) -> None:
-        """size·of·|x_i||y_j|, each side in its unit."""
-        if size <= 0:
-            return
-        unit_i, unit_j = unit[first][i], unit[second][j]
-        a, b = cp.Variable(nonneg=True), cp.Variable(nonneg=True)
-        half = size / 2 / math.sqrt(unit_i * unit_j)
-        rules.append(cp.SOC(a + b, cp.hstack([a - b, 2 * half * of])))
-        pays[first][i] = pays[first][i] + a * unit_i
-        pays[second][j] = pays[second][j] + b * unit_j
-        shares[name, i, j] = (a, b, unit_i / unit_j)
+    def __init__(
+        self,
+        statement: SampledFromRest,
+        arm: ArmBounds,
+        least: Array,
+        speed: float,
+        reach: float,
+        weight: Array,
+    ) -> None:
+        import cvxpy as cp
 
-    for i, j in product(range(n), repeat=2):
-        if i == j:
-            pays["w"][i] = pays["w"][i] + eps[i] * mass[i, i]
-        else:
-            split("mass", i, j, mass[i, j], eps[i], "w", "w")
-        split("gravity_w", i, j, slope[i, j], 1.0, "w", "r")
-        split("gravity_h", i, j, slope[i, j], eps[i], "h", "r")
-        split("gravity_y", i, j, slope[i, j], c, "y", "r")
-        split("turning_h", i, j, turning[j, i], slow[i], "h", "w")
-        split("turning_y", i, j, turning[i, j], c, "y", "w")
-        even = math.sqrt(least[i] / least[j])
-        pays["y"][i] = pays["y"][i] + c * turning[i, j] / 8 * even
-        pays["y"][j] = pays["y"][j] + c * turning[i, j] / 8 / even
-        for k in range(n):
-            even = math.sqrt(weight[j] / weight[k])
-            fast = (eps[i] - slow[i]) * symbols[j, i, k] / 2
-            pays["w"][j] = pays["w"][j] + fast * even
-            pays["w"][k] = pays["w"][k] + fast / even
-    for i in range(n):
-        known = [c, eps[i], stiff[i], moved[i], mean[i], *(kept[i, j] for j in range(d + 1))]
-        known += [*(late[i, j] for j in range(d)), *(pays[letter][i] for letter in "whyr")]
-        size = [
-            1 / math.sqrt(kp[i]),
-            1 / math.sqrt(weight[i]),
-            math.sqrt(T / least[i]),
-            1 / math.sqrt(weight[i]),
-        ]
-        size += (
-            [math.sqrt(T / least[i])] * (d + 1) + [1 / math.sqrt(weight[i])] * d + [math.sqrt(T / least[i])]
+        self.statement, self.least, self.speed, self.reach, self.weight = (
+            statement,
+            least,
+            speed,
+            reach,
+            weight,
         )
-        for at in product({sector[i], 1.0}, (0.0, 1.0), set(map(float, statement.viscous[i]))):
-            for parts in _controls(i, n, d, reach, least, gains, at, len(known)):
-                scaled = [np.outer(size, size) * part for part in parts]
-                form = scaled[0] + sum(
-                    x * part for x, part in zip(known, scaled[1:], strict=True) if part.any()
-                )
-                rules.append(form - margin * np.eye(len(size)) >> 0)
-    found = solved(margin, rules, [c, eps, slow, stiff, moved, mean, kept, late])
-    if found.ended is Ended.FAILED or float(margin.value) <= 0:
-        return None
-    values = [np.maximum(value, 0.0) for value in found.values]
+        self.n, self.d, self.T = n, d, T = len(least), statement.delay, float(statement.period)
+        self.kp, self.kv = (np.array(row, dtype=float) for row in (statement.kp, statement.kv))
+        self.mass, self.slope, self.symbols = (
+            np.array(x, dtype=float) for x in (arm.mass, arm.slope, arm.symbols)
+        )
+        self.turning = np.array(arm.turning(_fraction(speed)), dtype=float)
+        self.scale = np.sqrt(np.diag(self.mass))
+        self.c, self.margin = cp.Variable(), cp.Variable()
+        self.eps, self.slow, self.stiff, self.moved, self.mean = (cp.Variable(n) for _ in range(5))
+        self.kept, self.late = cp.Variable((n, d + 1)), cp.Variable((n, max(d, 1)))
+        self.pays: dict[str, list[Any]] = {letter: [0.0] * n for letter in "whyr"}
+        self.unit = {"w": weight, "h": self.kp, "y": least / T, "r": weight / T**2}
+        self.shares: dict[tuple[str, int, int], tuple[Any, Any, float]] = {}
+        rows = [(self.mass[i] * self.scale[i] / self.scale).sum() for i in range(n)]
+        self.rules: list[Any] = [
+            *(self.c >= LEAST_WEIGHT, self.c <= LARGEST_WEIGHT, self.margin <= 1),
+            *(self.slow >= 0, self.slow <= self.eps, self.moved >= 0, self.mean >= 0),
+            *(self.kept >= 0, self.late >= 0, self.stiff >= 0.5 * self.kp, self.stiff <= STIFFEST * self.kp),
+            *(cp.square(self.eps[i]) * rows[i] <= 0.999 * SHARE * self.stiff[i] for i in range(n)),
+            *(cp.sum(self.kept[i]) <= 0.999999 * self.c * (reach - 1) for i in range(n)),
+        ]
+        for i, j in product(range(n), repeat=2):
+            self._couple(i, j)
 
-    def row(x: Array) -> tuple[Fraction, ...]:
-        return tuple(map(_fraction, x))
+    def _couple(self, i: int, j: int) -> None:
+        """What joint j does to joint i."""
+        eps, c, turning = self.eps[i], self.c, self.turning
+        if i == j:
+            self._pay("w", i, "w", i, eps * self.mass[i, i], 1.0)
+        else:
+            self._split("mass", self.mass[i, j] * eps, ("w", i), ("w", j), self.mass[i, j])
+        slope = self.slope[i, j]
+        self._split("gravity_w", slope, ("w", i), ("r", j), slope)
+        self._split("gravity_h", slope * eps, ("h", i), ("r", j), slope)
+        self._split("gravity_y", slope * c, ("y", i), ("r", j), slope)
+        self._split("turning_h", turning[j, i] * self.slow[i], ("h", i), ("w", j), turning[j, i])
+        self._split("turning_y", turning[i, j] * c, ("y", i), ("w", j), turning[i, j])
+        self._pay("y", i, "y", j, c * turning[i, j] / 4, math.sqrt(self.least[i] / self.least[j]))
+        for k in range(self.n):
+            fast = (eps - self.slow[i]) * self.symbols[j, i, k]
+            self._pay("w", j, "w", k, fast, math.sqrt(self.weight[j] / self.weight[k]))
 
-    def square(name: str, usual: Array) -> tuple[tuple[Fraction, ...], ...]:
+    def _pay(self, first: str, i: int, second: str, j: int, size: Any, by: float) -> None:
+        self.pays[first][i] = self.pays[first][i] + size * (by / 2)
+        self.pays[second][j] = self.pays[second][j] + size * (0.5 / by)
+
+    def _split(
+        self, name: str, size: Any, first: tuple[str, int], second: tuple[str, int], known: float
+    ) -> None:
+        """size·|x||y| ≤ a x² + b y² in their units, with 4ab ≥ size²."""
+        import cvxpy as cp
+
+        if known <= 0:
+            return
+        units = [self.unit[letter][k] for letter, k in (first, second)]
+        a, b = cp.Variable(nonneg=True), cp.Variable(nonneg=True)
+        self.rules.append(cp.SOC(a + b, cp.hstack([a - b, size / math.sqrt(units[0] * units[1])])))
+        for (letter, k), part, own in zip((first, second), (a, b), units, strict=True):
+            self.pays[letter][k] = self.pays[letter][k] + part * own
+        self.shares[name, first[1], second[1]] = (a, b, units[0] / units[1])
+
+    def _definite(self, i: int) -> None:
+        """The form of one joint."""
+        import cvxpy as cp
+
+        d, T, u = self.d, self.T, self.least[i]
+        known = [self.c, self.eps[i], self.stiff[i], self.moved[i], self.mean[i]]
+        known += [*(self.kept[i, j] for j in range(d + 1)), *(self.late[i, j] for j in range(d))]
+        known += [self.pays[letter][i] for letter in "whyr"]
+        rate, step = 1 / math.sqrt(self.weight[i]), math.sqrt(T / u)
+        size = [1 / math.sqrt(self.kp[i]), rate, step, rate, *[step] * (d + 1), *[rate] * d, step]
+        fastest = self.speed / np.sqrt(self.least)
+        sector = 0.999999 * np.tanh(fastest) / fastest
+        gains = Gains(tuple(self.kp), tuple(self.kv), T, d, 1.0, 1.0, 1.0, tuple(sector))  # type: ignore[arg-type]
+        for at in product({sector[i], 1.0}, (0.0, 1.0), set(map(float, self.statement.viscous[i]))):
+            for constant, *parts in _controls(i, self.n, d, self.reach, self.least, gains, at, len(known)):
+                form = constant + sum(x * part for x, part in zip(known, parts, strict=True) if part.any())
+                scaled = cp.multiply(np.outer(size, size), form)
+                self.rules.append(scaled - self.margin * np.eye(len(size)) >> 0)
+
+    def proof(self) -> FallingEnergy | None:
+        """What the solver comes to, rounded."""
+        for i in range(self.n):
+            self._definite(i)
+        wanted = [self.c, self.eps, self.stiff, self.moved, self.kept, self.mean, self.late, self.slow]
+        found = solved(self.margin, self.rules, [self.margin, *wanted])
+        if found.ended is Ended.FAILED or float(found.values[0]) <= 0:
+            return None
+        c, eps, stiff, moved, kept, mean, late, slow = (np.maximum(x, 0.0) for x in found.values[1:])
+        portion = np.clip(slow / np.maximum(eps, TINY), 0, 1)
+        ones = np.ones((self.n, self.n))
+        coupled = ("mass", "gravity_w", "gravity_h", "gravity_y", "turning_h", "turning_y")
+        splits = Splits(
+            **{name: self._square(name, ones) for name in coupled},
+            turning_yy=self._square("", np.sqrt(np.outer(self.least, 1 / self.least))),
+            turning_w=self._square("", np.sqrt(np.outer(self.weight, 1 / self.weight))),
+        )
+        energy = SampledEnergy(
+            *(_fraction(c), _fraction(self.reach), _row(eps), _row(stiff), _row(moved)),
+            *(
+                tuple(map(_row, kept)),
+                _row(mean),
+                tuple(_row(x[: self.d]) for x in late),
+                _row(portion),
+                splits,
+            ),
+        )
+        return FallingEnergy(
+            _row(self.least), _fraction(self.speed), _fraction(SHARE), _row(self.scale), energy
+        )
+
+    def _square(self, name: str, usual: Array) -> tuple[tuple[Fraction, ...], ...]:
         rows = usual.copy()
-        for (own, i, j), (a, b, ratio) in shares.items():
+        for (own, i, j), (a, b, ratio) in self.shares.items():
             if own == name:
-                rows[i, j] = math.sqrt(max(float(a.value), 1e-9) / max(float(b.value), 1e-9) * ratio)
-        return tuple(map(row, rows))
+                rows[i, j] = math.sqrt(max(float(a.value), TINY) / max(float(b.value), TINY) * ratio)
+        return tuple(map(_row, rows))
 
-    ones = np.ones((n, n))
-    splits = Splits(
-        *(
-            square(name, ones)
-            for name in ("mass", "gravity_w", "gravity_h", "gravity_y", "turning_h", "turning_y")
-        ),
-        square("", np.sqrt(np.outer(least, 1 / least))),
-        square("", np.sqrt(np.outer(weight, 1 / weight))),
-    )
-    weight_, eps_, slow_, stiff_, moved_, mean_, kept_, late_ = values
-    portion = np.clip(slow_ / np.maximum(eps_, 1e-12), 0, 1)
-    energy = SampledEnergy(
-        _fraction(weight_), _fraction(reach), row(eps_), row(stiff_), row(moved_),
-        tuple(map(row, kept_)), row(mean_), tuple(row(x[:d]) for x in late_), row(portion), splits,
-    )  # fmt: skip
-    return FallingEnergy(row(least), _fraction(speed), _fraction(SHARE), row(scale), energy)
+
+def _row(x: Array) -> tuple[Fraction, ...]:
+    return tuple(map(_fraction, x))
 
 
 def _controls(

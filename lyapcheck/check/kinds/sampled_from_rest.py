@@ -115,8 +115,8 @@ class FallingEnergy(Proof):
 def by_falling_energy(statement: SampledFromRest, proof: FallingEnergy) -> Accepted:
     """Soundness: V falls at least as fast as some multiple of |h(e)|² + |w|² while wᵀMw ≤ speed².
 
-    By ε_i²Σ_j|M_ij|scale_i/scale_j ≤ ν k̂_i and U ≥ h²/2 it is V ≥ ½(1 − ν) wᵀMw + Σ k̂_i (U − ½h²)(e_i), and at
-    the start V ≤ Σ k̂_i U(within) < ½(1 − ν) speed²: so wᵀMw stays below, all |w_i| below w̄_i, and so do the
+    By ε_i²Σ_j|M_ij|scale_i/scale_j ≤ ν k̂_i and U ≥ h²/2, V ≥ ½(1 − ν) wᵀMw + Σ k̂_i (U − ½h²)(e_i), and at the
+    start V ≤ Σ k̂_i U(within) < ½(1 − ν) speed²: so wᵀMw stays below, all |w_i| below w̄_i, and so do the
     means of w that differences are. V never rises, also as steps end. The integral of |h|² + |w|² is finite,
     and h(e) and w are uniformly continuous: both tend to 0.
     """

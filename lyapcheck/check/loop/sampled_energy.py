@@ -1,6 +1,6 @@
 """An energy that falls along the loop on a computer, whatever its posture: forms of each joint by itself.
 
-Intervals are T, velocities backward differences: with κ = k − d, e = q_d − q, v = (q_κ − q_{κ−1})/T the torque
+Intervals are T, velocities backward differences: with κ = k − d, e = q_d − q, v = (q_κ − q_{κ−1})/T
 K_p h(e_κ) − K_v h(v) + g(q_κ) is held from t_k on. Let z = (t − t_k)/T', T' = λT, δ = w − w_k, r = q − q_k,
 
     V = ½wᵀMw + Σ k̂_i U(e_i) − Σ ε_i h(e_i)(Mw)_i + ½c(1/z − 1) δᵀMδ + ½Σ Q_i/T' (1/z − 1) r_i² + credits.
