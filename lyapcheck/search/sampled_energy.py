@@ -66,7 +66,7 @@ def _least(statement: SampledFromRest, wanted: Array) -> Array:
     some = [m / np.outer(scale, scale) for m in mass[np.argsort(sizes)[:WORST]]]
     rules = [m - cp.diag(cp.multiply(u, 1 / scale**2)) >> 0 for m in some] + [u >= 0.85 * t * wanted]
     found = solved(cp.sum(cp.log(u)), rules, [u])
-    least = found.values[0] if found.values else t * wanted
+    least = np.maximum(found.values[0] if found.values else 0.0, 0.85 * t * wanted)
     root = np.sqrt(least)
     result: Array = least * min(np.linalg.eigvalsh(mass / np.outer(root, root))[:, 0].min(), 1.0) * SPARE
     return result
