@@ -17,6 +17,7 @@ from importlib.metadata import version
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
+from lyapcheck.check.codec import from_json
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
@@ -58,6 +59,7 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.resting import Resting, RestWitness
+from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.trigonometric import EntryWitness, TrigonometricBound, TrigonometricPositive
 from lyapcheck.check.statement import Proof, Relation, Statement, Variable, Witness
 from lyapcheck.check.verify import verify, weakest
@@ -578,7 +580,25 @@ def broken_levers() -> Iterator[tuple[str, Statement, Proof]]:
     yield "own-both", replace(HANGING, joints=(1, 2)), OwnLevers((1,))
 
 
+def on_computers() -> dict[str, Case]:
+    """One joint whose k_v = 5 is above its friction, from the file that ``tests.arena.unstable`` writes."""
+    data = json.loads((ARENA / "good" / "one.uns.json").read_text(encoding="utf-8"))
+    left = from_json(Statement, data["statement"], "statement")
+    grown = from_json(Proof, data["proof"], "proof")
+    assert isinstance(left, SampledStable)
+    return {
+        "the friction on a computer": (replace(left, viscous_min=(F(1000),)), left, grown),
+        "the damping on a computer": (replace(left, kp=(F(1, 10),), kv=(F(1, 10),)), left, grown),
+        "what is said of motions on a computer": (
+            replace(left, conclusion="rest", viscous_min=(F(1000),)),
+            left,
+            grown,
+        ),
+    }
+
+
 CASES = on_points() | on_entries() | on_small_values() | on_postures() | on_states() | on_gates()
+CASES |= on_computers()
 
 
 Part = tuple[Statement, Proof]
