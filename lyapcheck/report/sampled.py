@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from lyapcheck.check.kinds.sampled import SampledStable
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Bullets, Paragraph, Section, Table
 from lyapcheck.promise import all_say
 from lyapcheck.report.claim_row import ClaimRow
@@ -26,7 +28,11 @@ def sampled_word(report: Report) -> tuple[str, bool] | None:
     rows = sampled_rows(report, members=True)
     shown = [row for row in rows if row.verdict is Verdict.PROVED]
     left = [row for row in rows if row not in shown]
-    stable = all_say((row.promise for row in shown), "stable at 2.5 ms")
+    asked = [row.promise.asked for row in shown if row.promise is not None]
+    periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
+    stable = all_say(
+        (row.promise for row in shown), f"stable{' and'.join(sorted(periods))} under suppositions"
+    )
     parts = [f"{_members(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
     return ("; ".join(parts), not left) if rows else None
 
@@ -41,17 +47,16 @@ def sampled_section(report: Report) -> Iterator[Section]:
     if not rows:
         return
     first = next((row for row in rows if row.granted), rows[0])
-    table = tuple(
-        (row.id, row.says(row.comment), "; ".join(filter(None, (row.word, row.reason)))) for row in rows
-    )
+    became = ("; ".join(filter(None, (row.word, row.reason))) for row in rows)
+    table = tuple((row.id, f"“{row.comment}”", word) for row, word in zip(rows, became, strict=True))
     words = (
-        "The theorem is about a torque that changes at every instant; a computer holds it between readings. "
-        "What follows is so whatever the inertia, for gains of Table 2 and the friction and gravity that are "
-        f"printed, if all of this is so, here of {first.id}:"
+        "The theorem is about a torque that changes all the time; a computer holds it between readings. "
+        "These claims are about gains of Table 2, with the friction and gravity that are printed, and any "
+        f"inertia. They suppose, here {first.id}:"
     )
     blocks = (
         Paragraph(words),
         Bullets(first.granted),
-        Table(("claim", "in words", "became"), table, align="lll"),
+        Table(("claim", "the author's words", "became"), table, align="lll"),
     )
     yield Section("On the computer that runs it", blocks)

@@ -111,6 +111,7 @@ MALFORMED: dict[str, tuple[str, Any]] = {
     "shorter": ("stretch", "9/10"),
     "speeds-up": ("viscous_min", ["-1", "1", "1"]),
     "few-joints": ("viscous_min", ["1", "1"]),
+    "many-joints": ("kp", ["1"] * 10),
     "no-damping": ("kv", ["0", "1", "1"]),
     "no-arm": ("k_g", []),
     "two-arms": ("links", [{}]),

@@ -117,6 +117,14 @@ class SampledStable(Total):
         return len(self.kp)
 
     @property
+    def unused(self) -> set[str]:
+        """Fields of the ways in which the arm is not given."""
+        used = (
+            {"links", "fall"} if self.links else {"mass", "potential", "parameters"} if self.mass else set()
+        )
+        return {"links", "fall", "mass", "potential", "parameters"} - used
+
+    @property
     def mass_positive(self) -> Statement | None:
         """M(q) ≻ 0, where M is given: without it the statement is about no arm."""
         if self.links:
@@ -152,7 +160,7 @@ class SampledStable(Total):
         goal, late = self.conclusion == GOAL, f"{self.delay} samples later" if self.delay else "at once"
         beside = "and no friction beside B acts" if goal else "and other friction only brakes"
         known = "is that of the arm" if goal else "need not be that of the arm"
-        premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at every posture; no g is given"
+        premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at all postures; no g is given"
         return (
             f"the arm is serial, its joints are revolute: (1) with {arm}",
             f"b_i ≥ {list_text(self.viscous_min)} N·m·s/rad, {beside}",
