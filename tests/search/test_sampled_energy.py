@@ -2,14 +2,14 @@
 
 from dataclasses import fields, replace
 from fractions import Fraction as F
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 
 from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.sampled_from_rest import FallingEnergy, SampledFromRest
-from lyapcheck.check.loop.sampled_energy import Gains, SampledEnergy, form_of
+from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, SampledEnergy, Splits, form_of, shared
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.robots import load
@@ -25,6 +25,8 @@ GAINS = {
     "reyes-kelly2": ("41.089 5.618", "17.610 2.112"),
 }
 """Gains that targets at infinite rate suggest."""
+GAMMA = Gains((), (), F(1), 1, F(1), F(1), F(1), ())
+"""Bounds of tanh."""
 ARM_OF = {tuple(map(F, kp.split())): name for name, (kp, _) in GAINS.items()}
 
 
@@ -33,8 +35,9 @@ def question(name: str, period="0.001", within=90, delay=1) -> SampledFromRest:
     kp, kv = (tuple(map(F, row.split())) for row in GAINS[name])
     friction = tuple((number.value, number.value) for number in arm.viscous)
     return SampledFromRest(
-        "hyperbolic", 1, kp, kv, friction, mass_of(arm), tuple(to_terms(arm.potential)), (), F(period), delay, F(within)
-    )  # fmt: skip
+        *("hyperbolic", 1, kp, kv, friction, mass_of(arm), tuple(to_terms(arm.potential)), ()),
+        *(F(period), delay, F(within)),
+    )
 
 
 def shown(statement: SampledFromRest) -> FallingEnergy:
@@ -43,66 +46,94 @@ def shown(statement: SampledFromRest) -> FallingEnergy:
     return proof
 
 
-def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself():
-    """One inertia without gravity, a motion of its own and credits by quadrature: equality, with D, D_e, h'."""
-    random = np.random.default_rng(3)
-    for d in (0, 1, 2) * 3:
-        M, b, kp, kv, T, reach, c, eps, stiff, Q, beta = random.uniform(0.5, 2, 11)
-        kept, late, reach = random.uniform(0, 1, d + 1), random.uniform(0, 1, d), reach + 1
-        V = SampledEnergy(c, reach, (eps,), (stiff,), (Q,), (kept,), (beta,), (late,), (0.0,), None)  # type: ignore[arg-type]
-        q, w, steps, fine = random.normal(), random.normal(), d + 4, 400
-        h, past = T / fine, []
-        for _ in range(steps):
-            past.append((q, w, []))
-            late_q, before = (past[max(len(past) - 1 - d - k, 0)][0] for k in (0, 1))
-            tau = kp * np.tanh(-late_q) - kv * np.tanh((late_q - before) / T)
-            q0, w0 = q, w
-            for k in range(1, fine + 1):  # the exact motion under a held torque
-                s = k * h
-                decay = np.exp(-b / M * s)
-                w = tau / b + (w0 - tau / b) * decay
-                q = q0 + tau / b * s + (w0 - tau / b) * M / b * (1 - decay)
-                past[-1][2].append((q, w))
-        (q_now, w_now, inside), back = past[-1], past[::-1]
-        means = [sum(pair[1] - own[1] for pair in own[2]) / fine for own in back]
-        exact = [(own[0] - older[0]) / T - older[1] for own, older in zip(back, back[1:], strict=False)]
-        assert np.allclose(exact, means[1:], atol=2e-2)
+@pytest.mark.parametrize(("d", "seed"), [*product((0, 1, 2), (1, 2, 3))])
+def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself(d, seed):
+    """One inertia without gravity, its exact motion, credits by quadrature, D, D_e and h' as they are."""
+    random = np.random.default_rng(seed)
+    M, b, kp, kv, T, reach, c, eps, stiff, Q, beta = random.uniform(0.5, 2, 11)
+    kept, late, reach = random.uniform(0, 1, d + 1), random.uniform(0, 1, d), reach + 1
+    V = SampledEnergy(c, reach, (eps,), (stiff,), (Q,), (kept,), (beta,), (late,), (0.0,), None)  # type: ignore[arg-type]
+    q, w, steps, fine = random.normal(), random.normal(), d + 4, 400
+    h, past = T / fine, []
+    for _ in range(steps):
+        past.append((q, w, []))
+        late_q, before = (past[max(len(past) - 1 - d - k, 0)][0] for k in (0, 1))
+        tau = kp * np.tanh(-late_q) - kv * np.tanh((late_q - before) / T)
+        q0, w0 = q, w
+        for k in range(1, fine + 1):  # the exact motion under a held torque
+            s = k * h
+            decay = np.exp(-b / M * s)
+            w = tau / b + (w0 - tau / b) * decay
+            q = q0 + tau / b * s + (w0 - tau / b) * M / b * (1 - decay)
+            past[-1][2].append((q, w))
+    (q_now, w_now, inside), back = past[-1], past[::-1]
+    means = [sum(pair[1] - own[1] for pair in own[2]) / fine for own in back]
+    exact = [(own[0] - older[0]) / T - older[1] for own, older in pairwise(back)]
+    assert np.allclose(exact, means[1:], atol=2e-2)
 
-        def energy(k):
-            q, w = inside[k]
-            s, e = (k + 1) * h, -q
-            z, spent = s / T / reach, (k + 1) / fine
-            value = M * w * w / 2 + stiff * np.log(np.cosh(e)) - eps * np.tanh(e) * M * w
+    def energy(k):
+        q, w = inside[k]
+        s, e = (k + 1) * h, -q
+        z, spent = s / T / reach, (k + 1) / fine
+        value = M * w * w / 2 + stiff * np.log(np.cosh(e)) - eps * np.tanh(e) * M * w
+        value += (
+            c / 2 * (1 / z - 1) * M * (w - w_now) ** 2 + Q / (reach * T) / 2 * (1 / z - 1) * (q - q_now) ** 2
+        )
+        for j in range(d + 1):
+            value -= spent * kept[j] * M / 2 * (back[j][1] - back[j + 1][1]) ** 2
+        value -= spent * T * beta * exact[d] ** 2
+        value += beta * h * (sum((x[1] - w_now) ** 2 for x in inside[:k]) + (w - w_now) ** 2 / 2)
+        for j in range(d):
+            value -= spent * T * late[j] * ((back[j][0] - back[j + 1][0]) / T) ** 2
             value += (
-                c / 2 * (1 / z - 1) * M * (w - w_now) ** 2
-                + Q / (reach * T) / 2 * (1 / z - 1) * (q - q_now) ** 2
+                late[j] * h * (sum(x[1] ** 2 for x in [(0, w_now), *inside][: k + 1]) + (w**2 - w_now**2) / 2)
             )
-            for j in range(d + 1):
-                value -= spent * kept[j] * M / 2 * (back[j][1] - back[j + 1][1]) ** 2
-            value -= spent * T * beta * exact[d] ** 2
-            value += beta * h * (sum((x[1] - w_now) ** 2 for x in inside[:k]) + (w - w_now) ** 2 / 2)
-            for j in range(d):
-                value -= spent * T * late[j] * ((back[j][0] - back[j + 1][0]) / T) ** 2
-                value += (
-                    late[j]
-                    * h
-                    * (sum(x[1] ** 2 for x in [(0, w_now), *inside][: k + 1]) + (w**2 - w_now**2) / 2)
-                )
-            return value
+        return value
 
-        for k in (60, 200, 350):
-            q, w = inside[k]
-            s, e, behind, v = (k + 1) * h, -q, q - back[d][0], (back[d][0] - back[d + 1][0]) / T
-            z, D = s / T / reach, np.tanh(v) / v
-            De = (np.tanh(e + behind) - np.tanh(e)) / behind
-            pays = {"w": eps * (1 - np.tanh(e) ** 2) * M, "h": 0.0, "y": 0.0, "r": 0.0}
-            gains = Gains((kp,), (kv,), T, d, 1.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
-            form = np.array(form_of(0, V, M, pays, gains, (z, D, De, b)), dtype=float)  # type: ignore[arg-type]
-            x = [np.tanh(e), w, (w - w_now) / z, (q - q_now) / (z * reach * T)]
-            x += [back[j][1] - back[j + 1][1] for j in range(d + 1)]
-            x += [*((back[j][0] - back[j + 1][0]) / T for j in range(d)), exact[d]]
-            rate = (energy(k + 1) - energy(k - 1)) / (2 * h)
-            assert -rate == pytest.approx(np.array(x) @ form @ np.array(x), rel=2e-3, abs=2e-3)
+    for k in (60, 200, 350):
+        q, w = inside[k]
+        s, e, behind, v = (k + 1) * h, -q, q - back[d][0], (back[d][0] - back[d + 1][0]) / T
+        z, D = s / T / reach, np.tanh(v) / v
+        De = (np.tanh(e + behind) - np.tanh(e)) / behind
+        pays = {"w": eps * (1 - np.tanh(e) ** 2) * M, "h": 0.0, "y": 0.0, "r": 0.0}
+        gains = Gains((kp,), (kv,), T, d, 1.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
+        form = np.array(form_of(0, V, M, pays, gains, (z, D, De, b)), dtype=float)  # type: ignore[arg-type]
+        x = [np.tanh(e), w, (w - w_now) / z, (q - q_now) / (z * reach * T)]
+        x += [back[j][1] - back[j + 1][1] for j in range(d + 1)]
+        x += [*((back[j][0] - back[j + 1][0]) / T for j in range(d)), exact[d]]
+        rate = (energy(k + 1) - energy(k - 1)) / (2 * h)
+        assert -rate == pytest.approx(np.array(x) @ form @ np.array(x), rel=2e-3, abs=2e-3)
+
+
+def test_what_joints_do_to_each_other_is_paid_for():
+    """With M, G and C anything within their bounds: the worst of the terms of −V̇ that have them."""
+    random, n, least = np.random.default_rng(4), 3, 1.0
+
+    def draw(*shape):
+        return random.uniform(0.1, 1, shape)
+
+    for _ in range(2000):
+        mass, slope, symbols, u = draw(n, n), draw(n, n), draw(n, n, n), draw(n)
+        sizes = 10.0 ** random.uniform(-6, 0, 3)  # so that one of the three is nearly alone
+        mass, slope, symbols = (mass + mass.T) * sizes[0], (slope + slope.T) * sizes[1], symbols * sizes[2]
+        eps, slow, c, speed, z = draw(n), random.uniform(0, 1, n), *draw(2), random.uniform(0, 1)
+        h, y, r = (random.normal(size=n) for _ in range(3))
+        h, w = np.tanh(h), random.normal(size=n)
+        w *= speed / np.sqrt((u * w * w).sum())
+        splits = Splits(*(1.3 ** random.normal(size=(n, n)) for _ in fields(Splits)))
+        V = SampledEnergy(c, 2.0, eps, None, None, None, None, None, slow, splits)  # type: ignore[arg-type]
+        turning = np.sqrt((symbols**2 / u).sum(-1)) * speed
+        pays = shared(V, ArmBounds(u, mass, slope, symbols), turning, GAMMA)  # type: ignore[arg-type]
+        paid = sum(
+            own["w"] * w[i] ** 2 + own["h"] * h[i] ** 2 + own["y"] * y[i] ** 2 + own["r"] * r[i] ** 2
+            for i, own in enumerate(pays)
+        )
+        now, push = c * (1 - z), w - h * eps + c * (1 - z) * y
+        both = np.outer(w, h * eps) + now * np.outer(y, w - z * y)  # what C_ij is a factor of
+        worst = -(eps * np.abs(w)) @ mass @ np.abs(w) - np.abs(push) @ slope @ np.abs(r)
+        worst -= (symbols * np.abs(both[:, :, None] * w)).sum()
+        least = min(least, 1 + worst / paid)
+    assert 0 < least < 0.2
 
 
 def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, goal: np.ndarray, samples: int):
@@ -156,7 +187,12 @@ def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, go
 
 
 @pytest.mark.parametrize(
-    ("name", "period"), [("reyes-kelly2", "0.005"), ("buap3", "0.001"), pytest.param("buap3", "0.0016", marks=pytest.mark.slow)]
+    ("name", "period"),
+    [
+        ("reyes-kelly2", "0.005"),
+        ("buap3", "0.001"),
+        pytest.param("buap3", "0.0016", marks=pytest.mark.slow),
+    ],
 )
 def test_gains_above_the_friction_are_proved_from_90_degrees_and_the_energy_falls(name, period):
     statement = question(name, period)
@@ -225,11 +261,13 @@ def test_no_random_joint_is_proved_beyond_its_exact_limit():
 def faults(statement: SampledFromRest, proof: FallingEnergy):
     """Statements and proofs, each with one thing changed that the proof rests on."""
     V = proof.energy
-    for name, by in (("weight", F(20)), ("coupling", F(5)), ("stiffness", F(2)), ("moved", F(50)), ("moved", F(0)),
-                     ("mean", F(30)), ("mean", F(0)), ("kept", F(3)), ("kept", F(0)), ("late", F(50)), ("late", F(0))):  # fmt: skip
+    changes = [("weight", 20), ("coupling", 5), ("stiffness", 2)]
+    changes += [*product(("moved", "late"), (0, 50)), *product(("mean", "kept"), (0, 30))]
+    for name, by in changes:
         old = getattr(V, name)
         scaled = old * by if isinstance(old, F) else tuple(
-            tuple(x * by for x in row) if isinstance(row, tuple) else row * by for row in old)  # fmt: skip
+            tuple(x * by for x in row) if isinstance(row, tuple) else row * by for row in old
+        )  # fmt: skip
         yield f"{name} {by}", statement, replace(proof, energy=replace(V, **{name: scaled}))
     yield "reach", statement, replace(proof, energy=replace(V, reach=F(1)))
     yield "reach short", statement, replace(proof, energy=replace(V, reach=F(1, 2)))
@@ -247,12 +285,15 @@ def faults(statement: SampledFromRest, proof: FallingEnergy):
     yield "least 0", statement, replace(proof, least=tuple(0 * x for x in proof.least))
     yield "speed", statement, replace(proof, speed=proof.speed * F(9, 10))
     yield "share", statement, replace(proof, share=F(1))
-    for name, value in (("period", statement.period * 10), ("within", F(180)), ("delay", 2), ("delay", 0), ("m", 2), ("m", 3),
-                        ("family", "arctan"), ("viscous", tuple((F(0), F(0)) for _ in statement.kp)),
-                        ("viscous", tuple((low, 40 * high) for low, high in statement.viscous)),
-                        ("kv", tuple(8 * k for k in statement.kv)), ("kp", tuple(2 * k for k in statement.kp)),
-                        ("potential", tuple((p, 20 * c) for p, c in statement.potential)),
-                        ("mass", tuple(tuple(tuple((p, c / 2) for p, c in x) for x in row) for row in statement.mass))):  # fmt: skip
+    for name, value in (
+        *(("period", statement.period * 10), ("within", F(180)), ("delay", 2), ("delay", 0)),
+        *(("m", 2), ("m", 3), ("family", "arctan")),
+        ("viscous", tuple((F(0), F(0)) for _ in statement.kp)),
+        ("viscous", tuple((low, 40 * high) for low, high in statement.viscous)),
+        *(("kv", tuple(8 * k for k in statement.kv)), ("kp", tuple(2 * k for k in statement.kp))),
+        ("potential", tuple((p, 20 * c) for p, c in statement.potential)),
+        ("mass", tuple(tuple(tuple((p, c / 2) for p, c in x) for x in row) for row in statement.mass)),
+    ):
         yield f"{name}", replace(statement, **{name: value}), proof
 
 
