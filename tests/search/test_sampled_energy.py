@@ -2,6 +2,7 @@
 
 from dataclasses import fields, replace
 from fractions import Fraction as F
+from functools import cache
 from itertools import pairwise, product
 
 import numpy as np
@@ -40,6 +41,7 @@ def question(name: str, period="0.001", within=90, delay=1) -> SampledFromRest:
     )
 
 
+@cache
 def shown(statement: SampledFromRest) -> FallingEnergy:
     proof = falling_energy(statement)
     assert proof is not None
