@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from lyapcheck.check.kinds.decreasing import Decreasing
     from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.check.kinds.sampled import SampledStable
+    from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
     from lyapcheck.check.statement import Ends, Statement
     from lyapcheck.control.gains import Bounds, GainSet
     from lyapcheck.control.sampled import SampledLoop
@@ -126,6 +127,35 @@ def sampled(
         delay=loop.delay,
         taps=loop.filter,
         conclusion=conclusion,
+    )
+
+
+def sampled_from_rest(gains: GainSet, loop: SampledLoop, arm: Plant, within: Fraction) -> SampledFromRest:
+    """Do these gains bring the arm to each goal from rest within so many degrees, at exactly this period?
+
+    Args:
+        gains: the controller.
+        loop: how the computer runs it: backward differences, intervals of the nominal period.
+        arm: for all of its ranges; ``fixed()`` asks about its nominal inertia, not about its friction.
+        within: of every |e_i|, degrees.
+
+    Raises:
+        TooManyTerms: M of the arm is too long to be written out.
+    """
+    from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
+
+    return SampledFromRest(
+        family=gains.family,
+        m=gains.m,
+        kp=tuple(gains.kp),
+        kv=tuple(gains.kv),
+        viscous=tuple(number.bounds for number in arm.viscous),
+        mass=mass_of(arm),
+        potential=tuple(to_terms(arm.potential)),
+        parameters=tuple(number.bounds for number in arm.parameters.values()),
+        period=loop.period,
+        delay=loop.delay,
+        within=within,
     )
 
 

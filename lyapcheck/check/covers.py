@@ -79,6 +79,8 @@ ROWS: dict[str, dict[str, Row]] = {
     | dict.fromkeys(("delay", "taps", "conclusion"), _same)
     | dict.fromkeys(("k_g", "period", "stretch"), _at_least)
     | {"viscous_min": _at_most, "parameters": _wider},
+    # at exactly this period; "for every start within": a smaller set of starts follows
+    "SampledFromRest": _LOOP | dict.fromkeys(("potential", "period", "delay"), _same) | {"within": _at_least},
     "StableArm": dict.fromkeys(("argument", "arm", "gains", "numbers"), _same),
 }
 """For each kind, how a field that is shown must stand to the one that was asked for.

@@ -19,6 +19,7 @@ from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.chain import OwnMoments
 from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
 from lyapcheck.check.kinds.sampled import SampledStable
+from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 from lyapcheck.check.loop.closed_loop import corners_of
 from lyapcheck.check.numbers.members import member
@@ -192,10 +193,8 @@ def growth(step: Array, n: int, share: float) -> Data | None:
 def loops(statement: SampledStable, arm: Plant | None = None) -> Iterator[LinearLoop]:
     """The loop of each arm that is looked at: at the corners of the ranges, or at both ends of all."""
     steep = float(member(statement.family, statement.m).dh(arb(0)))
-    plant = arm or _plant(statement)
-    ranging = sum(low < high for low, high in statement.parameters)
-    ends = (tuple(pair[end] for pair in statement.parameters) for end in (0, 1))
-    for numbers in corners_of(statement.parameters) if ranging <= MOST_RANGING else ends:
+    plant = arm or plant_of(statement)
+    for numbers in corners(plant):
         known = dict(zip(plant.parameters, numbers, strict=True))
         chain = plant.fixed(**known).chain
         inertia: Proof = OwnMoments() if statement.links else Bisection()
@@ -214,19 +213,29 @@ def loops(statement: SampledStable, arm: Plant | None = None) -> Iterator[Linear
         )
 
 
-def _plant(statement: SampledStable) -> Plant:
-    """The arm of a statement."""
+def plant_of(statement: SampledStable | SampledFromRest) -> Plant:
+    """The arm of a statement, with its ranges."""
     names = [f"p{k}" for k, _ in enumerate(statement.parameters, 1)]
     numbers = {
         name: Number(low, low=low, high=high)
         for name, (low, high) in zip(names, statement.parameters, strict=True)
     }
-    dynamics: Dynamics = Chain(statement.links, statement.fall)
-    if not statement.links:
-        ring = trig.trig_ring(statement.n, names)
+    if isinstance(statement, SampledStable) and statement.links:
+        dynamics: Dynamics = Chain(statement.links, statement.fall)
+    else:
+        ring = trig.trig_ring(len(statement.mass), names)
         mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
         dynamics = Polynomials(mass, trig.from_terms(ring, statement.potential), tuple(names))
     return Plant(name="arm", joints=(), dynamics=dynamics, viscous=(), parameters=numbers)
+
+
+def corners(plant: Plant) -> Iterator[tuple[Fraction, ...]]:
+    """The corners of the ranges of an arm, or both ends of all of them."""
+    ranges = [number.bounds for number in plant.parameters.values()]
+    if sum(low < high for low, high in ranges) <= MOST_RANGING:
+        yield from corners_of(ranges)
+    else:
+        yield from (tuple(pair[end] for pair in ranges) for end in (0, 1))
 
 
 def refuted_at(statement: SampledStable, period: Fraction, arm: Plant | None = None) -> GrowingMotion | None:

@@ -20,6 +20,7 @@ from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, MassAbove, MassBelow
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
+from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
@@ -61,6 +62,9 @@ SHOWN: dict[str, Statement] = {
         *("hyperbolic", 1, (F(5),), (F(1, 10),), (F(1),), (), (), (), MASS, ((COSINE, F(-5)),), RANGE),
         *(F(1, 38), F(2), 1, (F(1),), "goal"),
     ),
+    "SampledFromRest": SampledFromRest(
+        *("hyperbolic", 1, (F(5),), (F(1),), RANGE, MASS, ((COSINE, F(-5)),), RANGE, F(1, 100), 1, F(90)),
+    ),
 }
 EASIER: dict[str, Any] = {
     "parameters": ((F(9, 4), F(11, 4)),),
@@ -71,10 +75,11 @@ EASIER: dict[str, Any] = {
     "GateAccepted.limits": (F(21),),
     "GateAccepted.conditions": ("10i",),
     "GateAccepted.stability": (MassAbove(MASS, RANGE, F(1, 2)),),
+    "within": F(60),
     "Resting.torque": (F(1, 2),),
     "Resting.errors": (F(1, 2),),
     "viscous_min": (F(2),),
-    "period": F(1, 50),
+    "SampledStable.period": F(1, 50),
     "stretch": F(3, 2),
 }
 """Other values of a question that what is shown answers all the same."""
@@ -97,6 +102,7 @@ HARDER: dict[str, Any] = {
     "k_g": (F(4),),
     "conditions": ("10p", "10i", "19"),
     "stability": (MassAbove(MASS, RANGE, F(2)),),
+    "within": F(91),
     "Resting.torque": (F(2),),
     "Resting.errors": (F(1, 4),),
     "mass": (((((0, 0, 1), F(1)),),),),
@@ -230,7 +236,10 @@ def test_the_directions_of_the_sampled_loop_are_those_of_its_proofs(field: str) 
     if field == "k_g":  # a premise, of any arm
         none: dict[str, Any] = dict.fromkeys(("mass", "potential", "parameters"), ())
         shown, border = replace(shown, k_g=(F(5),), **none), ShortPeriod((), ())
-    easier = replace(shown, **{field: (F(4),) if field == "k_g" else EASIER[field]})
+    easier = replace(
+        shown,
+        **{field: (F(4),) if field == "k_g" else EASIER.get(f"SampledStable.{field}", EASIER.get(field))},
+    )
     harder = replace(shown, **{field: HARDER.get(f"SampledStable.{field}", HARDER[field])})
     require_covered(shown, easier)
     assert verify(shown, border).verdict == verify(easier, border).verdict == "proved"

@@ -30,6 +30,7 @@ OF_ARMS = (
     "Decreasing",
     "Damping",
     "Resting",
+    "Sampled",
     "AllOf",
     "GateAccepted",
 )

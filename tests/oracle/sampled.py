@@ -83,7 +83,7 @@ class Loop:
 
 def arms(statement, random):
     """M and the Hessian of the potential at goals, where they are given; else arms of all inertias."""
-    n, b = len(statement.kp), np.array(statement.viscous_min, float)
+    n = len(statement.kp)
     if statement.mass:
         for _ in range(SAMPLES):
             q = [random.uniform(-pi, pi) for _ in range(n)]
@@ -103,6 +103,7 @@ def arms(statement, random):
             slopes = [(pull(list(q + x)) - pull(list(q - x))) / 2e-5 for x in near]
             yield Bound(statement)._mass(q, (), float), np.array(slopes)
     elif statement.k_g:
+        b = np.array(statement.viscous_min, float)
         for share in INERTIAS:
             M = np.diag(share * b * float(statement.period) + 1e-12)
             for sign in (0, 1, -1):
@@ -131,4 +132,18 @@ def _sampled(statement, random):
                 for i in range(len(statement.kp)):
                     if loop.swings(i):
                         return Objection("false", f"T = {float(T)} s, joint {i + 1} without inertia")
+    return None
+
+
+@oracle.objections_to("SampledFromRest")
+def _from_rest(statement, random):
+    """A goal that motions leave, with the least or the most friction."""
+    for end in (0, 1):
+        b = np.array([pair[end] for pair in statement.viscous], float)
+        gains = (np.array(x, float) for x in (statement.kp, statement.kv))
+        T = float(statement.period)
+        loop = Loop(*gains, b, np.ones(1), statement.delay, T, T, statement.family, statement.m)
+        for M, G in arms(statement, random):
+            if loop.radius(M, G) > 1 + ABOVE:
+                return Objection("false", f"M = {M.tolist()}, G = {G.tolist()}")
     return None

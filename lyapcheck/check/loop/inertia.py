@@ -42,6 +42,17 @@ class Inertia:
         """Whether M(q) − low·I is positive definite throughout, by boxes that are cut until they show it."""
         return self._lower_half().throughout(lambda m, of: exceeds(rows_of(m), -1, low, of), most)
 
+    def above_diagonal(self, low: Sequence[Fraction], most: int = MOST_BOXES) -> bool:
+        """Whether M(q) − diag(low) is positive definite throughout, by boxes."""
+
+        def shows(m: list[Value], of: Arithmetic) -> bool:
+            rows = rows_of(m)
+            for row, x in zip(rows, low, strict=True):
+                row[-1] = row[-1] - of.value(to_arb(x))
+            return of.positive_definite(rows)
+
+        return self._lower_half().throughout(shows, most)
+
     def below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
         """Whether high·I − M(q) and high·I + M(q) are positive definite throughout: then ‖M(q)‖ < high."""
         return self._lower_half().throughout(

@@ -1,10 +1,11 @@
-"""Gains on a computer: decided by (S), or by a goal of the arm that is unstable; else how far (S) reaches."""
+"""Gains on a computer: by (S), by an unstable goal, or from starts at rest by an energy that falls, (P)."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
 from lyapcheck.check.kinds.sampled import GOAL, SampledStable
+from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 from lyapcheck.control.judgement import proves
 from lyapcheck.control.sampled import largest_period, sampled_proof
@@ -36,6 +37,20 @@ def find_sampled(statement: SampledStable) -> SearchResult:
     ]
     far = f"holds for T < {reach}" if reach else "holds for no T"
     return still_open(f"(S) {far}; {' and '.join(more)} N·m·s/rad would do", METHOD)
+
+
+@procedure(SampledFromRest)
+def find_from_rest(statement: SampledFromRest) -> SearchResult:
+    """By an energy that falls on the set that the starts lie in."""
+    method = "an energy that falls, (P)"
+    from lyapcheck.search.sampled_energy import falling_energy
+
+    proof = falling_energy(statement)
+    if proof is not None:
+        return shown(proof, method)
+    return still_open(
+        "no falling energy is found; take a shorter period or starts nearer to the goal", method
+    )
 
 
 def _milliseconds(period: Fraction | None) -> str:

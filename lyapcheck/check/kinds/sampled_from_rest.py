@@ -1,0 +1,188 @@
+"""Starts at rest on a computer with a reading every T seconds, for gains above the friction as well.
+
+References: ``lyapcheck.check.loop.sampled_energy``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import arb
+
+from lyapcheck.check.expressions.text import diagonal_text, number_text
+from lyapcheck.check.judgement import MAX_ARM
+from lyapcheck.check.kinds.inertia import (
+    mass_text,
+    polynomial_text,
+    require_mass,
+    require_polynomials,
+    variable_names,
+    written_out,
+)
+from lyapcheck.check.kinds.stable_arm import hessian
+from lyapcheck.check.loop.field import size_of
+from lyapcheck.check.loop.inertia import inertia_of
+from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, Numbers, SampledEnergy, falls
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.numbers.harmonics import by_parameters
+from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.polynomials import dyadic, root_above
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Ends, Monomials, Proof, Total
+from lyapcheck.check.verify import Accepted, rule
+
+MOST_DELAY = 6
+FARTHEST = 3600
+"""Degrees."""
+
+
+@dataclass(frozen=True)
+class SampledFromRest(Total):
+    """At intervals of exactly ``period``, s, from every start at rest with |e_i| ≤ ``within``°, q → q_d.
+
+    From t_k the torque (6) of reading p_{k−d} and v = (p_{k−d} − p_{k−d−1})/T is held, d = ``delay``; all
+    readings before the start are that of the start. For each arm in the ranges of ``viscous`` and
+    ``parameters`` with this ``mass`` and g the gradient of ``potential``, known to the controller.
+    """
+
+    family: str
+    m: int | None
+    kp: Numbers
+    kv: Numbers
+    viscous: tuple[Ends, ...]
+    mass: tuple[tuple[Monomials, ...], ...]
+    potential: Monomials
+    parameters: tuple[Ends, ...]
+    period: Fraction
+    delay: int
+    within: Fraction
+
+    def require_well_formed(self) -> None:
+        """One number a joint, positive gains, an arm, whole samples."""
+        n = len(self.mass)
+        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+        for subject in ("kp", "kv", "viscous"):
+            size = len(getattr(self, subject))
+            require(size == n, subject, size, f"must be {n}, one a joint")
+        require(min(*self.kp, *self.kv) > 0, "gains", "", "must be positive")
+        require(
+            all(0 <= low <= high for low, high in self.viscous), "viscous", "", "must be ranges from 0 on"
+        )
+        require(self.period > 0, "period", self.period, "must be positive")
+        require(0 <= self.delay <= MOST_DELAY, "delay", self.delay, f"must be from 0 to {MOST_DELAY}")
+        require(0 < self.within <= FARTHEST, "within", self.within, f"must be positive, to {FARTHEST}°")
+        require_mass(self.mass, self.parameters)
+        require_polynomials([self.potential], n, self.parameters)
+
+    @property
+    def granted(self) -> tuple[str, ...]:
+        late = f"{self.delay} readings later" if self.delay else "at once"
+        return (
+            "M(q), B and the potential are those of the robot; its C is by Christoffel symbols",
+            "no friction beside B acts, and (6) knows g(q) exactly",
+            f"a torque goes out {late}, is held until the next and applied as it is: no motor saturates",
+            "readings are the angles, exact and unwrapped, at intervals of exactly T; q_d is constant",
+            "before the start the arm stood where it starts, the controller running",
+        )
+
+    def text(self) -> str:
+        n, ranges = len(self.mass), ", ".join(f"{number_text(a)} … {number_text(b)}" for a, b in self.viscous)
+        energy = [f"U = {polynomial_text(self.potential, variable_names(n, len(self.parameters)))}"]
+        function = self.family if self.m is None else f"{self.family}_{self.m}"
+        return (
+            f"at intervals of T = {number_text(self.period)} s, {self.delay} samples late, q̇ by backward "
+            f"differences: from every start at rest with |e_i| ≤ {number_text(self.within)}° the torque (6) "
+            f"brings every arm to q_d: h = {function}, K_p = {diagonal_text(self.kp)}, "
+            f"K_v = {diagonal_text(self.kv)}, B = diag({ranges}), {mass_text(self.mass, self.parameters)}, "
+            f"{written_out(energy, 'potential U(q)', self.potential, ())}"
+        )
+
+
+@dataclass(frozen=True)
+class FallingEnergy(Proof):
+    """V, with u of M ≽ diag(u), a speed that motions keep, ν and weights of rows of |M_ij|."""
+
+    rule = "falling energy"
+    least: Numbers
+    speed: Fraction
+    share: Fraction
+    scale: Numbers
+    energy: SampledEnergy
+
+
+@rule(SampledFromRest, FallingEnergy)
+def by_falling_energy(statement: SampledFromRest, proof: FallingEnergy) -> Accepted:
+    """Soundness: V falls at least as fast as some multiple of |h(e)|² + |w|² while wᵀMw ≤ speed².
+
+    By ε_i²Σ_j|M_ij|scale_i/scale_j ≤ ν k̂_i and U ≥ h²/2, V ≥ ½(1 − ν) wᵀMw + Σ k̂_i (U − ½h²)(e_i), and at the
+    start V ≤ Σ k̂_i U(within) < ½(1 − ν) speed²: so wᵀMw stays below, all |w_i| below w̄_i, and so do the
+    means of w that differences are. V never rises, also as steps end. The integral of |h|² + |w|² is finite,
+    and h(e) and w are uniformly continuous: both tend to 0.
+    """
+    known, n = member(statement.family, statement.m), len(statement.mass)
+    V, d = proof.energy, statement.delay
+    tanh = (statement.family, statement.m) in (("tanh", None), ("hyperbolic", 1))
+    require(tanh, "h", statement.family, "must be tanh, for which U ≥ h²/2 and h(x)/x falls")
+    _require_sizes(proof, n, d)
+    inertia = inertia_of(statement.mass, statement.parameters)
+    require(inertia.symmetric, "M", "", "is not symmetric")
+    require(inertia.above_diagonal(proof.least), "least", "", "is not shown to be M ≽ diag(u)")
+    arm = arm_bounds(statement, proof.least)
+    for i in range(n):
+        row = sum(
+            (x * proof.scale[i] / s for x, s in zip(arm.mass[i], proof.scale, strict=True)), Fraction(0)
+        )
+        small = V.coupling[i] ** 2 * row <= proof.share * V.stiffness[i]
+        require(small, "coupling", V.coupling[i], "is too large for V > 0")
+        spent = sum(V.kept[i], Fraction(0)) <= V.weight * (V.reach - 1)
+        require(spent, "kept", "", "is more than steps leave")
+    potential = known.potential(to_arb(statement.within) * arb.pi() / 180)
+    stored = to_arb(sum(V.stiffness, Fraction(0))) * potential
+    require(stored * 2 < to_arb((1 - proof.share) * proof.speed**2), "speed", proof.speed, "may be exceeded")
+    fastest = [root_above(proof.speed**2 / u) for u in proof.least]
+    sector = tuple(dyadic((known.h(to_arb(w)) / to_arb(w)).lower()) for w in fastest)
+    gains = Gains(*(statement.kp, statement.kv, statement.period, d, known.rho, known.L, known.gamma, sector))
+    shown = falls(V, arm, proof.speed, statement.viscous, gains)
+    require(shown, "energy", "", "is not shown to fall")
+    return Accepted("proved", "enclosure")
+
+
+def arm_bounds(statement: SampledFromRest, least: Numbers) -> ArmBounds:
+    """Bounds for all postures and parameters by the sizes of harmonics, beside some u with M ≽ diag(u)."""
+    n, ranges = len(statement.mass), statement.parameters
+    inertia = inertia_of(statement.mass, ranges)
+    slopes = [size_of(by_parameters(entry, n), ranges) for entry in hessian(statement.potential, n)]
+    symbols = [[[Fraction(0)] * n for _ in range(n)] for _ in range(n)]
+    for (i, j, k), symbol in inertia.symbols.items():
+        symbols[i][j][k] = symbols[i][k][j] = size_of(symbol, ranges)
+    return ArmBounds(
+        least,
+        tuple(tuple(size_of(entry, ranges) for entry in row) for row in inertia.mass),
+        tuple(tuple(slopes[i * n : (i + 1) * n]) for i in range(n)),
+        tuple(tuple(map(tuple, rows)) for rows in symbols),
+    )
+
+
+def _require_sizes(proof: FallingEnergy, n: int, d: int) -> None:
+    V = proof.energy
+    rows = [proof.least, proof.scale, V.coupling, V.stiffness, V.moved, V.mean, V.slow, V.kept, V.late]
+    squares = [getattr(V.splits, name) for name in V.splits.__dataclass_fields__]
+    fits = {n} == {len(row) for row in (*rows, *squares)} and {n} == {
+        len(x) for square in squares for x in square
+    }
+    late = {len(x) for x in V.kept} == {d + 1} and {len(x) for x in V.late} == {d}
+    require(fits and late, "energy", "", f"must be of {n} joints and {d} samples")
+    positive = (
+        *proof.least,
+        proof.speed,
+        *proof.scale,
+        V.weight,
+        *(x for square in squares for row in square for x in row),
+    )
+    require(min(positive) > 0, "energy", min(positive), "must be positive")
+    others = (*V.coupling, *V.stiffness, *V.moved, *V.mean, *(x for row in (*V.kept, *V.late) for x in row))
+    require(min(others) >= 0, "energy", min(others), "must not be negative")
+    require(0 < proof.share < 1, "share", proof.share, "must be between 0 and 1")
+    require(all(0 <= x <= 1 for x in V.slow), "slow", "", "must be from 0 to 1")
+    require(V.reach >= 1, "reach", V.reach, "must be at least 1")

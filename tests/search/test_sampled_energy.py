@@ -1,0 +1,307 @@
+"""Energies that fall on a computer: the form against the loop itself, exact limits, planted faults."""
+
+from dataclasses import fields, replace
+from fractions import Fraction as F
+from functools import cache
+from itertools import pairwise, product
+
+import numpy as np
+import pytest
+
+from lyapcheck.check.kinds.sampled import SampledStable
+from lyapcheck.check.kinds.sampled_from_rest import FallingEnergy, SampledFromRest
+from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, SampledEnergy, Splits, form_of, shared
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import Accepted, verify
+from lyapcheck.robots import load
+from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.robots.trig import to_terms
+from lyapcheck.search.closed_loop import mass_of
+from lyapcheck.search.sampled import loops
+from lyapcheck.search.sampled_energy import falling_energy
+
+PROVED = Accepted("proved", "enclosure")
+GAINS = {
+    "buap3": ("19.063 44.342 5.331", "8.170 19.004 1.757"),
+    "reyes-kelly2": ("41.089 5.618", "17.610 2.112"),
+}
+"""Gains that targets at infinite rate suggest."""
+GAMMA = Gains((), (), F(1), 1, F(1), F(1), F(1), ())
+"""Bounds of tanh."""
+ARM_OF = {tuple(map(F, kp.split())): name for name, (kp, _) in GAINS.items()}
+
+
+def question(name: str, period="0.001", within=90, delay=1) -> SampledFromRest:
+    arm = load(name).fixed()
+    kp, kv = (tuple(map(F, row.split())) for row in GAINS[name])
+    friction = tuple((number.value, number.value) for number in arm.viscous)
+    return SampledFromRest(
+        *("hyperbolic", 1, kp, kv, friction, mass_of(arm), tuple(to_terms(arm.potential)), ()),
+        *(F(period), delay, F(within)),
+    )
+
+
+@cache
+def shown(statement: SampledFromRest) -> FallingEnergy:
+    proof = falling_energy(statement)
+    assert proof is not None
+    return proof
+
+
+@pytest.mark.parametrize(("d", "seed"), [*product((0, 1, 2), (1, 2, 3))])
+def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself(d, seed):
+    """One inertia without gravity, its exact motion, credits by quadrature, D, D_e and h' as they are."""
+    random = np.random.default_rng(seed)
+    M, b, kp, kv, T, reach, c, eps, stiff, Q, beta = random.uniform(0.5, 2, 11)
+    kept, late, reach = random.uniform(0, 1, d + 1), random.uniform(0, 1, d), reach + 1
+    V = SampledEnergy(c, reach, (eps,), (stiff,), (Q,), (kept,), (beta,), (late,), (0.0,), None)  # type: ignore[arg-type]
+    q, w, steps, fine = random.normal(), random.normal(), d + 4, 400
+    h, past = T / fine, []
+    for _ in range(steps):
+        past.append((q, w, []))
+        late_q, before = (past[max(len(past) - 1 - d - k, 0)][0] for k in (0, 1))
+        tau = kp * np.tanh(-late_q) - kv * np.tanh((late_q - before) / T)
+        q0, w0 = q, w
+        for k in range(1, fine + 1):  # the exact motion under a held torque
+            s = k * h
+            decay = np.exp(-b / M * s)
+            w = tau / b + (w0 - tau / b) * decay
+            q = q0 + tau / b * s + (w0 - tau / b) * M / b * (1 - decay)
+            past[-1][2].append((q, w))
+    (q_now, w_now, inside), back = past[-1], past[::-1]
+    means = [sum(pair[1] - own[1] for pair in own[2]) / fine for own in back]
+    exact = [(own[0] - older[0]) / T - older[1] for own, older in pairwise(back)]
+    assert np.allclose(exact, means[1:], atol=2e-2)
+
+    def energy(k):
+        q, w = inside[k]
+        s, e = (k + 1) * h, -q
+        z, spent = s / T / reach, (k + 1) / fine
+        value = M * w * w / 2 + stiff * np.log(np.cosh(e)) - eps * np.tanh(e) * M * w
+        value += (
+            c / 2 * (1 / z - 1) * M * (w - w_now) ** 2 + Q / (reach * T) / 2 * (1 / z - 1) * (q - q_now) ** 2
+        )
+        for j in range(d + 1):
+            value -= spent * kept[j] * M / 2 * (back[j][1] - back[j + 1][1]) ** 2
+        value -= spent * T * beta * exact[d] ** 2
+        value += beta * h * (sum((x[1] - w_now) ** 2 for x in inside[:k]) + (w - w_now) ** 2 / 2)
+        for j in range(d):
+            value -= spent * T * late[j] * ((back[j][0] - back[j + 1][0]) / T) ** 2
+            value += (
+                late[j] * h * (sum(x[1] ** 2 for x in [(0, w_now), *inside][: k + 1]) + (w**2 - w_now**2) / 2)
+            )
+        return value
+
+    for k in (60, 200, 350):
+        q, w = inside[k]
+        s, e, behind, v = (k + 1) * h, -q, q - back[d][0], (back[d][0] - back[d + 1][0]) / T
+        z, D = s / T / reach, np.tanh(v) / v
+        De = (np.tanh(e + behind) - np.tanh(e)) / behind
+        pays = {"w": eps * (1 - np.tanh(e) ** 2) * M, "h": 0.0, "y": 0.0, "r": 0.0}
+        gains = Gains((kp,), (kv,), T, d, 1.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
+        form = np.array(form_of(0, V, M, pays, gains, (z, D, De, b)), dtype=float)  # type: ignore[arg-type]
+        x = [np.tanh(e), w, (w - w_now) / z, (q - q_now) / (z * reach * T)]
+        x += [back[j][1] - back[j + 1][1] for j in range(d + 1)]
+        x += [*((back[j][0] - back[j + 1][0]) / T for j in range(d)), exact[d]]
+        rate = (energy(k + 1) - energy(k - 1)) / (2 * h)
+        assert -rate == pytest.approx(np.array(x) @ form @ np.array(x), rel=2e-3, abs=2e-3)
+
+
+def test_what_joints_do_to_each_other_is_paid_for():
+    """With M, G and C anything within their bounds: the worst of the terms of −V̇ that have them."""
+    random, n, least = np.random.default_rng(4), 3, 1.0
+
+    def draw(*shape):
+        return random.uniform(0.1, 1, shape)
+
+    for _ in range(2000):
+        mass, slope, symbols, u = draw(n, n), draw(n, n), draw(n, n, n), draw(n)
+        sizes = 10.0 ** random.uniform(-6, 0, 3)  # so that one of the three is nearly alone
+        mass, slope, symbols = (mass + mass.T) * sizes[0], (slope + slope.T) * sizes[1], symbols * sizes[2]
+        eps, slow, c, speed, z = draw(n), random.uniform(0, 1, n), *draw(2), random.uniform(0, 1)
+        h, y, r = (random.normal(size=n) for _ in range(3))
+        h, w = np.tanh(h), random.normal(size=n)
+        w *= speed / np.sqrt((u * w * w).sum())
+        splits = Splits(*(1.3 ** random.normal(size=(n, n)) for _ in fields(Splits)))
+        V = SampledEnergy(c, 2.0, eps, None, None, None, None, None, slow, splits)  # type: ignore[arg-type]
+        turning = np.sqrt((symbols**2 / u).sum(-1)) * speed
+        pays = shared(V, ArmBounds(u, mass, slope, symbols), turning, GAMMA)  # type: ignore[arg-type]
+        paid = sum(
+            own["w"] * w[i] ** 2 + own["h"] * h[i] ** 2 + own["y"] * y[i] ** 2 + own["r"] * r[i] ** 2
+            for i, own in enumerate(pays)
+        )
+        now, push = c * (1 - z), w - h * eps + c * (1 - z) * y
+        both = np.outer(w, h * eps) + now * np.outer(y, w - z * y)  # what C_ij is a factor of
+        worst = -(eps * np.abs(w)) @ mass @ np.abs(w) - np.abs(push) @ slope @ np.abs(r)
+        worst -= (symbols * np.abs(both[:, :, None] * w)).sum()
+        least = min(least, 1 + worst / paid)
+    assert 0 < least < 0.2
+
+
+def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, goal: np.ndarray, samples: int):
+    """V as each sample begins, (samples, N), with what is stored; an integrator of fourth order."""
+    arm, V, d, T = (
+        NumericModel(load(ARM_OF[statement.kp]).fixed()),
+        proof.energy,
+        statement.delay,
+        float(statement.period),
+    )
+    kp, kv, eps, stiff, mean = (
+        np.array(x, float) for x in (statement.kp, statement.kv, V.coupling, V.stiffness, V.mean)
+    )
+    b, u, kept, late = (
+        np.array(x, float) for x in ([x for x, _ in statement.viscous], proof.least, V.kept, V.late)
+    )
+    q, w, values = goal + starts, np.zeros_like(starts), []
+    readings, produced = [q] * (d + 2), []
+
+    def rates(q, w, tau):
+        force = tau - np.einsum("aij,aj->ai", arm.coriolis(q, w), w) - b * w - arm.gravity(q)
+        return w, np.linalg.solve(arm.mass(q), force[..., None])[..., 0]
+
+    for k in range(samples):
+        readings = [q, *readings[:-1]] if k else readings
+        e = goal - q
+        momentum = np.einsum("aij,aj->ai", arm.mass(q), w)
+        value = (
+            (momentum * w).sum(1) / 2
+            + (stiff * np.log(np.cosh(e))).sum(1)
+            - (eps * np.tanh(e) * momentum).sum(1)
+        )
+        for age, (delta, moved, mu) in enumerate(produced[::-1][: d + 1], 1):
+            value += (kept[:, age - 1 :].sum(1) * u / 2 * delta**2).sum(1) + (T * mean * mu**2).sum(1)
+            value += (late[:, age - 1 :].sum(1) * T * (moved / T) ** 2).sum(1)
+        values.append(value)
+        tau = (
+            kp * np.tanh(goal - readings[d])
+            - kv * np.tanh((readings[d] - readings[d + 1]) / T)
+            + arm.gravity(readings[d])
+        )
+        q0, w0, h = q, w, T / 4
+        for _ in range(4):
+            a, c = rates(q, w, tau)
+            a2, c2 = rates(q + h / 2 * a, w + h / 2 * c, tau)
+            a3, c3 = rates(q + h / 2 * a2, w + h / 2 * c2, tau)
+            a4, c4 = rates(q + h * a3, w + h * c3, tau)
+            q, w = q + h / 6 * (a + 2 * a2 + 2 * a3 + a4), w + h / 6 * (c + 2 * c2 + 2 * c3 + c4)
+        produced.append((w - w0, q - q0, (q - q0) / T - w0))
+    return np.array(values), q - goal, w
+
+
+@pytest.mark.parametrize(
+    ("name", "period"),
+    [
+        ("reyes-kelly2", "0.005"),
+        ("buap3", "0.001"),
+        pytest.param("buap3", "0.0016", marks=pytest.mark.slow),
+    ],
+)
+def test_gains_above_the_friction_are_proved_from_90_degrees_and_the_energy_falls(name, period):
+    statement = question(name, period)
+    proof = shown(statement)
+    assert verify(statement, proof) == PROVED
+    random, n = np.random.default_rng(1), len(statement.kp)
+    starts = np.pi / 2 * np.concatenate([random.uniform(-1, 1, (6, n)), random.choice([-1.0, 1.0], (6, n))])
+    goal = random.uniform(-np.pi, np.pi, (12, n))
+    values, _, _ = run(statement, proof, starts, goal, 300)
+    assert (np.diff(values, axis=0) < 0).all()
+    assert (values[0] <= float(proof.speed) ** 2 * (1 - float(proof.share)) / 2).all()
+    assert (values[-1] < 0.9 * values[0]).all()
+
+
+@pytest.mark.slow
+def test_no_random_joint_is_proved_beyond_its_exact_limit():
+    random, found = np.random.default_rng(8), 0
+    for _ in range(24):
+        M, b, kp, kv = (
+            F(round(float(x) * 1000) + 1, 1000)
+            for x in 10 ** random.uniform([-2, -1, 0, -1], [0.5, 1, 1.5, 1])
+        )
+        d, T = (
+            int(random.integers(0, 3)),
+            F(round(float(M / (kv + b) * 10 ** random.uniform(-1.5, 0.5)) * 10**6) + 1, 10**6),
+        )
+        statement = SampledFromRest(
+            "tanh",
+            None,
+            (kp,),
+            (kv,),
+            ((b, b),),
+            (((((0, 0), M),),),),
+            (((0, 1), kp / 3),),
+            (),
+            T,
+            d,
+            F(1, 100),
+        )
+        if falling_energy(statement) is None:
+            continue
+        found += 1
+        at_goals = SampledStable(
+            "tanh",
+            None,
+            (kp,),
+            (kv,),
+            (b,),
+            (),
+            (),
+            (),
+            statement.mass,
+            statement.potential,
+            (),
+            T,
+            F(1),
+            d,
+            (F(1),),
+            "goal",
+        )
+        (loop,) = loops(at_goals)
+        assert loop.radii(np.arange(-180.0, 180.0, 15.0)[:, None], float(T)).max() < 1
+    assert 3 < found < 24
+
+
+def faults(statement: SampledFromRest, proof: FallingEnergy):
+    """Statements and proofs, each with one thing changed that the proof rests on."""
+    V = proof.energy
+    changes = [("weight", 20), ("coupling", 5), ("stiffness", 2)]
+    changes += [*product(("moved", "late"), (0, 50)), *product(("mean", "kept"), (0, 30))]
+    for name, by in changes:
+        old = getattr(V, name)
+        scaled = old * by if isinstance(old, F) else tuple(
+            tuple(x * by for x in row) if isinstance(row, tuple) else row * by for row in old
+        )  # fmt: skip
+        yield f"{name} {by}", statement, replace(proof, energy=replace(V, **{name: scaled}))
+    yield "reach", statement, replace(proof, energy=replace(V, reach=F(1)))
+    yield "reach short", statement, replace(proof, energy=replace(V, reach=F(1, 2)))
+    yield "slow", statement, replace(proof, energy=replace(V, slow=(F(2), *V.slow[1:])))
+    for one, factor in product(fields(V.splits), (F(0), F(-1))):
+        rows = tuple(tuple(x * factor for x in row) for row in getattr(V.splits, one.name))
+        yield (
+            f"{one.name} {factor}",
+            statement,
+            replace(proof, energy=replace(V, splits=replace(V.splits, **{one.name: rows}))),
+        )
+    yield "coupling cut", statement, replace(proof, energy=replace(V, coupling=V.coupling[1:]))
+    yield "kept cut", statement, replace(proof, energy=replace(V, kept=tuple(row[1:] for row in V.kept)))
+    yield "least", statement, replace(proof, least=tuple(F(3, 2) * x for x in proof.least))
+    yield "least 0", statement, replace(proof, least=tuple(0 * x for x in proof.least))
+    yield "speed", statement, replace(proof, speed=proof.speed * F(9, 10))
+    yield "share", statement, replace(proof, share=F(1))
+    for name, value in (
+        *(("period", statement.period * 10), ("within", F(180)), ("delay", 2), ("delay", 0)),
+        *(("m", 2), ("m", 3), ("family", "arctan")),
+        ("viscous", tuple((F(0), F(0)) for _ in statement.kp)),
+        ("viscous", tuple((low, 40 * high) for low, high in statement.viscous)),
+        *(("kv", tuple(8 * k for k in statement.kv)), ("kp", tuple(2 * k for k in statement.kp))),
+        ("potential", tuple((p, 20 * c) for p, c in statement.potential)),
+        ("mass", tuple(tuple(tuple((p, c / 2) for p, c in x) for x in row) for row in statement.mass)),
+    ):
+        yield f"{name}", replace(statement, **{name: value}), proof
+
+
+def test_no_planted_fault_is_accepted():
+    statement = question("reyes-kelly2", "0.005")
+    proof = shown(statement)
+    for why, asked_about, changed in faults(statement, proof):
+        with pytest.raises(Refused):
+            print(why, verify(asked_about, changed))
