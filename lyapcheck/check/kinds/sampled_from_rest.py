@@ -103,7 +103,7 @@ class SampledFromRest(Total):
 class FallingEnergy(Proof):
     """V, with u of M ≽ diag(u), a speed that motions keep, ν and weights of rows of |M_ij|."""
 
-    rule = "falling energy"
+    rule = "falling sampled energy"
     least: Numbers
     speed: Fraction
     share: Fraction

@@ -49,7 +49,7 @@ def find_from_rest(statement: SampledFromRest) -> SearchResult:
     if proof is not None:
         return shown(proof, method)
     return still_open(
-        "no falling energy is found; take a shorter period or starts nearer to the goal", method
+        "no falling sampled energy is found; take a shorter period or starts nearer to the goal", method
     )
 
 
