@@ -5,9 +5,7 @@ import json
 import pytest
 
 from lyapcheck.cli.progress import progress
-from lyapcheck.output.formats import Format, JudgedFormat
 from tests.helpers.command import lyapcheck
-from tests.helpers.shares import one_in
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -29,26 +27,6 @@ def test_json_goes_to_stdout_and_progress_to_stderr(tmp_path):
     assert [(row["m"], row["verdict"]) for row in data["claims"]] == [(1, "refuted"), (2, "proved")]
     assert data["claims"][0]["witness"]["point"] == {"x1": "0", "x2": "0", "x3": "0"}
     assert "seconds" not in data["claims"][0]
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("check", "nowhere.py"),
-        ("check", "published.py", "--m", "0"),
-        ("check", "published.py", "--n", "0"),
-        ("check", "published.py", "--n", "2", "--robot", "buap3"),
-        ("check", "published.py", "--robot", "nobody"),
-        ("check", "published.py", "--gains", "nowhere.toml"),
-        ("check", "published.py", "--only", "7z"),
-        ("explain", "7z"),
-    ],
-)
-def test_bad_input_is_one_message_and_exit_code_2(arguments, tmp_path):
-    run = lyapcheck(*arguments, folder=tmp_path)
-    assert run.returncode == 2, run.stderr
-    assert "Traceback" not in run.stderr
-    assert run.stdout == ""
 
 
 SET = '[[gains]]\nname = "{}"\nm = {}\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
@@ -77,12 +55,6 @@ def test_gain_sets_that_are_left_out_are_told(tmp_path):
     ]
 
 
-def test_explain_needs_no_decision(tmp_path):
-    run = lyapcheck("explain", "7a", folder=tmp_path)
-    assert run.returncode == 0
-    assert "(7), first line" in run.stdout
-
-
 def test_what_is_assumed_about_an_arm_is_said_where_a_claim_looks_at_it(tmp_path):
     said = {
         claim: "Assumed about buap3"
@@ -106,20 +78,6 @@ def test_markdown_is_one_table_a_section(tmp_path):
     )
     assert run.stdout.startswith("# ✗ 1 refuted: A family of hyperbolic-type control schemes")
     assert run.stdout.count("|  | claim | grade | seconds | statement |") == 1
-
-
-@pytest.mark.parametrize("name", one_in(4, JudgedFormat))
-def test_every_format_names_the_claim(name, tmp_path):
-    run = lyapcheck("check", "published.py", "--only", "17a", "--format", name, folder=tmp_path)
-    assert run.returncode == 1, run.stderr
-    assert "17a" in run.stdout
-
-
-@pytest.mark.parametrize("name", one_in(3, Format))
-def test_explain_has_every_format(name, tmp_path):
-    run = lyapcheck("explain", "17a", "--format", name, folder=tmp_path)
-    assert run.returncode == 0, run.stderr
-    assert "17a" in run.stdout
 
 
 def test_lines_fit_a_terminal(tmp_path):

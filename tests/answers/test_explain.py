@@ -1,7 +1,5 @@
 """Claims explained: every claim there is, in every format, and statements that read as they are decided."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,20 +1,16 @@
 """Exactly at the border, through the file and the command: never wrong because of rounding."""
 
-from __future__ import annotations
-
 from decimal import Context, Decimal, Inexact
 from fractions import Fraction
 from math import ceil, floor, isqrt
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.answers.gate import GateResult, gate
+from lyapcheck.answers.gate import gate
 from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
 
 SETTINGS = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -24,7 +20,7 @@ EXACT = Context(prec=200, traps=[Inexact])
 
 
 @st.composite
-def decimals(draw: st.DrawFn, most: int = 30) -> str:
+def decimals(draw, most=30):
     """A positive decimal of up to so many digits, between 1e-14 and 1e14."""
     places = draw(st.integers(0, min(most, 15) - 1))
     digits = draw(st.integers(1, 10 ** draw(st.integers(places + 1, min(most, places + 14))) - 1))
@@ -32,13 +28,13 @@ def decimals(draw: st.DrawFn, most: int = 30) -> str:
     return f"{whole}.{rest:0{places}d}" if places else str(whole)
 
 
-def gamma_between(m: int, bits: int) -> tuple[int, int]:
+def gamma_between(m, bits):
     """Integers a ≤ γ_m·2^bits ≤ b."""
     gamma = hyperbolic_constants(m, bits * 3 // 10 + 20).gamma
     return floor(gamma.lower * 2**bits), ceil(gamma.upper * 2**bits)
 
 
-def judged(path: Path, top: str, kp: list[str], kv: list[str], bounds: str) -> GateResult:
+def judged(path, top, kp, kv, bounds):
     path.write_text(
         f'[[gains]]\nname = "a"\n{top}\nkp = [{", ".join(kp)}]\nkv = [{", ".join(kv)}]\n[bounds]\n{bounds}\n'
     )
@@ -46,16 +42,16 @@ def judged(path: Path, top: str, kp: list[str], kv: list[str], bounds: str) -> G
     return result
 
 
-def arm(friction: str, torque: list[str], gravity: list[str]) -> str:
+def arm(friction, torque, gravity):
     lists = f"torque = [{', '.join(torque)}]\ngravity = [{', '.join(gravity)}]"
     return f"viscous_min = {friction}\n{lists}"
 
 
-def of(result: GateResult, name: str, joint: int = 0) -> Check:
+def of(result, name, joint=0):
     return next(check for check in result.checks if (check.id, check.joint) == (name, joint))
 
 
-def one_unit_more(text: str) -> str:
+def one_unit_more(text):
     """The decimal one unit larger in its last place."""
     value = Decimal(text)
     return format(EXACT.add(value, EXACT.scaleb(Decimal(1), int(value.as_tuple().exponent))), "f")
@@ -63,13 +59,11 @@ def one_unit_more(text: str) -> str:
 
 @SETTINGS
 @given(st.integers(1, 60), st.integers(1, 4), decimals(), decimals())
-def test_the_largest_k_v_passes_and_one_unit_more_does_not(
-    tmp_path: Path, m: int, n: int, friction: str, written: str
-) -> None:
+def test_the_largest_k_v_passes_and_one_unit_more_does_not(tmp_path, m, n, friction, written):
     """(19), whatever digits were written: what the message proposes is accepted, and nothing larger is."""
     bounds, kp = arm(friction, ["9e14"] * n, ["0"] * n), ["1"] * n
 
-    def check(kv: str) -> Check:
+    def check(kv):
         return of(judged(tmp_path / "g.toml", f"m = {m}", kp, [kv] * n, bounds), "19")
 
     first = check(written)
@@ -92,9 +86,7 @@ def test_the_largest_k_v_passes_and_one_unit_more_does_not(
 
 @SETTINGS
 @given(st.integers(2, 60), decimals(20), decimals(20), decimals(20))
-def test_the_largest_k_p_passes_and_one_unit_more_does_not(
-    tmp_path: Path, m: int, torque: str, kp: str, kv: str
-) -> None:
+def test_the_largest_k_p_passes_and_one_unit_more_does_not(tmp_path, m, torque, kp, kv):
     """(10p): k_p as large as the message says beside the k_v that was written."""
     bounds = arm("9e14", [torque], ["0"])
     largest = of(judged(tmp_path / "g.toml", f"m = {m}", [kp], [kv], bounds), "10p").largest_admissible
@@ -111,7 +103,7 @@ def test_the_largest_k_p_passes_and_one_unit_more_does_not(
 
 @SETTINGS
 @given(st.sampled_from([1, 4]), decimals(), st.sampled_from(["m = 1", 'family = "tanh"']))
-def test_equality_is_rejected_by_19_and_10p(tmp_path: Path, n: int, limit: str, top: str) -> None:
+def test_equality_is_rejected_by_19_and_10p(tmp_path, n, limit, top):
     """γ = 1 and √n whole: the border is a decimal, and (19) and (10p) are strict."""
     border = Fraction(limit)
     budget = format(EXACT.multiply(Decimal(limit), Decimal(isqrt(n))), "f")
@@ -128,7 +120,7 @@ def test_equality_is_rejected_by_19_and_10p(tmp_path: Path, n: int, limit: str, 
         assert (of(result, "10p").verdict, of(result, "10p").margin) == ("rejected", 0)
 
 
-def test_equality_with_an_irrational_gamma_is_accepted_by_10(tmp_path: Path) -> None:
+def test_equality_with_an_irrational_gamma_is_accepted_by_10(tmp_path):
     """(‖τ‖ − k_g)/(√n γ) with ‖τ‖ = 2γ_2 is out of reach of decimals; with m = 1 and n = 1 it is not."""
     for kp, verdict in (("1.5", "accepted"), ("1.500000000000000000000000000001", "rejected")):
         result = judged(tmp_path / "g.toml", "m = 1", [kp], ["0.5"], arm("9", ["3"], ["1"]))
@@ -138,7 +130,7 @@ def test_equality_with_an_irrational_gamma_is_accepted_by_10(tmp_path: Path) -> 
 
 @pytest.mark.parametrize("digits", [10, 100, 300])
 @pytest.mark.parametrize("m", [2, 3, 17])
-def test_a_gain_that_agrees_with_the_limit_to_hundreds_of_digits(tmp_path: Path, m: int, digits: int) -> None:
+def test_a_gain_that_agrees_with_the_limit_to_hundreds_of_digits(tmp_path, m, digits):
     """k_v is 1/γ_m cut off after so many digits, or one unit above: only a finer bracket tells them apart."""
     low, high = gamma_between(m, 2000)
     below = 2**2000 * 10**digits // high

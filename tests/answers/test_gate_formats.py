@@ -1,22 +1,17 @@
 """What the gate says in each format, and where it points."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess
 import sys
-from collections.abc import Sequence
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.answers.gate import GateAnswer, GateResult, gate
+from lyapcheck.answers.gate import GateAnswer, gate
 from lyapcheck.answers.gate.words import significant_text
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.output.answer import Level
@@ -26,19 +21,19 @@ from tests.helpers.shares import one_in
 
 
 @pytest.fixture(scope="module")
-def paper() -> GateAnswer:
+def paper():
     return gate(read_gain_file(paper_gain_file("table2")))
 
 
 @pytest.fixture(scope="module")
-def undecided(tmp_path_factory: pytest.TempPathFactory) -> GateAnswer:
+def undecided(tmp_path_factory):
     path = tmp_path_factory.mktemp("gate") / "g.toml"
     path.write_text("robot = 'pelican2'\n[[gains]]\nname = 'u'\nm = 2\nkp = [1, 1]\nkv = [0.001, 0.001]\n")
     return gate(read_gain_file(path))
 
 
 @pytest.mark.parametrize("name", one_in(9, JudgedFormat))
-def test_the_same_input_gives_the_same_bytes(name: str) -> None:
+def test_the_same_input_gives_the_same_bytes(name):
     code = "from lyapcheck.cli.main import main; main()"
     words = ["gate", str(paper_gain_file("table2")), "--format", name]
     written = [
@@ -56,14 +51,14 @@ def test_the_same_input_gives_the_same_bytes(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", JudgedFormat)
-def test_each_format_tells_the_whole_outcome(name: str, paper: GateAnswer) -> None:
+def test_each_format_tells_the_whole_outcome(name, paper):
     text = paper.written(name).replace(r"\_", "_")
     for part in ("tau_m2", "tau_m3", "0.223", "0.222", "0.210", "shoulder"):
         assert part in text
 
 
 @pytest.mark.parametrize("name", JudgedFormat)
-def test_what_is_undecided_says_why(name: str, undecided: GateAnswer) -> None:
+def test_what_is_undecided_says_why(name, undecided):
     text = undecided.written(name)
     assert "torque limit" in text
     assert "undecided" in text or name in ("junit", "sarif")
@@ -72,7 +67,7 @@ def test_what_is_undecided_says_why(name: str, undecided: GateAnswer) -> None:
 BREAK = "break (19), stability proved otherwise"
 
 
-def test_the_title_counts(paper: GateAnswer, undecided: GateAnswer) -> None:
+def test_the_title_counts(paper, undecided):
     assert paper.document().title == f"✗ 2 {BREAK}; 1 accepted; dry friction (assumed) leaves at most 20.73°"
     assert GateAnswer([*paper, *undecided]).document().title == (
         f"✗ 2 {BREAK}; 1 undecided; 1 accepted; dry friction (assumed) leaves at most 20.73°"
@@ -83,7 +78,7 @@ def test_the_title_counts(paper: GateAnswer, undecided: GateAnswer) -> None:
     )
 
 
-def test_a_section_is_a_table_of_checks_and_what_to_change(paper: GateAnswer) -> None:
+def test_a_section_is_a_table_of_checks_and_what_to_change(paper):
     sections = [block for block in paper.document().blocks if isinstance(block, Section)]
     words = [section.title.partition(": ")[2].partition(" (m = ")[0] for section in sections]
     assert [word.partition(";")[0] for word in words] == ["accepted", *[BREAK.replace("break", "breaks")] * 2]
@@ -103,7 +98,7 @@ def test_a_section_is_a_table_of_checks_and_what_to_change(paper: GateAnswer) ->
 # --- JSON --------------------------------------------------------------------------------------------
 
 
-def test_json_has_the_fields_that_scripts_rely_on(paper: GateAnswer) -> None:
+def test_json_has_the_fields_that_scripts_rely_on(paper):
     document = json.loads(paper.written("json"))
     assert document["schema"] == "lyapcheck/gate/1"
     assert [(result["name"], result["m"], result["verdict"]) for result in document["results"]] == [
@@ -130,7 +125,7 @@ def test_json_has_the_fields_that_scripts_rely_on(paper: GateAnswer) -> None:
             assert check["verdict"] in ("accepted", "rejected", "undecided")
 
 
-def test_numbers_of_json_are_decimal_strings_that_enclose(paper: GateAnswer) -> None:
+def test_numbers_of_json_are_decimal_strings_that_enclose(paper):
     document = json.loads(paper.written("json"))
     for result, printed in zip(paper, document["results"], strict=True):
         for check, shown in zip(result.checks, printed["checks"], strict=True):
@@ -144,7 +139,7 @@ def test_numbers_of_json_are_decimal_strings_that_enclose(paper: GateAnswer) -> 
             assert Fraction(shown["largest_admissible"]) == check.largest_admissible
 
 
-def test_json_of_what_has_no_limit(undecided: GateAnswer) -> None:
+def test_json_of_what_has_no_limit(undecided):
     (result,) = json.loads(undecided.written("json"))["results"]
     norm = result["checks"][0]
     assert (norm["verdict"], norm["limit"], norm["margin"], norm["largest_admissible"]) == (
@@ -159,7 +154,7 @@ def test_json_of_what_has_no_limit(undecided: GateAnswer) -> None:
 # --- JUnit -------------------------------------------------------------------------------------------
 
 
-def test_junit_counts_what_it_lists(paper: GateAnswer, undecided: GateAnswer) -> None:
+def test_junit_counts_what_it_lists(paper, undecided):
     top = ET.fromstring(GateAnswer([*paper, *undecided]).written("junit"))
     assert top.tag == "testsuites"
     assert [suite.get("name") for suite in top] == ["tau_m1", "tau_m2", "tau_m3", "u"]
@@ -178,7 +173,7 @@ def test_junit_counts_what_it_lists(paper: GateAnswer, undecided: GateAnswer) ->
 # --- annotations -------------------------------------------------------------------------------------
 
 
-def test_annotations_point_at_the_gain(paper: GateAnswer) -> None:
+def test_annotations_point_at_the_gain(paper):
     lines = paper_gain_file("table2").read_text().splitlines()
     failed = [one for one in paper.annotations() if one.level is Level.FAILED]
     assert [(one.rule, one.group, one.case) for one in failed] == [
@@ -195,14 +190,14 @@ def test_annotations_point_at_the_gain(paper: GateAnswer) -> None:
     assert not [one for one in paper.annotations() if one.level is Level.REMARK]
 
 
-def test_a_set_is_one_annotation(paper: GateAnswer, undecided: GateAnswer) -> None:
+def test_a_set_is_one_annotation(paper, undecided):
     """A reader of the pull request is not told an error first and a notice that takes it back after."""
     lines = GateAnswer([*paper, *undecided]).written("github").splitlines()
     assert [line.partition(" ")[0] for line in lines] == ["::error", "::error", "::warning", "::notice"]
     assert lines[-1].startswith("::notice title=lyapcheck gate::")
 
 
-def test_gains_below_the_dry_friction_are_told_though_accepted(tmp_path: Path) -> None:
+def test_gains_below_the_dry_friction_are_told_though_accepted(tmp_path):
     """A slip of units by a thousand: theory accepts it, and the arm would not move."""
     path = tmp_path / "g.toml"
     path.write_text(
@@ -218,27 +213,27 @@ def test_gains_below_the_dry_friction_are_told_though_accepted(tmp_path: Path) -
     assert "shoulder" not in remark.message
 
 
-def test_conditions_that_do_not_decide_are_no_cases(paper: GateAnswer) -> None:
+def test_conditions_that_do_not_decide_are_no_cases(paper):
     (text,) = {one.rule_text for one in paper.annotations()}
     assert text == "the gains meet (10p), (19)"
 
 
-def sarif(results: Sequence[GateResult]) -> list[dict[str, Any]]:
-    result: list[dict[str, Any]] = json.loads(GateAnswer(results).written("sarif"))["runs"][0]["results"]
+def sarif(results):
+    result = json.loads(GateAnswer(results).written("sarif"))["runs"][0]["results"]
     return result
 
 
-def test_undecided_warns_and_fails_where_the_gate_is_strict(undecided: GateAnswer) -> None:
+def test_undecided_warns_and_fails_where_the_gate_is_strict(undecided):
     assert {(one["level"], one["ruleId"]) for one in sarif(undecided)} == {("warning", "gate")}
     strict = gate(undecided[0].file, strict=True)
     assert {one["level"] for one in sarif(strict)} == {"error"}
 
 
-def test_fingerprints_follow_the_gain_and_not_its_line(tmp_path: Path) -> None:
+def test_fingerprints_follow_the_gain_and_not_its_line(tmp_path):
     path = tmp_path / "g.toml"
     text = paper_gain_file("table2").read_text()
 
-    def prints(changed: str) -> list[str]:
+    def prints(changed):
         path.write_text(changed)
         return [
             r["partialFingerprints"]["case/v1"]
@@ -256,14 +251,14 @@ def test_fingerprints_follow_the_gain_and_not_its_line(tmp_path: Path) -> None:
 
 
 @given(st.fractions(), st.integers(1, 12))
-def test_a_margin_is_never_shown_larger_than_it_is(value: Fraction, digits: int) -> None:
+def test_a_margin_is_never_shown_larger_than_it_is(value, digits):
     shown = Fraction(significant_text(value.numerator, value.denominator, digits))
     assert shown <= value
     if value:
         assert value - shown <= max(abs(value) * Fraction(10) ** (1 - digits), Fraction(1, 10**40))
 
 
-def test_what_to_change_would_pass(tmp_path: Path) -> None:
+def test_what_to_change_would_pass(tmp_path):
     """Doing what each message says makes the gate accept."""
     path = tmp_path / "g.toml"
     kp, kv = ["29.5", "60.5", "9.5"], ["0.3", "0.3", "0.3"]
@@ -285,7 +280,7 @@ def test_what_to_change_would_pass(tmp_path: Path) -> None:
 # --- Python and notebooks ------------------------------------------------------------------------------
 
 
-def test_results_print_as_the_command_does(paper: GateAnswer) -> None:
+def test_results_print_as_the_command_does(paper):
     assert f"{paper}\n" == paper.written("text")
     shown = paper._repr_html_()
     assert f"✗ tau_m2: {BREAK.replace('break', 'breaks')}" in shown

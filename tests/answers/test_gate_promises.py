@@ -1,7 +1,5 @@
 """What the gate says of ranges, of stated bounds and of dry friction is true of every arm in them."""
 
-from __future__ import annotations
-
 import json
 import math
 from fractions import Fraction
@@ -9,14 +7,12 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.judgement import degrees_above
 from lyapcheck.robots import load
-from tests.helpers.command import Done, invoke
+from tests.helpers.command import invoke
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -36,34 +32,32 @@ torque_limit = 60
 """
 
 
-def number(value: object, low: object, high: object, unit: str) -> str:
+def number(value, low, high, unit):
     """A number of an arm file with a range."""
     return f'{{value = {value}, unit = "{unit}", low = {low}, high = {high}, assumed = true, note = "x"}}'
 
 
-def files(
-    folder: Path, mass: object, viscous: object, more: str = "", gains: str = "kp = [50]\nkv = [1]"
-) -> str:
+def files(folder, mass, viscous, more="", gains="kp = [50]\nkv = [1]"):
     (folder / "arm.toml").write_text(ARM.format(mass=mass, viscous=viscous, more=more))
     path = folder / "g.toml"
     path.write_text(f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\n{gains}\n')
     return str(path)
 
 
-def judged(*words: str) -> tuple[int, dict[str, object]]:
+def judged(*words):
     done = invoke("gate", *words, "--format", "json")
     (result,) = json.loads(done.stdout)["results"]
     return done.exit_code, result
 
 
-def said(done: Done) -> str:
+def said(done):
     return " ".join(done.output.split())
 
 
 # --- a bound that is stated ----------------------------------------------------------------------
 
 
-def test_a_stated_bound_does_not_outlive_a_payload(tmp_path: Path) -> None:
+def test_a_stated_bound_does_not_outlive_a_payload(tmp_path):
     path = files(tmp_path, 1, 2, "gravity_bound = 4.905")
     assert judged(path)[0] == 0
     code, result = judged(path, "--vary", "payload=0..20")
@@ -74,14 +68,14 @@ def test_a_stated_bound_does_not_outlive_a_payload(tmp_path: Path) -> None:
     assert judged(path, "--vary", "payload=0..0.01")[0] == 0
 
 
-def test_a_printed_bound_of_the_papers_arm_does_not_outlive_its_range() -> None:
+def test_a_printed_bound_of_the_papers_arm_does_not_outlive_its_range():
     words = (str(paper_gain_file()), "--condition", "10p")
     assert invoke("gate", *words).exit_code == 0
     assert invoke("gate", *words, "--vary", "shoulder_gravity=0%..+200%").exit_code == 1
 
 
 @pytest.mark.parametrize("name", ["text", "json", "junit", "sarif", "github", "markdown"])
-def test_a_bound_that_the_arm_itself_refutes_is_rejected_in_every_format(tmp_path: Path, name: str) -> None:
+def test_a_bound_that_the_arm_itself_refutes_is_rejected_in_every_format(tmp_path, name):
     path = files(tmp_path, 10, 2, "gravity_bound = 1", "kp = [5]\nkv = [1]")
     done = invoke("gate", path, "--format", name)
     assert done.exit_code == 1
@@ -91,14 +85,14 @@ def test_a_bound_that_the_arm_itself_refutes_is_rejected_in_every_format(tmp_pat
         assert ET.fromstring(done.output).find(".//failure") is not None
 
 
-def test_the_certificate_against_a_false_bound_is_rechecked(tmp_path: Path) -> None:
+def test_the_certificate_against_a_false_bound_is_rechecked(tmp_path):
     path = files(tmp_path, 10, 2, "gravity_bound = 1", "kp = [5]\nkv = [1]")
     invoke("gate", path, "--certificates", str(tmp_path / "made"))
     assert json.loads((tmp_path / "made" / "a.json").read_text())["verdict"] == "refuted"
     assert invoke("recheck", str(tmp_path / "made")).exit_code == 0
 
 
-def test_a_bound_of_the_gain_file_is_held_to_the_model_as_well(tmp_path: Path) -> None:
+def test_a_bound_of_the_gain_file_is_held_to_the_model_as_well(tmp_path):
     path = Path(files(tmp_path, 10, 2, "", "kp = [5]\nkv = [1]"))
     assert judged(str(path))[0] == 0
     path.write_text(path.read_text() + "[bounds]\ngravity = [49.04]\n")
@@ -107,7 +101,7 @@ def test_a_bound_of_the_gain_file_is_held_to_the_model_as_well(tmp_path: Path) -
     assert judged(str(path))[0] == 0
 
 
-def test_without_a_model_the_bound_is_a_premise(tmp_path: Path) -> None:
+def test_without_a_model_the_bound_is_a_premise(tmp_path):
     path = tmp_path / "g.toml"
     path.write_text(
         '[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [1]\n'
@@ -122,7 +116,7 @@ def test_without_a_model_the_bound_is_a_premise(tmp_path: Path) -> None:
 # --- one statement -------------------------------------------------------------------------------
 
 
-def test_recheck_shows_the_arm_with_its_ranges(tmp_path: Path) -> None:
+def test_recheck_shows_the_arm_with_its_ranges(tmp_path):
     path = files(tmp_path, 1, 2, "", "kp = [5]\nkv = [1]")
     invoke("gate", path, "--vary", "payload=0..5", "--certificates", str(tmp_path / "made"))
     statement = json.loads((tmp_path / "made" / "a.json").read_text())["statement"]
@@ -131,20 +125,7 @@ def test_recheck_shows_the_arm_with_its_ranges(tmp_path: Path) -> None:
     assert (outcome.exit_code, "p1 in 1 … 6" in said(outcome)) == (0, True)
 
 
-def test_a_sweep_has_the_varied_arm_in_its_certificates(tmp_path: Path) -> None:
-    files(tmp_path, 1, 2, "gravity_bound = 4.905")
-    plan = tmp_path / "plan.toml"
-    plan.write_text(
-        'robots = ["arm.toml"]\nvariations = [[], ["payload=0..20"]]\nquestions = ["gate"]\n'
-        '[[gains]]\nname = "a"\nm = 1\nkp = [50]\nkv = [1]\n'
-    )
-    assert invoke("sweep", str(plan), "--out", str(tmp_path / "out")).exit_code == 1
-    made = [json.loads(path.read_text())["statement"] for path in (tmp_path / "out").rglob("*.json")
-            if '"GateAccepted"' in path.read_text()]  # fmt: skip
-    assert sorted(statement["parameters"] for statement in made) == [[], [["1", "21"]]]
-
-
-def test_a_rejected_set_has_a_state_that_saturates_a_motor(tmp_path: Path) -> None:
+def test_a_rejected_set_has_a_state_that_saturates_a_motor(tmp_path):
     path = files(tmp_path, 10, 2, "", "kp = [12]\nkv = [1]")
     invoke("gate", path, "--certificates", str(tmp_path / "made"))
     document = json.loads((tmp_path / "made" / "a.json").read_text())
@@ -155,7 +136,7 @@ def test_a_rejected_set_has_a_state_that_saturates_a_motor(tmp_path: Path) -> No
     assert abs(torque) > 60
 
 
-def test_what_fails_by_the_root_alone_is_refuted_as_a_condition(tmp_path: Path) -> None:
+def test_what_fails_by_the_root_alone_is_refuted_as_a_condition(tmp_path):
     path = tmp_path / "g.toml"
     path.write_text('robot = "buap3"\n[[gains]]\nname = "a"\nm = 1\nkp = [28, 70, 7]\nkv = [0.1, 0.1, 0.1]\n')
     invoke("gate", str(path), "--certificates", str(tmp_path / "made"))
@@ -166,23 +147,7 @@ def test_what_fails_by_the_root_alone_is_refuted_as_a_condition(tmp_path: Path) 
 # --- friction ------------------------------------------------------------------------------------
 
 
-def test_an_eps0_over_ranges_is_about_all_of_the_friction(tmp_path: Path) -> None:
-    """[bounds] viscous_min does not cut the range of friction at its nominal value."""
-    path = tmp_path / "g.toml"
-    path.write_text(
-        'robot = "reyes-kelly2"\n[bounds]\nviscous_min = 0.1\n[[gains]]\nname = "a"\nm = 1\n'
-        "kp = [20, 3]\nkv = [5.0, 0.9]\n"
-    )
-
-    def eps0(high: str) -> Fraction:
-        _, result = judged(str(path), "--vary", f"viscous=-30%..{high}", "--condition", "scalar")
-        (row,) = [check for check in result["checks"] if check["id"] == "scalar"]
-        return Fraction(row["value"])
-
-    assert eps0("+9900%") < eps0("+100%") / 10
-
-
-def test_rest_under_dry_friction_is_that_of_the_largest_in_the_range(tmp_path: Path) -> None:
+def test_rest_under_dry_friction_is_that_of_the_largest_in_the_range(tmp_path):
     dry = f"coulomb = {number(1, 1, 6, 'N·m')}"
     path = files(tmp_path, 1, 2, dry, "kp = [8]\nkv = [0.4]")
     (gains,) = read_gain_file(path).gains
@@ -197,7 +162,7 @@ def test_rest_under_dry_friction_is_that_of_the_largest_in_the_range(tmp_path: P
     assert narrow == "✓ 1 accepted"
 
 
-def test_gate_tune_and_bounds_say_the_same_of_rest(tmp_path: Path) -> None:
+def test_gate_tune_and_bounds_say_the_same_of_rest(tmp_path):
     path = tmp_path / "g.toml"
     path.write_text('robot = "buap3"\n[[gains]]\nname = "a"\nm = 1\nkp = [28, 60, 7]\nkv = [0.1, 0.1, 0.1]\n')
     text = said(invoke("gate", str(path)))
@@ -210,7 +175,7 @@ def test_gate_tune_and_bounds_say_the_same_of_rest(tmp_path: Path) -> None:
 # --- remarks -------------------------------------------------------------------------------------
 
 
-def test_no_remark_contradicts_the_checks(tmp_path: Path) -> None:
+def test_no_remark_contradicts_the_checks(tmp_path):
     """(10p) fails by its √n alone; with (10i) accepted no motor may saturate."""
     path = tmp_path / "g.toml"
     path.write_text('robot = "buap3"\n[[gains]]\nname = "a"\nm = 1\nkp = [28, 70, 7]\nkv = [0.1, 0.1, 0.1]\n')
@@ -220,7 +185,7 @@ def test_no_remark_contradicts_the_checks(tmp_path: Path) -> None:
     assert not [line for line in result["remarks"] if "may saturate" in line]
 
 
-def test_stability_is_said_only_while_no_motor_saturates(tmp_path: Path) -> None:
+def test_stability_is_said_only_while_no_motor_saturates(tmp_path):
     path = tmp_path / "g.toml"
     path.write_text('robot = "buap3"\n[[gains]]\nname = "a"\nm = 1\nkp = [28, 170, 7]\nkv = [1, 1, 1]\n')
     _, result = judged(str(path), "--condition", "19")
@@ -230,37 +195,3 @@ def test_stability_is_said_only_while_no_motor_saturates(tmp_path: Path) -> None
 
 
 # --- what holds over ranges holds within them ----------------------------------------------------
-
-
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(data=st.data())
-def test_what_is_accepted_over_ranges_is_accepted_within_them(tmp_path: Path, data: st.DataObject) -> None:
-    """An arm in the ranges, made exact, gets no worse verdict and no larger error at rest."""
-    tenths = st.integers(1, 80).map(lambda k: Fraction(k, 10))
-    ends = {name: sorted((data.draw(tenths), data.draw(tenths))) for name in ("mass", "viscous", "coulomb")}
-    kp, kv = data.draw(st.integers(1, 70)), Fraction(data.draw(st.integers(1, 30)), 10)
-    bound = data.draw(st.sampled_from(["", "gravity_bound = 4.905", "gravity_bound = 40"]))
-    payload = data.draw(st.sampled_from([(), ("--vary", "payload=0..3")]))
-    named = data.draw(st.sampled_from([(), ("10i",), ("10i", "scalar")]))
-    conditions = tuple(word for name in named for word in ("--condition", name))
-
-    def ask(pick: dict[str, object], stated: str, *words: str) -> tuple[int, dict[str, object]]:
-        more = f"{stated}\ncoulomb = {pick['coulomb']}"
-        gains = f"kp = [{kp}]\nkv = [{float(kv)}]"
-        return judged(files(tmp_path, pick["mass"], pick["viscous"], more, gains), *words, *conditions)
-
-    units = {"mass": "kg", "viscous": "N·m·s/rad", "coulomb": "N·m"}
-    wide = {
-        name: number(float(low), float(low), float(high), units[name]) for name, (low, high) in ends.items()
-    }
-    code, over = ask(wide, bound, *payload)
-    within = {name: data.draw(st.sampled_from(pair)) for name, pair in ends.items()}
-    if payload:
-        within["mass"] += data.draw(st.sampled_from([0, 1, 3]))
-    exact, at = ask({name: float(value) for name, value in within.items()}, "" if payload else bound)
-    assert exact == 0 or code != 0
-    least, own = (
-        Fraction(next(check for check in one["checks"] if check["id"] == "10p")["limit"]["lower"])
-        for one in (over, at)
-    )
-    assert least <= own or (bound and payload)

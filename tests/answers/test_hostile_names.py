@@ -1,16 +1,11 @@
 """Names and notes of files that would steer a terminal, a page, a spreadsheet or a CI system."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
 import re
 import sys
 import tomllib
-from collections.abc import Callable, Iterable
-from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -77,18 +72,18 @@ MOTION = "t [s],q1 [deg]\n" + "".join(f"{t / 10},{t}\n" for t in range(20))
 FILE = "=a|<script>$b$`.csv"
 
 
-def toml(text: str) -> str:
+def toml(text):
     """A TOML string with everything but plain ASCII as an escape."""
     return '"' + "".join(c if c.isalnum() and c.isascii() else f"\\U{ord(c):08x}" for c in text) + '"'
 
 
-def xml(text: str) -> str:
+def xml(text):
     """An XML attribute; what XML can write as a reference only is written so."""
     return '"' + "".join(c if c.isalnum() and c.isascii() else f"&#{ord(c)};" for c in text) + '"'
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """An arm, gains and a reference with every nasty name in every place that can hold one."""
     place = tmp_path_factory.mktemp("nasty")
     joint = "j|<script>_$&%#^~[x]`*"
@@ -104,9 +99,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
-def run(
-    words: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> tuple[object, str, str]:
+def run(words, folder, monkeypatch, capsys):
     """Exit code and both outputs of a command line in a folder."""
     monkeypatch.chdir(folder)
     monkeypatch.setenv("COLUMNS", "400")
@@ -119,14 +112,14 @@ def run(
     return left.value.code, seen.out, seen.err
 
 
-def check_markdown(text: str) -> None:
+def check_markdown(text):
     """No tag of a name, no link, and as many cells in each row of a table as in its head."""
     assert "<script" not in text.lower()
     assert "<img" not in text.lower()
     tokens = MarkdownIt("commonmark", {"html": True}).enable("table").parse(text)
     inner = [child for token in tokens for child in token.children or [token]]
     assert not {token.type for token in inner} & {"html_block", "html_inline", "link_open", "image"}
-    widths: list[int] = []
+    widths = []
     for line in [*text.splitlines(), ""]:
         if line.startswith("|"):
             widths.append(len(re.findall(r"(?<!\\)(?:\\\\)*\|", line)))
@@ -135,14 +128,14 @@ def check_markdown(text: str) -> None:
             widths = []
 
 
-def check_csv(text: str) -> None:
+def check_csv(text):
     rows = list(csv.reader(io.StringIO(text), strict=True))
     assert len({len(row) for row in rows}) == 1
     for cell in (cell for row in rows for cell in row):
         assert not cell.startswith(("=", "+", "-", "@")) or re.fullmatch(r"-[\d.e+-]+|-inf", cell), cell
 
 
-def check_latex(text: str) -> None:
+def check_latex(text):
     """No command and no special character but those of documents."""
     for line in text.splitlines():
         bare = re.sub(r"\\ensuremath\{([^{}]|\{[^{}]*\})*\}|\\text\w+\{\}|\\[&%$#_{}]", "", line)
@@ -155,19 +148,19 @@ def check_latex(text: str) -> None:
         assert not set(bare) & set("\\&%$#_{}~^"), line
 
 
-def check_html(text: str) -> None:
+def check_html(text):
     """No tag but those of documents."""
     assert not set(re.findall(r"<\s*/?\s*([^\s/>]+)", text)) - TAGS
 
 
-def check_github(text: str) -> None:
+def check_github(text):
     for line in text.splitlines():
         assert re.fullmatch(r"::(error|warning|notice) [^:]*::.*", line)
 
 
 TAGS = {"h2", "h3", "h4", "p", "ul", "li", "pre", "code"}
 TAGS |= {"table", "caption", "thead", "tbody", "tr", "th", "td"}
-CHECKS: dict[str, Callable[[str], object]] = {
+CHECKS = {
     "json": json.loads,
     "sarif": json.loads,
     "junit": ET.fromstring,
@@ -179,7 +172,7 @@ CHECKS: dict[str, Callable[[str], object]] = {
     "github": check_github,
 }
 SHORT = "--target 10 --time 0.1"
-COMMANDS: dict[str, Iterable[str]] = {
+COMMANDS = {
     "gate gains.toml": JudgedFormat,
     "table --m 1 --robot arm.toml": Format,
     "check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd": JudgedFormat,
@@ -195,14 +188,12 @@ COMMANDS: dict[str, Iterable[str]] = {
 
 
 @pytest.mark.parametrize("words", but(list(COMMANDS)[:3], COMMANDS))
-def test_no_format_obeys_a_name(
-    words: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_format_obeys_a_name(words, folder, monkeypatch, capsys):
     """Asked once; what is shown in one format is then written in the others."""
-    answers: list[Answer] = []
+    answers = []
     written = Answer.written
 
-    def kept(answer: Answer, *form: Any) -> str:
+    def kept(answer, *form):
         answers.append(answer)
         return written(answer, *form)
 
@@ -226,9 +217,7 @@ def test_no_format_obeys_a_name(
         "tune arm.toml --compare gains.toml --format toml",
     ],
 )
-def test_no_file_for_programs_obeys_a_name(
-    words: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_file_for_programs_obeys_a_name(words, folder, monkeypatch, capsys):
     code, out, err = run(words, folder, monkeypatch, capsys)
     assert code in (0, 1), err
     assert (out + err).replace("\n", "").isprintable()
@@ -239,9 +228,7 @@ def test_no_file_for_programs_obeys_a_name(
 
 
 @pytest.mark.slow
-def test_no_page_of_a_report_obeys_a_name(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_page_of_a_report_obeys_a_name(folder, monkeypatch, capsys):
     code, out, err = run(
         "report --m 1 --robot arm.toml --gains one.toml --out pages", folder, monkeypatch, capsys
     )
@@ -263,9 +250,7 @@ def test_no_page_of_a_report_obeys_a_name(
 
 
 @pytest.mark.slow
-def test_figures_show_a_name_with_dollars(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_figures_show_a_name_with_dollars(folder, monkeypatch, capsys):
     (folder / "plots").mkdir()
     (folder / "dollars.toml").write_text('robot = "arm.toml"\n' + GAINS.format(name=toml("$\\frac$")))
     code, _, err = run(f"simulate dollars.toml {SHORT} --plot plots", folder, monkeypatch, capsys)
@@ -298,9 +283,7 @@ READERS = {
 
 @pytest.mark.parametrize("text", UNPRINTABLE)
 @pytest.mark.parametrize("key", PLACES)
-def test_what_does_not_print_is_refused_where_it_is_read(
-    key: str, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_does_not_print_is_refused_where_it_is_read(key, text, tmp_path, monkeypatch, capsys):
     name, content = PLACES[key]
     (tmp_path / "arm.urdf").write_text(URDF.format(robot='"r"', link='"l"', joint='"j"'))
     (tmp_path / "good.toml").write_text(GAINS.format(name='"a"'))
@@ -315,9 +298,7 @@ def test_what_does_not_print_is_refused_where_it_is_read(
 
 @pytest.mark.parametrize("text", [text for text in UNPRINTABLE if text[0] not in "\x1b\x07"])
 @pytest.mark.parametrize("key", ["robot", "link", "joint"])
-def test_what_does_not_print_is_refused_in_urdf_files(
-    key: str, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_does_not_print_is_refused_in_urdf_files(key, text, tmp_path, monkeypatch, capsys):
     names = {"robot": '"r"', "link": '"l"', "joint": '"j"'} | {key: xml(text)}
     (tmp_path / "arm.urdf").write_text(URDF.format(**names))
     code, out, err = run(READERS["arm.urdf"], tmp_path, monkeypatch, capsys)
@@ -341,12 +322,12 @@ def test_what_does_not_print_is_refused_in_urdf_files(
     ),
 )
 def test_paths_are_shown_as_escapes(
-    words: str,
-    text: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+    words,
+    text,
+    tmp_path,
+    monkeypatch,
+    capsys,
+):
     name = f"x{text}y.toml"
     (tmp_path / "arm.urdf").write_text(URDF.format(robot='"r"', link='"l"', joint='"j"'))
     arm = ARM.format(title='"a"', remark="", joint='"j"', source='"s"', note='"n"')
@@ -365,7 +346,7 @@ def test_paths_are_shown_as_escapes(
 
 
 @pytest.mark.parametrize("text", NASTY + UNPRINTABLE)
-def test_every_escape_leaves_one_line_that_prints(text: str) -> None:
+def test_every_escape_leaves_one_line_that_prints(text):
     for name in ("markdown_text", "html_text", "latex_text", "csv_text", "github_text", "plot_text"):
         assert getattr(escapes, name)(text).isprintable()
     assert json.loads(document_text(json.dumps(text, ensure_ascii=False))) == text

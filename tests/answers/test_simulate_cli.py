@@ -6,7 +6,6 @@ import json
 import os
 import sys
 import xml.etree.ElementTree as ET
-from pathlib import Path
 from typing import NamedTuple
 
 import pytest
@@ -32,7 +31,7 @@ class Done(NamedTuple):
 def lyapcheck(monkeypatch, capsys):
     """Runs the command in this process, which saves a second of imports each time."""
 
-    def run(*arguments: str) -> Done:
+    def run(*arguments):
         monkeypatch.setattr(sys, "argv", ["lyapcheck", "simulate", *arguments])
         with pytest.raises(SystemExit) as left:
             main()
@@ -119,49 +118,6 @@ def test_another_arm_and_another_task(lyapcheck):
     assert result["target"] == [-30.0, 60.0]
 
 
-BAD = [
-    (["--target", "1,2"], "--target"),
-    (["--target", "1,2,x"], "--target"),
-    (["--target", "nan,0,0"], "--target"),
-    (["--target", "1e9,0,0"], "--target"),
-    (["--start", "0"], "--start"),
-    (["--start", ""], "--start"),
-    (["--time", "0"], "--time"),
-    (["--time", "-5"], "--time"),
-    (["--time", "nan"], "--time"),
-    (["--time", "1e9"], "--time"),
-    (["--eps0", "-1"], "--eps0"),
-    (["--robot", "no-such-arm"], "robot"),
-    (["--csv", "/no/such/directory/run.csv"], "--csv"),
-    (["--csv", "/"], "--csv"),
-    (["--plot", "/no/such/directory"], "--plot"),
-    (["--robot", "pelican2"], "--target"),
-    (["--robot", "pelican2", "--target", "10,20"], "gains"),
-    (["--experiment", "--time", "0.001"], "T"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "named"), BAD, ids=[" ".join(a) for a, _ in BAD])
-def test_bad_arguments_get_one_line_and_exit_code_2(lyapcheck, arguments, named):
-    done = lyapcheck(TABLE2, *arguments)
-    errors = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert len(errors) == 1
-    assert named in errors[0]
-
-
-def test_all_bad_arguments_are_named_at_once(lyapcheck):
-    done = lyapcheck(TABLE2, "--target", "1", "--start", "a,b,c", "--time", "-1", "--eps0", "nan")
-    assert done.returncode == 2
-    for option in ("--target", "--start", "--time", "--eps0"):
-        assert f"{option} = " in done.stderr
-
-
-def test_a_file_that_cannot_be_read_is_said(lyapcheck):
-    assert lyapcheck("no-such-file.toml").returncode == 2
-
-
 def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(lyapcheck, tmp_path):
     wild = tmp_path / "wild.toml"
     wild.write_text(
@@ -205,9 +161,7 @@ IDEAL = "without the dry friction of the file"
     "coulomb", ["", "coulomb = 0", "coulomb = 0.1", "coulomb = {value = 0, low = 0, high = 1}"]
 )
 @pytest.mark.parametrize("way", [(), ("--experiment",), ("--runs", "3")])
-def test_the_first_line_says_that_dry_friction_is_left_out(
-    tmp_path: Path, coulomb: str, way: tuple[str, ...]
-) -> None:
+def test_the_first_line_says_that_dry_friction_is_left_out(tmp_path, coulomb, way):
     """Runs of (11) leave it out, the bench does not."""
     (tmp_path / "arm.toml").write_text(DRY + coulomb)
     gains = tmp_path / "gains.toml"
@@ -220,7 +174,7 @@ def test_the_first_line_says_that_dry_friction_is_left_out(
     assert not told or first.startswith("! ")
 
 
-def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path: Path) -> None:
+def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path):
     (tmp_path / "arm.toml").write_text(DRY)
     gains = tmp_path / "gains.toml"
     gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')

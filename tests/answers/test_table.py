@@ -1,10 +1,9 @@
-"""The table command, from its argument to its five formats."""
-
-from __future__ import annotations
+"""The table: formats, digits found by ways that share no code with it, leading terms, budgets of an arm."""
 
 import csv
 import io
 import json
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -12,18 +11,17 @@ from pathlib import Path
 
 import mpmath
 import pytest
+from flint import arb
 
-from lyapcheck.answers.table import build_table
+from lyapcheck.answers.gate import gate
+from lyapcheck.answers.table import LIMITS, build_table, slope_at_zero
+from lyapcheck.check.numbers.balls import precision
 from lyapcheck.cli.values import parse_m
+from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import Format
 from tests.helpers.command import invoke
-
-SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))
-
-
-def run(*arguments):
-    return invoke("table", *arguments)
+from tests.oracle.numbers import supremum
 
 
 @pytest.fixture(scope="module")
@@ -104,49 +102,236 @@ def test_csv_has_a_line_for_each_member(table):
     assert Fraction(rows[1]["L_lower"]) < Fraction(rows[1]["L_upper"])
 
 
-@pytest.mark.parametrize("name", Format)
-def test_every_format_is_reproducible_and_ends_its_last_line(name, table):
-    once, again = table.written(name), build_table((1, 2, 3, 12), 30).written(name)
-    assert once == again
-    assert once.endswith("\n")
-    assert not once.endswith("\n\n")
-
-
 def test_fewer_digits_are_a_prefix_of_more():
     few, many = (build_table((2,), digits).document().blocks[1].rows[0] for digits in (5, 25))
     assert all(b.startswith(a) for a, b in zip(few, many, strict=True))
     assert sum(map(len, few)) < sum(map(len, many))
 
 
-def test_the_command_prints_and_leaves_with_zero():
-    result = run("--m", "1:3", "--digits", "12", "--format", "json")
-    assert result.exit_code == 0
-    assert len(json.loads(result.stdout)["rows"]) == 3
+SCRIPT = str(Path(sys.executable).with_name("lyapcheck"))
+SAMPLE = (2, 3, 4, 7, 19, 100, 333, 1000)
+DIGITS = 50
 
 
-@pytest.mark.parametrize("arguments", [("--m", "0"), ("--digits", "0"), ("--digits", "2001"), ("--m", "")])
-def test_bad_arguments_raise_an_input_error(arguments):
-    result = run(*arguments)
-    assert isinstance(result.exception, InputError)
+@pytest.fixture(scope="module")
+def rows():
+    """What the table says of the sample: {m: row}."""
+    table = build_table(SAMPLE, DIGITS)
+    return {row["m"]: row for row in json.loads(table.written("json"))["rows"]}
 
 
-def test_the_whole_process_stays_light():
-    """Neither NumPy nor SymPy nor anything else heavy is imported: start-up is most of the time."""
-    program = (
-        "import sys; sys.argv = ['lyapcheck', 'table', '--m', '1:3']\n"
-        "from lyapcheck.cli.main import main\n"
-        "try: main()\n"
-        "except SystemExit: pass\n"
-        "heavy = {'numpy', 'sympy', 'casadi', 'cvxpy', 'scipy', 'matplotlib'} & set(sys.modules)\n"
-        "sys.exit(f'imported {heavy}' if heavy else 0)"
+@pytest.fixture(scope="module")
+def shown():
+    """The cells of the text: {m: [γ, ρ, L, x of γ, x of ρ, x of L]}."""
+    result = {}
+    for line in build_table(range(1, 1001), DIGITS).written("text").splitlines():
+        first, *cells = line.split() or [""]
+        if first.isdecimal():
+            result.setdefault(int(first), []).extend(cells)
+    return result
+
+
+@pytest.mark.slow
+def test_a_thousand_rows_of_fifty_digits():
+    done = subprocess.run(
+        [SCRIPT, "table", "--m", "1:1000", "--digits", "50"], capture_output=True, text=True, check=True
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("\n") > 2000
 
 
-@pytest.mark.parametrize("arguments", [["--m", "0"], ["--m", "x"], ["--digits", "many"], ["--format", "xml"]])
-def test_bad_arguments_leave_with_two_and_no_traceback(arguments):
-    done = subprocess.run([SCRIPT, "table", *arguments], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert "Traceback" not in done.stderr
+@pytest.mark.slow
+@pytest.mark.parametrize("m", [m for m in SAMPLE if 1 < m < 60])
+def test_the_oracle_gives_the_same_digits(m, shown, rows):
+    with mpmath.workdps(DIGITS + 25):
+        for name, cell in zip(("gamma", "rho", "L"), shown[m], strict=False):
+            low, high = (mpmath.mpf(rows[m][name][end]) for end in ("lower", "upper"))
+            value = supremum(name, m, DIGITS + 15)
+            assert low <= value <= high
+            assert mpmath.nstr(value, DIGITS + 10, strip_zeros=False).startswith(cell)
+
+
+@pytest.mark.parametrize("m", SAMPLE)
+def test_the_extreme_lies_between_its_value_at_the_place_and_what_the_slope_can_add(m, rows):
+    with precision(2000):
+        for name, function in (("gamma", h), ("L", lambda m, x: h(m, x) / x), ("rho", dh)):
+            low, high = (arb(rows[m][name][end]) for end in ("lower", "upper"))
+            x = (arb(rows[m][f"{name}_at"]["lower"]) + arb(rows[m][f"{name}_at"]["upper"])) / 2
+            value = function(m, x)
+            assert low < value < high
+            assert high - low < arb(10) ** (3 - DIGITS) * m
+
+
+def h(m, x):
+    s = x.sinh()
+    return s ** (2 * m - 1) * x.cosh() / (1 + s ** (2 * m))
+
+
+def dh(m, x):
+    s = x.sinh()
+    top = (2 * m - 1) * s ** (2 * m - 2) + 2 * m * s ** (2 * m) - s ** (4 * m - 2)
+    return top / (1 + s ** (2 * m)) ** 2
+
+
+MEMBERS = (1, 2, 3, 40, 1000)
+
+
+def run(*arguments):
+    return invoke("table", *arguments)
+
+
+@pytest.fixture(scope="module")
+def tails():
+    return build_table(MEMBERS, 25, with_asymptotes=True)
+
+
+def leading(m):
+    """As the notes under the table print them."""
+    root, log = mpmath.sqrt(2), mpmath.log
+    limit = root / mpmath.asinh(1)
+    kappa = (1 + limit) / 4
+    return {
+        "gamma": root * (1 - (1 + log(4 * m)) / (4 * m)),
+        "rho": m - mpmath.mpf(1) / 2 + mpmath.mpf(9) / (16 * m),
+        "L": limit * (1 - kappa * (1 + log(m / kappa)) / m),
+    }
+
+
+def test_leading_terms_and_rests_are_enclosed(tails):
+    rows = json.loads(tails.written("json"))["rows"]
+    with mpmath.workdps(45):
+        for row in rows:
+            for name, value in leading(row["m"]).items():
+                low, high = (
+                    mpmath.mpf(row["asymptotics"][name]["leading"][end]) for end in ("lower", "upper")
+                )
+                assert low <= value <= high
+                assert high - low < mpmath.mpf(10) ** -21
+                least, most = (
+                    mpmath.mpf(row["asymptotics"][name]["rest"][end]) for end in ("lower", "upper")
+                )
+                assert least <= mpmath.mpf(row[name]["upper"]) - value
+                assert mpmath.mpf(row[name]["lower"]) - value <= most
+
+
+def test_the_rests_shrink_as_fast_as_is_said():
+    """Ten times m: that of ρ a hundredth, those of γ and L a hundredth but for the logarithms."""
+    one, ten = build_table((1000, 10_000), 30, with_asymptotes=True).asymptotes
+    for name, most in (("gamma_rest", 60), ("rho_rest", 99), ("L_rest", 60)):
+        ratio = float(getattr(one, name).mid / getattr(ten, name).mid)
+        assert most < ratio < 101
+
+
+def test_a_leading_term_of_another_rate_would_be_noticed(tails):
+    """Without 9/(16m) the rest of ρ at m = 1000 would be 750 times as large."""
+    rest = tails.asymptotes[-1].rho_rest
+    assert abs(float(rest.mid)) < 1e-6 < 9 / 16_000 - 1e-6
+
+
+def test_the_slope_at_0_is_that_of_the_symbolic_derivative():
+    import sympy as sp
+
+    x = sp.Symbol("x")
+    for m in (1, 2, 3):
+        assert symbolic_slope(sp, m, x) == slope_at_zero(m)
+    rows = json.loads(run("--m", "1:4", "--format", "json").stdout)["rows"]
+    assert [row["slope_at_0"] for row in rows] == ["1", "0", "0", "0"]
+
+
+def symbolic_slope(sp, m, x):
+    s = sp.sinh(x)
+    return sp.diff(s ** (2 * m - 1) * sp.cosh(x) / (1 + s ** (2 * m)), x).subs(x, 0)
+
+
+@pytest.mark.parametrize("name", Format)
+def test_every_format_shows_the_leading_terms(name, tails):
+    plain, full = build_table(MEMBERS, 25).written(name), tails.written(name)
+    assert len(full) > 1.3 * len(plain)
+    assert "39.5140625" in full
+    assert "39.5140625" not in plain
+
+
+def test_csv_has_both_ends_of_every_rest(tails):
+    rows = list(csv.DictReader(io.StringIO(tails.written("csv"))))
+    for row in rows:
+        assert Fraction(row["gamma_rest_lower"]) <= Fraction(row["gamma_rest_upper"])
+        assert Fraction(row["rho_rest_upper"]) < 0 < Fraction(row["L_rest_lower"])
+
+
+def test_printing_a_table_prints_what_the_command_prints():
+    assert f"{build_table((1, 2), 12)}\n" == run("--m", "1,2", "--digits", "12").stdout
+
+
+def test_the_plot_shows_every_member(tmp_path):
+    run("--m", "2:9", "--digits", "8", "--plot", str(tmp_path))
+    text = (tmp_path / "constants.svg").read_text(encoding="utf-8")
+    assert (
+        len(re.findall(r'<use xlink:href="#m\w+" x="[\d.]+" y="[\d.]+" style="fill: #0072b2', text)) >= 3 * 8
+    )
+
+
+def test_a_folder_that_cannot_be_is_refused(tmp_path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match="--plot"):
+        raise run("--plot", str(tmp_path / "file")).exception
+
+
+def test_certificates_bound_gamma_and_rho_as_they_are_shown(tmp_path):
+    found = run("--m", "1:2", "--digits", "12", "--certificates", str(tmp_path), "--format", "json")
+    assert found.exit_code == 0
+    assert {path.name for path in tmp_path.iterdir()} == {
+        f"m{m}.{name}.json" for m in (1, 2) for name in ("gamma", "rho")
+    }
+    upper = json.loads(found.stdout)["rows"][1]["gamma"]["upper"]
+    statement = json.loads((tmp_path / "m2.gamma.json").read_text(encoding="utf-8"))["statement"]
+    assert statement["bound"] == ["num", str(Fraction(upper))]
+    assert "4 accepted (4 proved" in invoke("recheck", str(tmp_path)).stdout
+
+
+def test_the_budget_is_the_limit_that_the_gate_judges_by():
+    rows = json.loads(run("--m", "1:3", "--digits", "20", "--robot", "buap3", "--format", "json").stdout)[
+        "rows"
+    ]
+    results = gate(read_gain_file(paper_gain_file("table2")))
+    for row, result in zip(rows, results, strict=True):
+        limits = [check.limit for check in result.checks if check.id == "10p"]
+        assert [entry["joint"] for entry in row["budget"]] == ["base", "shoulder", "elbow"]
+        for entry, limit in zip(row["budget"], limits, strict=True):
+            low, high = (Fraction(entry["limit"][end]) for end in ("lower", "upper"))
+            assert low <= limit.upper
+            assert limit.lower <= high
+            assert high - low < Fraction(1, 10**17)
+
+
+def test_many_digits_of_the_budget_are_as_good_as_those_of_the_constants():
+    command = ("--m", "2", "--digits", "200", "--robot", "buap3", "--format", "json")
+    ends = json.loads(run(*command).stdout)["rows"][0]["budget"][0]["limit"]
+    low, high = (Fraction(ends[end]) for end in ("lower", "upper"))
+    assert high - low <= Fraction(2, 10**198)
+
+
+def test_a_joint_without_a_torque_limit_has_no_budget():
+    command = ("--m", "2", "--robot", "pelican2")
+    (row,) = json.loads(run(*command, "--format", "json").stdout)["rows"]
+    assert [entry["limit"] for entry in row["budget"]] == [None, None]
+    assert "none" in run(*command).stdout
+
+
+def test_csv_and_latex_have_a_column_for_each_joint():
+    command = ("--m", "1:4", "--robot", "buap3", "--digits", "6")
+    rows = list(csv.DictReader(io.StringIO(run(*command, "--format", "csv").stdout)))
+    assert [row["m"] for row in rows] == ["1", "2", "3", "4"]
+    assert all(Fraction(row["budget_elbow_lower"]) < Fraction(row["budget_elbow_upper"]) for row in rows)
+    assert run(*command, "--format", "latex").stdout.count(r"\begin{tabular}") == 2
+
+
+def test_an_unknown_arm_is_refused():
+    with pytest.raises(InputError, match="neither a built-in arm"):
+        raise run("--robot", "buap4").exception
+
+
+@pytest.mark.parametrize("form", ["text", "markdown"])
+def test_the_limits_for_large_m_are_told_and_right(form):
+    assert LIMITS in " ".join(run("--m", "2", "--format", form).stdout.split())
+    with precision(80):
+        limit = arb(2).sqrt() / arb(1).asinh()
+        assert arb("1.6045") < limit < arb("1.6046")

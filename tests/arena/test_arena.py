@@ -72,9 +72,9 @@ def rules_in(value: Any) -> Iterator[str]:
         yield from rules_in(part)
 
 
-def kind_of(document: Any, key: str, name: str) -> Any:
+def kind_of(document: Any, key: str, name: str) -> str:
     result = document.get(key)
-    return result.get(name) if isinstance(result, dict) else None
+    return str(result.get(name)) if isinstance(result, dict) else ""
 
 
 def test_every_kind_by_every_rule_has_good_files_and_bad_ones():
@@ -106,10 +106,10 @@ def test_every_rule_inside_others_has_good_files_and_bad_ones():
 
 
 def test_what_is_judged_by_itself_is_accepted_or_refused_as_expected():
-    """A sixth of all in this process, without what takes seconds; the slow test below has all, each apart."""
+    """In this process, without what takes seconds; the slow test below has all, each apart."""
     assert {entry["path"] for entry in ENTRIES} >= TAKES_SECONDS
     wrong = []
-    for entry in ENTRIES[::6]:
+    for entry in ENTRIES:
         path = ARENA / entry["path"]
         if path.is_file() and entry["path"] not in TAKES_SECONDS and len(entry["expected"]) == 1:
             accepted = not judged(path.read_bytes()).reason

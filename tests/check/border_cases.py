@@ -3,28 +3,28 @@
 Each is put into a good certificate of the arena in place of its statement and proof.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 from tests.arena.attacks import Document, Edits
-from tests.check.refusal_cases import ONE, SQUARE, TWO, ZERO, P, S, X
+
+S, P = "statement", "proof"
+ZERO, ONE, TWO, X = ["num", "0"], ["num", "1"], ["num", "2"], ["var", "x"]
+SQUARE = ["pow", X, 2]
 
 Row = tuple[str, Edits | Callable[[Document], Edits], str]
 ACCEPTED = ""
 
 
-def claimed(statement: Document, proof: Document, verdict: str = "proved", grade: str = "exact") -> Edits:
+def claimed(statement, proof, verdict="proved", grade="exact"):
     return [((S,), statement), ((P,), proof), (("verdict",), verdict), (("grade",), grade)]
 
 
-def relation(left: Any, operator: str, right: Any) -> Document:
+def relation(left, operator, right):
     return {"left": left, "operator": operator, "right": right}
 
 
-def numbers(left: Any, operator: str, right: Any, verdict: str) -> Edits:
+def numbers(left, operator, right, verdict):
     """A relation between numbers, by exact numbers."""
     statement = {"kind": "Constant", "relation": relation(left, operator, right)}
     return claimed(statement, {"rule": "exact numbers"}, verdict)
@@ -32,7 +32,7 @@ def numbers(left: Any, operator: str, right: Any, verdict: str) -> Edits:
 
 BALLS = {"rule": "separate balls", "bits": 128}
 ROOT = ["sqrt", TWO]
-NUMBERS: list[Row] = [
+NUMBERS = [
     ("pub.T2.pd.base", numbers(ONE, "<", ONE, "proved"), "the proof gives refuted"),
     ("pub.T2.pd.base", numbers(ONE, "<", ONE, "refuted"), ACCEPTED),
     ("pub.T2.pd.base", numbers(ONE, "<=", ONE, "proved"), ACCEPTED),
@@ -46,18 +46,18 @@ NUMBERS: list[Row] = [
 ]
 
 
-def printed(text: str, proof: Document, verdict: str = "proved") -> Edits:
+def printed(text, proof, verdict="proved"):
     """That x, printed as 2.0, is printed as this."""
     statement = {"kind": "Agrees", "formula": X, "inputs": [["x", "2.0"]], "printed": text, "solve_for": None}
     return claimed(statement, {**proof, "bits": 128}, verdict, "enclosure")
 
 
-def corners(below: list[int], above: list[int]) -> Document:
+def corners(below, above):
     return {"rule": "corners of the roundings", "below": below, "above": above}
 
 
 INSIDE, OUTSIDE = {"rule": "printed inputs"}, {"rule": "outside the roundings"}
-PRINTED: list[Row] = [
+PRINTED = [
     ("ext.corners", change, words)
     for change, words in (
         (printed("2.0", INSIDE), ACCEPTED),
@@ -76,7 +76,7 @@ PRINTED: list[Row] = [
 ]
 
 
-def for_all(holds: Document, low: str | None, high: str | None, *pieces: Document, ends: str = "[]") -> Edits:
+def for_all(holds, low, high, *pieces, ends="[]"):
     """A relation for all x in an interval; ``ends`` are its brackets."""
     statement = {
         "kind": "ForAll",
@@ -92,7 +92,7 @@ def for_all(holds: Document, low: str | None, high: str | None, *pieces: Documen
     return claimed(statement, proof, grade=grade)
 
 
-def boxes(*cuts: str, ends: str = "") -> Document:
+def boxes(*cuts, ends=""):
     """Taylor boxes between cuts; beside 0 and up to infinity by the dominant term, if ``ends`` says so."""
     piece = {"rule": "Taylor boxes", "bits": 64, "cuts": list(cuts)}
     return {**piece, "from_zero": "0" in ends, "to_infinity": "∞" in ends}
@@ -102,7 +102,7 @@ STURM = {"rule": "Sturm"}
 MINUS_X, MINUS_ONE = ["neg", X], ["num", "-1"]
 POSITIVE, NONNEGATIVE = relation(ZERO, "<", SQUARE), relation(ZERO, "<=", SQUARE)
 AT_MOST_ONE, BELOW_ONE = relation(X, "<=", ONE), relation(X, "<", ONE)
-FOR_ALL: list[Row] = [
+FOR_ALL = [
     ("ext.square", change, words)
     for change, words in (
         (for_all(NONNEGATIVE, None, None, STURM, STURM), ACCEPTED),
@@ -134,7 +134,7 @@ FOR_ALL: list[Row] = [
 ]
 
 
-def for_small(conclusion: Document, *hypotheses: Document) -> Edits:
+def for_small(conclusion, *hypotheses):
     """A relation for every small enough ε > 0 and all x > 0, which fails for small ε at x = 1."""
     statement = {
         "kind": "ForSmall",
@@ -150,7 +150,7 @@ def for_small(conclusion: Document, *hypotheses: Document) -> Edits:
 
 EPS = ["var", "eps"]
 X_BELOW_EPS = relation(X, "<", EPS)
-FOR_SMALL: list[Row] = [
+FOR_SMALL = [
     ("ext.not-small", change, words)
     for change, words in (
         (for_small(relation(X, "<", X)), ACCEPTED),
@@ -164,23 +164,23 @@ FOR_SMALL: list[Row] = [
 ]
 
 
-def constant_mass(a: str, b: str, c: str) -> list[Any]:
+def constant_mass(a, b, c):
     """M = (a b; b c) of two joints, the same at every q."""
     a_, b_, c_ = ([] if x == "0" else [[[0, 0, 0, 0], x]] for x in (a, b, c))
     return [[a_, b_], [b_, c_]]
 
 
-def at_x(kind: str, mass: list[Any], bound: dict[str, str], *x: str) -> Edits:
+def at_x(kind, mass, bound, *x):
     """A bound of M that fails in the direction of x."""
     statement = {"kind": kind, "mass": mass, "parameters": [], **bound}
     proof = {"rule": "posture", "q": ["0", "0"], "parameters": [], "x": list(x), "y": []}
     return claimed(statement, proof, "refuted", "enclosure")
 
 
-def scaled(directions: Sequence[str], times: int) -> Callable[[Document], Edits]:
+def scaled(directions, times):
     """With directions a hundred times as long, and so many times the bound."""
 
-    def change(document: Document) -> Edits:
+    def change(document):
         lengthened = [[str(100 * Fraction(x)) for x in document[P][name]] for name in directions]
         high = str(times * Fraction(document[S]["high"]))
         places = [((P, name), x) for name, x in zip(directions, lengthened, strict=True)]
@@ -191,7 +191,7 @@ def scaled(directions: Sequence[str], times: int) -> Callable[[Document], Edits]
 
 COUPLED, DOUBLE = constant_mass("2", "1", "2"), constant_mass("2", "0", "2")
 FAILS_NOT = "does not show that the bound fails"
-ONE_ARM: list[Row] = [
+ONE_ARM = [
     *(
         ("rob.lambda_max.lower", change, words)
         for change, words in (
@@ -213,9 +213,7 @@ POWER = ["dot", ["vec", "w"], ["apply", ["diag", "Kv"], ["vec", "hw"]]]
 PRODUCT = ["dot", ["vec", "z"], ["vec", "y"]]
 
 
-def at_least(
-    left: list[Any], number: list[Any], least: list[Any], right: list[Any] = ZERO, norms: Sequence[int] = ()
-) -> Edits:
+def at_least(left, number, least, right=ZERO, norms=()):
     """left ≤ right for every n, where a number is at least something, by this alone."""
     statement = {
         "kind": "BoundEveryN",
@@ -231,7 +229,7 @@ def at_least(
 
 
 SIGN, WORD = "is for terms with a minus", "is not the word of its term"
-EVERY_N: list[Row] = [
+EVERY_N = [
     ("ext.norms", change, words)
     for change, words in (
         (at_least(["neg", POWER], POWER, ZERO), ACCEPTED),
@@ -248,11 +246,11 @@ EVERY_N: list[Row] = [
 
 
 def implies(
-    conclusion: Document,
-    *variables: tuple[str, str | None, bool],
-    given: Document | None = None,
-    **proof: Any,
-) -> Edits:
+    conclusion,
+    *variables,
+    given=None,
+    **proof,
+):
     """What an identity of signs shows, with one hypothesis or none."""
     statement = {
         "kind": "Implies",
@@ -263,7 +261,7 @@ def implies(
     return claimed(statement, {"rule": "identity of signs", "lift": [], "multiples": [], **proof})
 
 
-def once(monomial: list[list[int]]) -> list[Document]:
+def once(monomial):
     """The one hypothesis times a monomial."""
     return [{"hypothesis": 0, "monomial": monomial, "weight": "1"}]
 
@@ -277,7 +275,7 @@ REAL, FROM_0, ABOVE_0, FROM_2 = (
 CUBE, X_Y = ["pow", X, 3], ["mul", X, ["var", "y"]]
 X_POSITIVE, X_NONNEGATIVE = relation(ZERO, "<", X), relation(ZERO, "<=", X)
 NEGATIVE = "has a term that may be negative"
-SIGNS: list[Row] = [
+SIGNS = [
     ("arc.share", change, words)
     for change, words in (
         (implies(NONNEGATIVE, REAL), ACCEPTED),
@@ -313,14 +311,14 @@ SIGNS: list[Row] = [
 ]
 
 
-def rests(family: str, m: int | None, torque: str, error: str) -> Edits:
+def rests(family, m, torque, error):
     """That one joint with k_p = 1 rests within an error."""
     sizes = {"kp": ["1"], "torque": [torque], "errors": [error]}
     statement = {"kind": "Resting", "family": family, "m": m, **sizes}
     return claimed(statement, {"rule": "h at the bounds"}, grade="enclosure")
 
 
-def rests_beyond(error: str, bound: str | None = "1/2", joint: int = 0) -> Edits:
+def rests_beyond(error, bound="1/2", joint=0):
     """A state of rest of tanh, held by half of k_p."""
     sizes = {"kp": ["1"], "torque": ["1/2"], "errors": [bound]}
     statement = {"kind": "Resting", "family": "tanh", "m": None, **sizes}
@@ -330,7 +328,7 @@ def rests_beyond(error: str, bound: str | None = "1/2", joint: int = 0) -> Edits
 
 TOO_LARGE = "is not shown to be as large"
 NOT_SHOWN = "has a box on which P ≻ 0 is not shown"
-OF_LOOPS: list[Row] = [
+OF_LOOPS = [
     ("ext.boxes", [((S, "viscous", 0), ["1", "20"])], ACCEPTED),
     ("ext.boxes", [((S, "viscous", 0), ["1", "100"])], NOT_SHOWN),
     ("ext.linked", [((S, "viscous", 0), ["5", "13/2"])], ACCEPTED),
@@ -338,7 +336,7 @@ OF_LOOPS: list[Row] = [
     ("ext.larger-kv", [((P, "kv"), ["2"])], ACCEPTED),
     ("ext.larger-kv", [((P, "kv"), ["40"])], "K̃ and ε₀ must be positive"),
 ]
-RESTS: list[Row] = [
+RESTS = [
     ("ext.resting", rests("hyperbolic", 2, "99/100", "6/5"), ACCEPTED),
     ("ext.resting", rests("hyperbolic", 2, "1", "6/5"), TOO_LARGE),
     ("ext.resting", rests("hyperbolic", 2, "21/20", "6/5"), TOO_LARGE),

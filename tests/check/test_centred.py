@@ -1,7 +1,5 @@
 """P by its middle and slopes over a box: it holds every state's P, and shows nothing that is false."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 
@@ -10,8 +8,6 @@ import pytest
 from flint import arb
 
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.field import Box
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.schur import CentredEvaluator, Evaluator, of_error, triangle
 from lyapcheck.check.numbers.balls import precision
@@ -33,7 +29,7 @@ WORST = (-0.116792403, 0.747532357, -0.702554689)
 """Near (q_2, e) of the state that refutes ε₀ = 0.9263773 for m = 2."""
 
 
-def loop_of(robot: str, file: str, index: int, eps0: str, ranges: bool = False) -> ClosedLoop:
+def loop_of(robot, file, index, eps0, ranges=False):
     gains = read_gain_file(paper_gain_file(file)).gains[index]
     return ControlledArm(gains, load(robot), ranges).loop(F(eps0))
 
@@ -49,7 +45,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_every_state_of_a_box_has_the_P_of_middle_and_slopes(name: str) -> None:
+def test_every_state_of_a_box_has_the_P_of_middle_and_slopes(name):
     case, random = CASES[name], np.random.default_rng(3)
     first, last = len(case.angles), len(case.angles) + case.n
     with precision(128):
@@ -57,9 +53,9 @@ def test_every_state_of_a_box_has_the_P_of_middle_and_slopes(name: str) -> None:
         for _ in range(12):
             width = 10.0 ** random.uniform(-3, 0)
             low = random.uniform(-2, 2, last)
-            box: Box = (*((float(x), float(x + width)) for x in low), *case.start[last:])
+            box = (*((float(x), float(x + width)) for x in low), *case.start[last:])
             point = [float(random.uniform(*side)) for side in box]
-            at: Box = tuple((x, x) for x in point)
+            at = tuple((x, x) for x in point)
             rows = centred.schur(box[:first], box[first:last], box[last:])
             exact = plain.schur(at[:first], at[first:last], at[last:])
             for row, wanted in zip(rows, exact, strict=True):
@@ -72,7 +68,7 @@ def test_every_state_of_a_box_has_the_P_of_middle_and_slopes(name: str) -> None:
 
 
 @pytest.mark.parametrize(("family", "m"), FUNCTIONS)
-def test_slopes_hold_every_quotient_of_differences(family: str, m: int | None) -> None:
+def test_slopes_hold_every_quotient_of_differences(family, m):
     function, random = member(family, m), np.random.default_rng(4)
     with precision(200):
         for _ in range(150):
@@ -87,7 +83,7 @@ def test_slopes_hold_every_quotient_of_differences(family: str, m: int | None) -
 
 
 @pytest.mark.parametrize(("family", "m"), FUNCTIONS)
-def test_the_second_derivative_is_that_of_h(family: str, m: int | None) -> None:
+def test_the_second_derivative_is_that_of_h(family, m):
     function = member(family, m)
     assert function.d2h is not None
     with precision(300):
@@ -99,11 +95,11 @@ def test_the_second_derivative_is_that_of_h(family: str, m: int | None) -> None:
             assert function.d2h(arb(-x).union(arb(2 * x))).overlaps(quotient)
 
 
-def around(width: float) -> Box:
+def around(width):
     return tuple((x - width, x + width) for x in WORST)
 
 
-def test_boxes_near_a_worst_state_may_be_many_times_larger_than_by_ranges() -> None:
+def test_boxes_near_a_worst_state_may_be_many_times_larger_than_by_ranges():
     case = replace(TWO, eps0=F("0.9256361"))
     with precision(64):
         centred, plain = CentredEvaluator(case), Evaluator(case, BALLS)
@@ -111,7 +107,7 @@ def test_boxes_near_a_worst_state_may_be_many_times_larger_than_by_ranges() -> N
         assert not plain.proves(around(0.0003))
 
 
-def test_no_box_with_a_state_that_refutes_is_shown() -> None:
+def test_no_box_with_a_state_that_refutes_is_shown():
     with precision(64):
         centred = CentredEvaluator(replace(TWO, eps0=F("0.92638")))
         assert not any(centred.proves(around(width)) for width in (1e-9, 1e-6, 1e-3, 1e-2, 0.1))
@@ -120,19 +116,19 @@ def test_no_box_with_a_state_that_refutes_is_shown() -> None:
 @pytest.mark.parametrize(
     "errors", [((-0.1, 0.1), (-0.1, 0.1)), ((0.0, 0.1), (-0.1, 0.0)), ((0.0, 0.0), (0.0, 0.0))]
 )
-def test_a_box_that_touches_the_origin_is_not_shown(errors: Box) -> None:
+def test_a_box_that_touches_the_origin_is_not_shown(errors):
     with precision(64):
         assert not CentredEvaluator(replace(TWO, eps0=F(1, 100))).proves(((0.1, 0.2), *errors))
 
 
-def test_without_second_derivative_nothing_is_shown() -> None:
+def test_without_second_derivative_nothing_is_shown():
     case = replace(TWO, eps0=F(1, 100))
     case.__dict__["member"] = replace(case.member, d2h=None)
     with precision(64):
         assert not CentredEvaluator(case).proves(around(0.001))
 
 
-def test_the_triangle_makes_a_diagonal() -> None:
+def test_the_triangle_makes_a_diagonal():
     random = np.random.default_rng(5)
     root = random.normal(size=(4, 4))
     P = root @ root.T + np.eye(4)
@@ -145,7 +141,7 @@ def test_the_triangle_makes_a_diagonal() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("index", [1, 2])
-def test_trees_of_two_joints_near_the_falsified_are_small(index: int) -> None:
+def test_trees_of_two_joints_near_the_falsified_are_small(index):
     case = loop_of("reyes-kelly2", "table2_shoulder_elbow", index, ("0.9256361", "0.6356907")[index - 1])
     result = certify(SchurProblem(case), 10_000)
     assert result.proved
@@ -155,7 +151,7 @@ def test_trees_of_two_joints_near_the_falsified_are_small(index: int) -> None:
 
 
 @pytest.mark.slow
-def test_a_kernel_gets_boxes_that_ranges_alone_show() -> None:
+def test_a_kernel_gets_boxes_that_ranges_alone_show():
     case = loop_of("reyes-kelly2", "table2_shoulder_elbow", 1, "0.9")
     tree = certify(SchurProblem(case), 10_000).tree
     finer = _finer(case, tree)
@@ -164,7 +160,7 @@ def test_a_kernel_gets_boxes_that_ranges_alone_show() -> None:
     assert _finer(case, tree[:-1]) == tree[:-1]
 
 
-def test_members_of_large_m_have_no_second_derivative() -> None:
+def test_members_of_large_m_have_no_second_derivative():
     """Its extremes would take minutes; the search and the checker do without."""
     assert member("hyperbolic", 60).d2h is not None
     assert member("hyperbolic", 61).d2h is None

@@ -1,7 +1,5 @@
 """Enclosures and the ball forms: nothing ever gets outside."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from fractions import Fraction

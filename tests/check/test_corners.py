@@ -1,7 +1,5 @@
 """Proofs at the corners of the ranges of M's parameters decide only where M is affine in each."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest
@@ -14,7 +12,7 @@ RANGING = (((((0, 0, 1), F(1)),),),)
 """M of one joint is a parameter."""
 
 
-def test_corners_decide_only_where_m_is_affine() -> None:
+def test_corners_decide_only_where_m_is_affine():
     mass, corners = RANGING, MassAtCorners((Bisection(),) * 2)
     above = MassAbove(mass, ((F(9, 10), F(1)),), F(1, 2))
     assert verify(above, corners).verdict == "proved"

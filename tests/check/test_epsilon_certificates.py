@@ -1,19 +1,14 @@
 """Certificates of ε₀: accepted as they are written, refused when anything that matters is changed."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from lyapcheck.answers.epsilon import epsilon
 from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused
@@ -28,14 +23,14 @@ Document = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
-def pair() -> tuple[Certificate, Certificate]:
+def pair():
     """The certificates for and against, of one gain set on the two-joint arm."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[0]
     made = certificates(epsilon(gains, load("reyes-kelly2"), starts=6, max_boxes=8_000))
     return made["tau_m1.certified.json"], made["tau_m1.falsified.json"]
 
 
-def reread(certificate: Certificate, change: Callable[[Document], None] = lambda data: None) -> Certificate:
+def reread(certificate, change=lambda data: None):
     """The certificate from its text, changed by somebody who knows how to make a digest."""
     data = json.loads(certificate.text())
     change(data)
@@ -43,14 +38,14 @@ def reread(certificate: Certificate, change: Callable[[Document], None] = lambda
     return read(parse(json.dumps(data)))
 
 
-def test_both_are_accepted(pair: tuple[Certificate, Certificate]) -> None:
+def test_both_are_accepted(pair):
     certified, falsified = pair
     assert judge(reread(certified)).verdict == "proved"
     assert judge(reread(falsified)).verdict == "refuted"
 
 
 @pytest.mark.slow
-def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certificate, Certificate]) -> None:
+def test_a_proof_never_says_more_than_the_refutation_allows(pair):
     certified, falsified = pair
     moved = replace(certified, statement=falsified.statement)
     with pytest.raises(Refused):
@@ -58,7 +53,7 @@ def test_a_proof_never_says_more_than_the_refutation_allows(pair: tuple[Certific
 
 
 @pytest.mark.slow
-def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
+def test_the_command_writes_what_recheck_accepts(tmp_path):
     folder = tmp_path / "certificates"
     gains = str(paper_gain_file("table2_shoulder_elbow"))
     options = ["--m", "1", "--starts", "4", "--max-boxes", "2000", "--ranges"]
@@ -73,7 +68,7 @@ def test_the_command_writes_what_recheck_accepts(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: Path) -> None:
+def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path):
     """With one box nothing but norms or bounds in ‖e‖ is left."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
     result = epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=1, weights=False)
@@ -90,7 +85,7 @@ def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path: P
 
 
 @pytest.mark.slow
-def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> None:
+def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path):
     arm = 'title = "t"\nsource = "a test"\n[model]\nM11 = [[1, ""], [1.05, "c2"]]\nM12 = [[0.1, ""]]\n'
     arm += 'M22 = [[1, ""]]\npotential = [[-1, "c1"]]\n'
     arm += "".join(f'[[joints]]\nname = "{name}"\nviscous = 2\n' for name in "ab")
@@ -103,7 +98,7 @@ def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-def test_an_unbounded_function_has_nothing_certified() -> None:
+def test_an_unbounded_function_has_nothing_certified():
     gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
     result = epsilon(gains, load("buap3"), starts=2, max_boxes=100, weights=False)
     assert (result.certified, certificates(result)) == (None, {})
@@ -111,15 +106,15 @@ def test_an_unbounded_function_has_nothing_certified() -> None:
 
 
 def test_what_is_proved_holds_for_every_smaller_kv_and_no_larger_one(
-    pair: tuple[Certificate, Certificate],
-) -> None:
+    pair,
+):
     """K_v brakes alone: for less of it, of more than nothing, in each joint; a joint with more is refused."""
     certified = pair[0]
     stated, proof = certified.statement, certified.proof
     assert isinstance(stated, Decreasing)
     assert isinstance(proof, PositiveAndDecreasing)
 
-    def judged(kv: tuple[Fraction, ...], larger: tuple[Fraction, ...] = stated.kv) -> str:
+    def judged(kv, larger=stated.kv):
         other = replace(certified, statement=replace(stated, kv=kv), proof=LargerKv(larger, proof))
         return judge(reread(other)).verdict
 

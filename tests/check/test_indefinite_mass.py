@@ -1,7 +1,5 @@
 """An arm whose M(q) is not positive definite at some postures: nothing says that it is stable."""
 
-from pathlib import Path
-
 import pytest
 
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
@@ -43,14 +41,14 @@ torque_limit = 15
 """
 
 
-def arm(folder: Path, swing: str = "1.05") -> Path:
+def arm(folder, swing="1.05"):
     """The file of the arm."""
     path = folder / f"swing{swing}.toml"
     path.write_text(ARM.format(swing=swing), encoding="utf-8")
     return path
 
 
-def test_a_posture_refutes_that_v_decreases_as_there_m_is_not_positive_definite(tmp_path: Path) -> None:
+def test_a_posture_refutes_that_v_decreases_as_there_m_is_not_positive_definite(tmp_path):
     gains = read_gain_file(GAINS).gains[0]
     statement = decreasing(load(str(arm(tmp_path))), gains, "0.001")
     decision = propose(statement)
@@ -60,7 +58,7 @@ def test_a_posture_refutes_that_v_decreases_as_there_m_is_not_positive_definite(
 
 
 @pytest.mark.slow
-def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path: Path) -> None:
+def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path):
     gains = read_gain_file(GAINS).gains[0]
     definite = decreasing(load(str(arm(tmp_path, "0.5"))), gains, "0.001")
     decision = propose(definite)
@@ -72,7 +70,7 @@ def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path: Path) 
 
 
 @pytest.mark.slow
-def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
+def test_no_claim_says_that_the_arm_is_stable(tmp_path):
     claims = ("arm.M", "arm.C", "arm.theta", "arm.stable", "arm.states", "arm.ranges", "arms.all")
     result = run_proof("scalar.py", ms=(1,), robot=str(arm(tmp_path)), gains=GAINS, only=claims)
     outcome = {row.id: row.verdict.value for row in result.claims}
@@ -92,7 +90,7 @@ def test_no_claim_says_that_the_arm_is_stable(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path: Path) -> None:
+def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path):
     folder = tmp_path / "certificates"
     options = ["--m", "1", "--starts", "4", "--max-boxes", "100", "--certificates", str(folder)]
     run = invoke("epsilon", str(GAINS), "--robot", str(arm(tmp_path)), *options)
@@ -101,7 +99,7 @@ def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path: Path) -> Non
     assert "asymptotically stable" not in run.output
 
 
-def test_bounds_of_m_know_it(tmp_path: Path) -> None:
+def test_bounds_of_m_know_it(tmp_path):
     bounds = ArmBounds(load(str(arm(tmp_path))))
     assert propose(bounds.mass_above()).verdict.value == "refuted"
     assert propose(bounds.mass_below()).verdict.value == "proved"

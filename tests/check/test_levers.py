@@ -26,7 +26,7 @@ RANGE = (F(-1, 2), F(3, 2))
 NEAR = F(1, 10**6)
 
 
-def turned(random) -> tuple[tuple[F, ...], ...]:
+def turned(random):
     """A rotation with rational entries, of a quaternion with whole numbers."""
     a, b, c, d = (int(x) for x in random.integers(-3, 4, 4) + np.array([5, 0, 0, 0]))
     rows = (
@@ -37,11 +37,11 @@ def turned(random) -> tuple[tuple[F, ...], ...]:
     return tuple(tuple(F(x, a * a + b * b + c * c + d * d) for x in row) for row in rows)
 
 
-def vector(random) -> tuple[F, ...]:
+def vector(random):
     return tuple(F(int(x), 10) for x in random.integers(-9, 10, 3))
 
 
-def drawn(seed: int) -> tuple[tuple[RigidLink, ...], tuple[F, ...]]:
+def drawn(seed):
     """Up to three links with axes anywhere, and free fall."""
     random = np.random.default_rng(seed)
     links = (
@@ -52,11 +52,11 @@ def drawn(seed: int) -> tuple[tuple[RigidLink, ...], tuple[F, ...]]:
     return tuple(links), vector(random)
 
 
-def choices(n: int):
+def choices(n):
     return joined.from_iterable(combinations(range(n), k) for k in range(n + 1))
 
 
-def proved(statement, proof) -> bool:
+def proved(statement, proof):
     try:
         return verify(statement, proof).verdict == "proved"
     except Refused:

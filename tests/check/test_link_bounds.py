@@ -1,8 +1,5 @@
 """Proofs by bounds along the links and boxes of e: what they bound, and what they must refuse."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -13,7 +10,7 @@ import pytest
 
 from lyapcheck.answers.epsilon.forms import by_forms
 from lyapcheck.answers.epsilon.forms import proof_of as scalar_proof_of
-from lyapcheck.check.kinds.decreasing import Decreasing, PositiveAndDecreasing, statement_of
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import certifies
@@ -50,18 +47,18 @@ PINCHER = {
 
 
 @cache
-def example(name: str, m: int, ranges: bool = False) -> ControlledArm:
+def example(name, m, ranges=False):
     gains = next(item for item in read_gain_file(EXAMPLES / f"{name}_gains.toml").gains if item.m == m)
     model = load(str(EXAMPLES / f"{name}.toml"))
     return ControlledArm(gains, varied(model, RANGES) if ranges else model, ranges)
 
 
 @cache
-def proof(m: int, ranges: bool = False, share: Fraction = SHARE) -> DecreaseProof:
+def proof(m, ranges=False, share=SHARE):
     return proof_of(example("ur5", m, ranges), share * FALSIFIED[m])
 
 
-def proof_of(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof:
+def proof_of(controlled, eps0):
     bounds = link_bounds(controlled)
     assert bounds is not None
     loop = controlled.loop(F(f"{float(eps0):.6g}"))
@@ -72,24 +69,24 @@ def proof_of(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof:
     )
 
 
-def data_of(of: DecreaseProof) -> LinkBounds:
+def data_of(of):
     assert isinstance(of.by, LinkBounds)
     return of.by
 
 
-def judged(statement: Decreasing, of: DecreaseProof, by: LinkBounds) -> str:
+def judged(statement, of, by):
     return verify(statement, PositiveAndDecreasing(of.inertia, by)).verdict
 
 
 @pytest.mark.parametrize("m", but([3], [1, 2, 3]))
-def test_it_proves_half_of_what_is_refuted_with_few_boxes(m: int) -> None:
+def test_it_proves_half_of_what_is_refuted_with_few_boxes(m):
     assert judged(proof(m).statement, proof(m), data_of(proof(m))) == "proved"
     assert proof(m).boxes < 1_000
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "m"), PINCHER)
-def test_four_and_five_joints_are_as_tight_as_asked(name: str, m: int) -> None:
+def test_four_and_five_joints_are_as_tight_as_asked(name, m):
     share = F("0.95") if m == 1 else F("0.85")
     found = proof_of(example(name, m), share * PINCHER[name, m])
     assert judged(found.statement, found, data_of(found)) == "proved"
@@ -98,7 +95,7 @@ def test_four_and_five_joints_are_as_tight_as_asked(name: str, m: int) -> None:
 
 
 @pytest.mark.slow
-def test_the_scalar_epsilon_of_the_certified_k_c_has_a_certificate() -> None:
+def test_the_scalar_epsilon_of_the_certified_k_c_has_a_certificate():
     controlled = example("px100", 1)
     _, scalar, _ = by_forms(controlled)
     assert scalar.eps0 is not None
@@ -113,7 +110,7 @@ def test_the_scalar_epsilon_of_the_certified_k_c_has_a_certificate() -> None:
     assert float(scalar.eps0) * refuted < 1
 
 
-def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:
+def test_M_and_its_rates_stay_within_their_bounds_at_random_postures():
     controlled, data = example("ur5", 3), data_of(proof(3))
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (2_000, 6))
     q[:500] = np.pi / 2 * np.round(q[:500] / (np.pi / 2))
@@ -129,18 +126,18 @@ def test_M_and_its_rates_stay_within_their_bounds_at_random_postures() -> None:
 
 
 @pytest.mark.slow
-def test_what_is_refuted_is_not_proved() -> None:
+def test_what_is_refuted_is_not_proved():
     for m in (1, 2, 3):
         loop = replace(proof(m).loop, eps0=FALSIFIED[m])
         with pytest.raises(Refused):
             judged(statement_of(loop), proof(m), data_of(proof(m)))
 
 
-def cheaper(prices: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+def cheaper(prices):
     return tuple(x * F(9, 10) for x in prices)
 
 
-def too_small(data: LinkBounds) -> LinkBounds:
+def too_small(data):
     rising, falling = (
         (replace(bounds[0], prices=cheaper(data.rising[0].prices)), *bounds[1:])
         for bounds in (data.rising, data.falling)
@@ -148,12 +145,12 @@ def too_small(data: LinkBounds) -> LinkBounds:
     return replace(data, rising=rising, falling=falling)
 
 
-def heavier(data: LinkBounds) -> LinkBounds:
+def heavier(data):
     links = data.arms[0]
     return replace(data, arms=((*links[:-1], replace(links[-1], mass=links[-1].mass * 2)),))
 
 
-FAULTS: dict[str, Callable[[LinkBounds], LinkBounds]] = {
+FAULTS = {
     "U too small": lambda d: replace(d, inertia=replace(d.inertia, prices=cheaper(d.inertia.prices))),
     "Q too small": too_small,
     "Q of one sign only": lambda d: replace(d, rising=too_small(d).rising),
@@ -171,19 +168,19 @@ FAULTS: dict[str, Callable[[LinkBounds], LinkBounds]] = {
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_planted_faults_are_refused(name: str) -> None:
+def test_planted_faults_are_refused(name):
     found = proof(3)
     with pytest.raises(Refused):
         judged(found.statement, found, FAULTS[name](data_of(found)))
 
 
-def test_a_tree_that_is_none_is_refused() -> None:
+def test_a_tree_that_is_none_is_refused():
     found, data = proof(3), data_of(proof(3))
     with pytest.raises((Refused, BrokenTree)):
         judged(found.statement, found, replace(data, tree="7" + data.tree[1:]))
 
 
-def test_other_numbers_than_those_shown_are_refused() -> None:
+def test_other_numbers_than_those_shown_are_refused():
     found = proof(3)
     loop = found.loop
     assert judged(found.statement, found, data_of(found)) == "proved"
@@ -195,7 +192,7 @@ def test_other_numbers_than_those_shown_are_refused() -> None:
 
 
 @pytest.mark.slow
-def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -> None:
+def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm():
     # 0.518 is refuted at one corner
     found = proof(1, ranges=True, share=F("0.405"))
     assert found.loop.eps0 > F("0.97") * F("0.518")
@@ -217,7 +214,7 @@ def test_ranges_of_friction_and_payload_are_proved_by_the_corners_of_the_arm() -
 
 
 @pytest.mark.slow
-def test_ranges_of_friction_alone_are_proved_by_the_links() -> None:
+def test_ranges_of_friction_alone_are_proved_by_the_links():
     controlled = example("px100", 1)
     friction = replace(controlled, model=varied(controlled.model, RANGES[:1]), ranges=True)
     assert unphysical(friction) == ""

@@ -1,7 +1,5 @@
 """Definiteness: exact over ℚ against an independent criterion, and never claimed in balls without proof."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations
 
@@ -10,7 +8,7 @@ from flint import arb, fmpq, fmpq_mat
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 
 Rows = list[list[Fraction]]
@@ -19,14 +17,14 @@ HILBERT = [[Fraction(1, i + j + 1) for j in range(8)] for i in range(8)]
 
 
 @st.composite
-def symmetric(draw: st.DrawFn, size: int = 4) -> Rows:
+def symmetric(draw, size=4):
     n = draw(st.integers(1, size))
     upper = {(i, j): draw(numbers) for i in range(n) for j in range(i, n)}
     return [[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)]
 
 
 @st.composite
-def gram(draw: st.DrawFn) -> tuple[Rows, int]:
+def gram(draw):
     """GᵀG with its rank: positive semidefinite, often singular."""
     n, k = draw(st.integers(1, 4)), draw(st.integers(0, 4))
     G = [[draw(numbers) for _ in range(n)] for _ in range(k)]
@@ -34,33 +32,33 @@ def gram(draw: st.DrawFn) -> tuple[Rows, int]:
     return product, _exact(product).rank()
 
 
-def _exact(rows: Rows) -> fmpq_mat:
+def _exact(rows):
     n = len(rows)
     return fmpq_mat(n, n, [fmpq(x.numerator, x.denominator) for row in rows for x in row])
 
 
-def _minor(rows: Rows, chosen: tuple[int, ...]) -> fmpq:
+def _minor(rows, chosen):
     return _exact([[rows[i][j] for j in chosen] for i in chosen]).det()
 
 
-def _definite(rows: Rows) -> bool:
+def _definite(rows):
     """By leading minors."""
     return all(_minor(rows, tuple(range(k + 1))) > 0 for k in range(len(rows)))
 
 
-def _balls(rows: Rows) -> list[list[arb]]:
+def _balls(rows):
     return [[arb(fmpq(x.numerator, x.denominator)) for x in row] for row in rows]
 
 
 @given(symmetric())
-def test_semidefinite_exactly_when_all_principal_minors_are_nonnegative(rows: Rows) -> None:
+def test_semidefinite_exactly_when_all_principal_minors_are_nonnegative(rows):
     n = len(rows)
     chosen = [c for k in range(1, n + 1) for c in combinations(range(n), k)]
     assert is_positive_semidefinite(rows) == all(_minor(rows, c) >= 0 for c in chosen)
 
 
 @given(gram())
-def test_gram_matrices_are_semidefinite(case: tuple[Rows, int]) -> None:
+def test_gram_matrices_are_semidefinite(case):
     rows, rank = case
     assert is_positive_semidefinite(rows)
     assert _definite(rows) == (rank == len(rows))
@@ -68,23 +66,23 @@ def test_gram_matrices_are_semidefinite(case: tuple[Rows, int]) -> None:
 
 @given(symmetric())
 @pytest.mark.parametrize("of", [BALLS, SPANS])
-def test_enclosures_never_prove_what_is_false(of: Arithmetic, rows: Rows) -> None:
+def test_enclosures_never_prove_what_is_false(of, rows):
     result = of.positive_definite([[of.value(x) for x in row] for row in _balls(rows)])
     assert not result or _definite(rows)
 
 
-def test_a_barely_semidefinite_matrix_is_decided_exactly() -> None:
+def test_a_barely_semidefinite_matrix_is_decided_exactly():
     one, tiny = Fraction(1), Fraction(1, 10**40)
     assert is_positive_semidefinite([[one, one], [one, one]])
     assert not is_positive_semidefinite([[one, one], [one, one - tiny]])
 
 
-def test_hilbert_matrices_are_definite_both_ways() -> None:
+def test_hilbert_matrices_are_definite_both_ways():
     assert is_positive_semidefinite(HILBERT)
     assert BALLS.positive_definite(_balls(HILBERT))
 
 
-def test_wide_or_undefined_balls_prove_nothing() -> None:
+def test_wide_or_undefined_balls_prove_nothing():
     nan, wide = arb("nan"), arb(1, 2)
     assert not BALLS.positive_definite([[nan]])
     assert not BALLS.positive_definite([[wide]])

@@ -1,7 +1,5 @@
 """Certificates of kinds and rules that were removed are refused with the version that reads them."""
 
-from __future__ import annotations
-
 import pytest
 
 from lyapcheck.check.certificate import judged

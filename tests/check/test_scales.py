@@ -1,7 +1,5 @@
 """Asymptotic sums contain the function they stand for, and their sign is that of the function."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -9,10 +7,9 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.check.expressions.expression import Tree, ball, evaluate
+from lyapcheck.check.expressions.expression import ball, evaluate
 from lyapcheck.check.expressions.scales import Asymptotic, ScaleAlgebra, X, exactly, sign_beside, sign_from
 from lyapcheck.claims import (
-    Expr,
     atan,
     cos,
     cosh,
@@ -68,12 +65,12 @@ GROWING = {
 }
 
 
-def as_scale(tree: Tree, start: Fraction = START) -> Asymptotic:
-    value: Asymptotic = evaluate(tree, {"x": Asymptotic(((X, exactly(1)),), start)}, ScaleAlgebra(start))
+def as_scale(tree, start=START):
+    value = evaluate(tree, {"x": Asymptotic(((X, exactly(1)),), start)}, ScaleAlgebra(start))
     return value
 
 
-def at(function: Asymptotic, point: arb) -> arb:
+def at(function, point):
     """Σ c e^{ax} x^b (ln x)^j at a point."""
     log_x = point.log()
     return sum(
@@ -85,14 +82,14 @@ def at(function: Asymptotic, point: arb) -> arb:
     )
 
 
-def number(value: Fraction) -> arb:
+def number(value):
     return arb(value.numerator) / value.denominator
 
 
 @pytest.mark.parametrize("name", one_in(3, GROWING))
 @settings(max_examples=12)
 @given(st.fractions(min_value=START, max_value=60, max_denominator=50))
-def test_an_asymptotic_sum_contains_its_function(name: str, point: Fraction) -> None:
+def test_an_asymptotic_sum_contains_its_function(name, point):
     tree = GROWING[name].tree
     with ctx.workprec(160):
         sum_there, value = at(as_scale(tree), number(point)), ball(tree, {"x": number(point)})
@@ -101,7 +98,7 @@ def test_an_asymptotic_sum_contains_its_function(name: str, point: Fraction) -> 
 
 
 @pytest.mark.parametrize("name", GROWING)
-def test_most_of_them_are_tight(name: str) -> None:
+def test_most_of_them_are_tight(name):
     """Apart from a sine of what grows, the enclosure at a large point is far smaller than the value."""
     with ctx.workprec(160):
         there = at(as_scale(GROWING[name].tree, Fraction(40)), arb(50))
@@ -109,7 +106,7 @@ def test_most_of_them_are_tight(name: str) -> None:
         assert wide or float(there.rad()) < 1e-6 * abs(float(there.mid())), there
 
 
-SIGNS: dict[str, tuple[Expr, int]] = {
+SIGNS = {
     "x − ln x": (x - log(x), 1),
     "equal to second order": (sqrt(x**2 + 1) - x - 1 / (2 * x), -1),
     "π/2 cancels": (pi / 2 - atan(x), 1),
@@ -127,20 +124,20 @@ SIGNS: dict[str, tuple[Expr, int]] = {
 
 
 @pytest.mark.parametrize("name", SIGNS)
-def test_signs_far_out(name: str) -> None:
+def test_signs_far_out(name):
     tree, sign = SIGNS[name]
     result = [sign_from(tree.tree, "x", Fraction(2**k)) for k in range(1, 20)]
     assert set(result) <= {0, sign}
     assert result[-1] == sign
 
 
-def test_a_sign_is_not_claimed_before_the_last_change_of_it() -> None:
+def test_a_sign_is_not_claimed_before_the_last_change_of_it():
     """x² − 100 x + 1 is negative up to nearly 100; exp(x) − x⁴⁰ up to about 200."""
     for tree, change in (((x**2 - 100 * x + 1).tree, 100), ((exp(x) - x**40).tree, 200)):
         assert all(sign_from(tree, "x", Fraction(start)) == 0 for start in range(2, change - 10, 7))
 
 
-BESIDE: dict[str, tuple[Expr, Fraction, int, int]] = {
+BESIDE = {
     "sinh x / x − 1": (sinh(x) / x - 1, Fraction(0), 1, 1),
     "x ln x": (x * log(x), Fraction(0), 1, -1),
     "√x − x": (sqrt(x) - x, Fraction(0), 1, 1),
@@ -159,14 +156,14 @@ BESIDE: dict[str, tuple[Expr, Fraction, int, int]] = {
 
 
 @pytest.mark.parametrize("name", BESIDE)
-def test_signs_beside_a_point(name: str) -> None:
+def test_signs_beside_a_point(name):
     tree, point, side, sign = BESIDE[name]
     result = [sign_beside(tree.tree, "x", point, side * Fraction(1, 2**k)) for k in range(1, 14)]
     assert set(result) <= {0, sign}
     assert result[-1] == sign
 
 
-def test_what_is_undefined_at_0_is_not_positive_there() -> None:
+def test_what_is_undefined_at_0_is_not_positive_there():
     """Its sign right of 0 is known, and no proof for a domain with 0 in it."""
     assert sign_beside((sinh(x) / x).tree, "x", Fraction(0), Fraction(1, 4)) > 0
     verdicts = [
@@ -176,7 +173,7 @@ def test_what_is_undefined_at_0_is_not_positive_there() -> None:
     assert verdicts == ["undecided", "proved", "proved"]
 
 
-def test_a_divisor_that_vanishes_is_not_cancelled() -> None:
+def test_a_divisor_that_vanishes_is_not_cancelled():
     """Signs are those of lowest terms; that a value is there at all is judged beside them."""
     verdicts = [
         propose(for_all(expr(0) < quotient, 0, open_low=open_low)).verdict.value

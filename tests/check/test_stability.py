@@ -1,13 +1,10 @@
 """The checker of global certificates: trees of boxes, P in balls, tail, symmetry, and what it must refuse."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Span
+from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Span
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.field import Box, BrokenTree, halves, leaves
+from lyapcheck.check.loop.field import BrokenTree, halves, leaves
 from lyapcheck.check.loop.proof import proves, proves_part
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.loop.states import State, rate
@@ -27,7 +24,7 @@ from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -45,17 +42,17 @@ GAINS = {
 CASES = [(robot, index) for robot in GAINS for index in range(3)]
 
 
-def loop(robot: str, index: int, eps0: Fraction = TENTH) -> ClosedLoop:
+def loop(robot, index, eps0=TENTH):
     gains = GAINS[robot][index]
     return ClosedLoop(ControlledArm(gains, load(robot)).arm, gains.family, gains.m, gains.kp, gains.kv, eps0)
 
 
-def exact_schur(robot: str, index: int, eps0: float, q: Array, e: Array) -> Array:
+def exact_schur(robot, index, eps0, q, e):
     """P at one state of a built-in arm."""
     return schur_of(load(robot), GAINS[robot][index], eps0, q, e)
 
 
-def schur_of(arm: RobotModel, gains: GainSet, eps0: float, q: Array, e: Array) -> Array:
+def schur_of(arm, gains, eps0, q, e):
     """P at one state, by NumPy from the definition and the numeric model."""
     model, family = NumericModel(arm), named(gains.family, gains.m)
     h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
@@ -69,7 +66,7 @@ def schur_of(arm: RobotModel, gains: GainSet, eps0: float, q: Array, e: Array) -
 
 
 @pytest.mark.parametrize(("robot", "index"), one_in(4, CASES))
-def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> None:
+def test_P_over_a_box_holds_P_of_every_state_in_it(robot, index):
     case = loop(robot, index)
     generator = np.random.default_rng(index)
     joints, angles = range(case.n), case.angles
@@ -93,7 +90,7 @@ def test_P_over_a_box_holds_P_of_every_state_in_it(robot: str, index: int) -> No
 
 
 @pytest.mark.parametrize(("robot", "index"), CASES)
-def test_P_positive_definite_means_that_V_falls_for_every_rate(robot: str, index: int) -> None:
+def test_P_positive_definite_means_that_V_falls_for_every_rate(robot, index):
     """The reduction itself, against the checker's independent dV/dt in balls."""
     case, gains = loop(robot, index, F(1, 2)), GAINS[robot][index]
     controlled = ControlledArm(gains, load(robot))
@@ -111,12 +108,12 @@ def test_P_positive_definite_means_that_V_falls_for_every_rate(robot: str, index
     assert shown or robot == "buap3"
 
 
-def grown(case: ClosedLoop, deepest: int) -> str:
+def grown(case, deepest):
     """A tree by plain halving, side after side, as far as the checker's own evaluator needs."""
     with precision(64):
         evaluator = Evaluator(case, BALLS)
 
-        def grow(box: Box, depth: int) -> str:
+        def grow(box, depth):
             if depth == deepest or evaluator.proves(box):
                 return "."
             side = max(range(len(box)), key=lambda i: box[i][1] - box[i][0])
@@ -126,7 +123,7 @@ def grown(case: ClosedLoop, deepest: int) -> str:
 
 
 @pytest.mark.parametrize("index", [0, 1, 2])
-def test_a_pendulum_is_proved_below_its_limit_and_refused_above(index: int) -> None:
+def test_a_pendulum_is_proved_below_its_limit_and_refused_above(index):
     """At e → 0 (m = 1), and at the peak of h' (m > 1), P is B − ε₀ρJ/(1+r) less a little."""
     arm = loop("pendulum1", index).arm
     inertia, friction = float(sum(c for _, c in arm.mass[0][0])), float(arm.viscous[0])
@@ -139,7 +136,7 @@ def test_a_pendulum_is_proved_below_its_limit_and_refused_above(index: int) -> N
 
 
 @pytest.mark.slow
-def test_two_joints_are_proved_at_99_percent_and_refused_just_above_the_falsified() -> None:
+def test_two_joints_are_proved_at_99_percent_and_refused_just_above_the_falsified():
     case = loop("reyes-kelly2", 0, F("0.802"))
     tree = grown(case, 40)
     assert proves(case, tree)
@@ -148,7 +145,7 @@ def test_two_joints_are_proved_at_99_percent_and_refused_just_above_the_falsifie
 
 
 @pytest.mark.parametrize("index", [0, 1, 2])
-def test_a_tree_for_one_eps0_does_not_prove_a_larger_one(index: int) -> None:
+def test_a_tree_for_one_eps0_does_not_prove_a_larger_one(index):
     case = loop("pendulum1", index, F(1, 10))
     assert not proves(replace(case, eps0=F(1000)), grown(case, 8))
 
@@ -164,13 +161,13 @@ def test_a_tree_for_one_eps0_does_not_prove_a_larger_one(index: int) -> None:
         ("kp", (F(1, 10**9),)),
     ],
 )
-def test_inadmissible_data_prove_nothing(change: str, value: object) -> None:
+def test_inadmissible_data_prove_nothing(change, value):
     case = loop("pendulum1", 0, F(1, 1000))
     assert proves(case, ".")
     assert not proves(replace(case, **{change: value}), ".")
 
 
-def test_an_asymmetric_or_negative_arm_proves_nothing() -> None:
+def test_an_asymmetric_or_negative_arm_proves_nothing():
     case = loop("reyes-kelly2", 0, F(1, 10**6))
     assert proves(case, ".")
     (a, b), (_, d) = case.arm.mass
@@ -179,12 +176,12 @@ def test_an_asymmetric_or_negative_arm_proves_nothing() -> None:
 
 
 @pytest.mark.parametrize("tree", ["", "0", "0.", "..", "9..", "x..", "0...", "-.."])
-def test_broken_trees_are_refused(tree: str) -> None:
+def test_broken_trees_are_refused(tree):
     with pytest.raises(BrokenTree):
         list(leaves(((0.0, 1.0), (0.0, 1.0)), tree))
 
 
-def test_an_unknown_function_is_refused() -> None:
+def test_an_unknown_function_is_refused():
     case = loop("pendulum1", 0)
     for family, m in (("hyperbolic", None), ("hyperbolic", 0), ("tanh", 1), ("linear", None), ("sine", 2)):
         with pytest.raises(ValueError, match=r"no bounded|has no member"):
@@ -192,7 +189,7 @@ def test_an_unknown_function_is_refused() -> None:
 
 
 @st.composite
-def trees(draw: st.DrawFn, sides: int = 3, depth: int = 6) -> str:
+def trees(draw, sides=3, depth=6):
     if depth == 0 or draw(st.booleans()):
         return "."
     side = draw(st.integers(0, sides - 1))
@@ -200,7 +197,7 @@ def trees(draw: st.DrawFn, sides: int = 3, depth: int = 6) -> str:
 
 
 @given(trees(), st.lists(st.floats(-1, 1), min_size=3, max_size=3))
-def test_leaves_cover_the_start(tree: str, point: list[float]) -> None:
+def test_leaves_cover_the_start(tree, point):
     boxes = list(leaves(((-1.0, 1.0),) * 3, tree))
     assert any(all(low <= x <= high for x, (low, high) in zip(point, box, strict=True)) for box in boxes)
     volume = sum(np.prod([high - low for low, high in box]) for box in boxes)
@@ -208,13 +205,13 @@ def test_leaves_cover_the_start(tree: str, point: list[float]) -> None:
 
 
 @pytest.mark.parametrize("robot", ["buap3", "buap3-small", "reyes-kelly2", "pelican2"])
-def test_harmonics_and_symbols_agree_with_the_numeric_model(robot: str) -> None:
+def test_harmonics_and_symbols_agree_with_the_numeric_model(robot):
     model = load(robot)
     arm = ControlledArm(GainSet("a", 1, (F(1),) * model.n, (F(1),) * model.n), model).arm
     mass = [[harmonics(entry, model.n) for entry in row] for row in arm.mass]
     q = np.random.default_rng(3).uniform(-3, 3, model.n)
 
-    def value(terms: dict[tuple[int, ...], tuple[Fraction, Fraction]]) -> float:
+    def value(terms):
         angle = {k: float(np.dot(k, q)) for k in terms}
         return sum(float(a) * np.cos(angle[k]) + float(b) * np.sin(angle[k]) for k, (a, b) in terms.items())
 
@@ -228,14 +225,14 @@ def test_harmonics_and_symbols_agree_with_the_numeric_model(robot: str) -> None:
     assert np.allclose(C, numeric.coriolis(q, h), atol=1e-13)
 
 
-def test_a_mirror_turned_twice_is_no_mirror_and_slopes_follow() -> None:
+def test_a_mirror_turned_twice_is_no_mirror_and_slopes_follow():
     terms = {(1, -2): (F(1), F(2)), (0, 1): (F(0), F(3))}
     assert mirrored(mirrored(terms, (-1, 1)), (-1, 1)) == terms
     assert derivative(terms, 1) == {(1, -2): (F(-4), F(2)), (0, 1): (F(3), F(0))}
 
 
 @pytest.mark.parametrize("arithmetic", [BALLS, SPANS], ids=["balls", "spans"])
-def test_P_over_ranges_holds_P_of_every_arm_in_them(arithmetic: Arithmetic) -> None:
+def test_P_over_ranges_holds_P_of_every_arm_in_them(arithmetic):
     model, gains = load("buap3"), GAINS["buap3"][1]
     case = ControlledArm(gains, model, ranges=True).loop(TENTH)
     generator = np.random.default_rng(5)
@@ -258,7 +255,7 @@ def test_P_over_ranges_holds_P_of_every_arm_in_them(arithmetic: Arithmetic) -> N
                         assert float(entry.low) - 1e-12 <= exact[i, j] <= float(entry.high) + 1e-12
 
 
-def at_random(model: RobotModel, values: list[float]) -> RobotModel:
+def at_random(model, values):
     """The arm with its uncertain numbers, parameters first and then friction, at given values."""
     exact = iter(F(value) for value in values)
     parameters = {name: replace(x, value=next(exact)) for name, x in model.parameters.items()}
@@ -266,7 +263,7 @@ def at_random(model: RobotModel, values: list[float]) -> RobotModel:
     return replace(model, parameters=parameters, viscous=viscous)
 
 
-def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
+def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them():
     gains, model = GAINS["buap3"][1], load("buap3")
     case = ControlledArm(gains, model, ranges=True).loop(F("0.055"))
     outcome = certify(SchurProblem(case), 20_000)
@@ -276,7 +273,7 @@ def test_a_proof_over_ranges_is_a_proof_for_each_arm_in_them() -> None:
     assert not proves(replace(case, parameters=((F(1), F(90)), *case.parameters[1:])), outcome.tree)
 
 
-def test_reversed_or_missing_ranges_prove_nothing() -> None:
+def test_reversed_or_missing_ranges_prove_nothing():
     case = ControlledArm(GAINS["buap3"][0], load("buap3"), ranges=True).loop(F(1, 10**9))
     assert proves(case, ".")
     low, high = case.parameters[0]
@@ -288,7 +285,7 @@ numbers = st.floats(-1e3, 1e3)
 
 
 @given(numbers, numbers, numbers, numbers, st.floats(0, 1), st.floats(0, 1))
-def test_spans_hold_what_they_should(a: float, b: float, c: float, d: float, s: float, t: float) -> None:
+def test_spans_hold_what_they_should(a, b, c, d, s, t):
     first, second = (Span(arb(min(ends)), arb(max(ends))) for ends in ((a, b), (c, d)))
     x, y = F(a) + F(s) * (F(b) - F(a)), F(c) + F(t) * (F(d) - F(c))
     results = [(first + second, x + y), (first - second, x - y), (first * second, x * y)]
@@ -299,7 +296,7 @@ def test_spans_hold_what_they_should(a: float, b: float, c: float, d: float, s: 
         assert dyadic(span.low) <= exact <= dyadic(span.high)
 
 
-def test_undefined_spans_are_not_positive() -> None:
+def test_undefined_spans_are_not_positive():
     wide = Span(arb(1), arb(1)) / Span(arb(-1), arb(1))
     assert not wide.positive
     assert not (wide - wide).positive
@@ -307,7 +304,7 @@ def test_undefined_spans_are_not_positive() -> None:
 
 
 @pytest.mark.slow
-def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path: Path) -> None:
+def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path):
     """The processes import what they need and do not run the script again."""
     script = tmp_path / "script.py"
     script.write_text(

@@ -1,7 +1,5 @@
 """V and dV/dt in balls at exact states: against differences along the motion, and against planted faults."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 
@@ -39,11 +37,11 @@ pairs = st.tuples(fractions, fractions)
 states = st.builds(State, pairs, pairs, pairs)
 
 
-def controller(m: int) -> Controller:
+def controller(m):
     return Controller(member("hyperbolic", m), *GAINS)
 
 
-def printed_acceleration(m: int, state: State) -> list[arb]:
+def printed_acceleration(m, state):
     """ẇ of (11) with C as the source prints it, and M inverted by hand."""
     q2, (e, w) = to_arb(state.q[1]), ([to_arb(x) for x in part] for part in (state.e, state.w))
     f, (kp, kv) = member("hyperbolic", m), ([to_arb(k) for k in gains] for gains in GAINS)
@@ -57,18 +55,18 @@ def printed_acceleration(m: int, state: State) -> list[arb]:
     return [(d * force[0] - b * force[1]) / (a * d - b * b), (a * force[1] - b * force[0]) / (a * d - b * b)]
 
 
-def exactly(x: arb) -> Fraction:
+def exactly(x):
     mantissa, exponent = x.mid().man_exp()
     return F(int(mantissa)) * F(2) ** int(exponent)
 
 
 @given(st.sampled_from([1, 2, 3]), states, st.fractions(F(1, 20), 2, max_denominator=20))
-def test_rate_is_the_slope_of_v_along_the_motion(m: int, state: State, eps0: Fraction) -> None:
+def test_rate_is_the_slope_of_v_along_the_motion(m, state, eps0):
     step = F(1, 10**20)
     with precision(512):
         acceleration = [exactly(a) for a in printed_acceleration(m, state)]
 
-    def moved(dt: Fraction) -> State:
+    def moved(dt):
         return State(
             tuple(q + dt * w for q, w in zip(state.q, state.w, strict=True)),
             tuple(e - dt * w for e, w in zip(state.e, state.w, strict=True)),
@@ -83,20 +81,20 @@ def test_rate_is_the_slope_of_v_along_the_motion(m: int, state: State, eps0: Fra
 
 
 @given(st.sampled_from([1, 2, 5]), states)
-def test_more_precision_refines_the_same_number(m: int, state: State) -> None:
+def test_more_precision_refines_the_same_number(m, state):
     wide, narrow = (rate(ARM, controller(m), F(1, 2), state, bits) for bits in (64, 300))
     assert wide.overlaps(narrow)
     assert narrow.rad() < arb("1e-40")
 
 
 @given(states, st.fractions(0, 2, max_denominator=20))
-def test_mirrored_state_has_the_same_rate(state: State, eps0: Fraction) -> None:
+def test_mirrored_state_has_the_same_rate(state, eps0):
     """M is even in q, so the mirror image of a motion is a motion; turning e and w alone is not."""
     turned = State(*(tuple(-x for x in part) for part in (state.q, state.e, state.w)))
     assert rate(ARM, controller(2), eps0, state).overlaps(rate(ARM, controller(2), eps0, turned))
 
 
-def test_value_and_rate_vanish_at_the_origin() -> None:
+def test_value_and_rate_vanish_at_the_origin():
     origin = State((F(1), F(2)), (F(0), F(0)), (F(0), F(0)))
     assert origin.at_origin
     assert value(ARM, controller(1), F(1, 2), origin).contains(0)
@@ -104,7 +102,7 @@ def test_value_and_rate_vanish_at_the_origin() -> None:
     assert not confirms_positive(ARM, controller(1), F(1, 2), origin)
 
 
-def test_rate_at_rest_is_the_pull_of_the_gains() -> None:
+def test_rate_at_rest_is_the_pull_of_the_gains():
     """w = 0: dV/dt = −ε hᵀK_p h, by hand with tanh and e = (1, 0)."""
     with precision(128):
         h = arb(1).tanh()
@@ -114,7 +112,7 @@ def test_rate_at_rest_is_the_pull_of_the_gains() -> None:
         assert result < 0
 
 
-def test_fast_state_at_zero_error_by_hand() -> None:
+def test_fast_state_at_zero_error_by_hand():
     """e = 0, m = 1: dV/dt = −wᵀBw − wᵀK_v tanh(w) + ε₀ wᵀMw."""
     state = State((F(0), F(0)), (F(0), F(0)), (F(10), F(20)))
     with precision(128):
@@ -127,12 +125,12 @@ def test_fast_state_at_zero_error_by_hand() -> None:
 @pytest.mark.parametrize(
     ("eps0", "confirmed"), [("0.9", True), ("0.82", True), ("0.80", False), ("0", False), ("-1", False)]
 )
-def test_fast_state_confirms_only_above_the_threshold(eps0: str, confirmed: bool) -> None:
+def test_fast_state_confirms_only_above_the_threshold(eps0, confirmed):
     state = State((F(0), F(0)), (F(0), F(0)), (F("522229.112"), F("852805.227")))
     assert confirms_positive(ARM, controller(1), F(eps0), state) is confirmed
 
 
-def test_tampered_state_is_refused() -> None:
+def test_tampered_state_is_refused():
     good = State((F(0), F(0)), (F(0), F(0)), (F("522229.112"), F("852805.227")))
     assert confirms_positive(ARM, controller(1), F("0.811"), good)
     for bad in (
@@ -145,13 +143,13 @@ def test_tampered_state_is_refused() -> None:
         assert not confirms_positive(ARM, controller(1), F("0.811"), bad)
 
 
-def test_a_nan_never_confirms() -> None:
+def test_a_nan_never_confirms():
     broken = Functions(lambda x: arb("nan"), lambda x: arb("nan"), lambda x: arb("nan"))
     state = State((F(0), F(0)), (F(1), F(0)), (F(1), F(1)))
     assert not confirms_positive(ARM, Controller(broken, *GAINS), F(100), state)
 
 
-def test_gains_per_degree_count_as_180_over_pi_per_radian() -> None:
+def test_gains_per_degree_count_as_180_over_pi_per_radian():
     state = State((F(0), F(0)), (F(1), F(0)), (F(0), F(0)))
     degrees = rate(ARM, Controller(LINEAR, *GAINS, per_degree=True), F(1), state)
     radians = rate(ARM, Controller(LINEAR, *GAINS), F(1), state)
@@ -159,13 +157,13 @@ def test_gains_per_degree_count_as_180_over_pi_per_radian() -> None:
         assert degrees.overlaps(radians * 180 / arb.pi())
 
 
-def test_precision_is_put_back() -> None:
+def test_precision_is_put_back():
     before = ctx.prec
     rate(ARM, controller(1), F(1), State((F(0), F(0)), (F(1), F(0)), (F(0), F(1))), 300)
     assert ctx.prec == before
 
 
-def test_slope_of_a_term_by_hand() -> None:
+def test_slope_of_a_term_by_hand():
     """d/dq₁ of 3 s1² c1 c2 = 3 (2 s1 c1² − s1³) c2."""
     q = [arb("0.3"), arb("1.1")]
     s, c = [x.sin() for x in q], [x.cos() for x in q]

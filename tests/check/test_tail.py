@@ -1,7 +1,5 @@
 """The scalar form beyond a radius: below −dV/dt at every state, whatever the gains."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 
@@ -10,7 +8,7 @@ from flint import arb
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop, ScalarForm, certifies
+from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
@@ -25,10 +23,10 @@ CASES = {
 }
 
 
-def drawn(case: ControlledArm, random: np.random.Generator) -> ClosedLoop:
+def drawn(case, random):
     """The loop with gains, friction and ε₀ over decades."""
 
-    def numbers(low: float, high: float) -> tuple[Fraction, ...]:
+    def numbers(low, high):
         return tuple(F(float(x)) for x in 10 ** random.uniform(low, high, case.loop(F(1)).n))
 
     low, more = numbers(-2, 2), numbers(-3, 1)
@@ -38,7 +36,7 @@ def drawn(case: ControlledArm, random: np.random.Generator) -> ClosedLoop:
 
 
 @given(st.sampled_from(sorted(CASES)), st.integers(0, 10**6))
-def test_it_is_below_minus_dV_at_any_state(name: tuple[str, int], seed: int) -> None:
+def test_it_is_below_minus_dV_at_any_state(name, seed):
     """By the chain rule in balls at exact states, many of them with one joint alone away from 0."""
     case, random = CASES[name], np.random.default_rng(seed)
     loop, n = drawn(case, random), case.loop(F(1)).n
@@ -65,9 +63,7 @@ def test_it_is_below_minus_dV_at_any_state(name: tuple[str, int], seed: int) -> 
 
 
 @given(*[st.fractions(F(1, 1000), 1000) for _ in range(4)], st.fractions(F(1, 1000), 1000))
-def test_what_certifies_is_positive_definite_at_every_smaller_eps(
-    k: Fraction, beta: Fraction, c: Fraction, d: Fraction, eps0: Fraction
-) -> None:
+def test_what_certifies_is_positive_definite_at_every_smaller_eps(k, beta, c, d, eps0):
     form = ScalarForm(k, beta, c, d)
     assume(certifies(form, eps0))
     for share in (F(1), F(9, 10), F(1, 2), F(1, 100)):

@@ -1,11 +1,8 @@
 """Weights Λ in y = w − εΛh: what is proved with them, and what is refused."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,9 +21,8 @@ from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.branch_and_bound import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.weights import Effort, Weighted, weighted_epsilon
+from lyapcheck.search.weights import Effort, weighted_epsilon
 from lyapcheck.search.worst_states import resisting_program
 from tests.helpers.shares import one_in
 
@@ -35,18 +31,18 @@ CERTIFIED = {0: F("0.802"), 1: F("0.917"), 2: F("0.629")}
 """What is proved with Λ = I on the two-joint arm."""
 
 
-def controlled(index: int) -> ControlledArm:
+def controlled(index):
     return ControlledArm(
         read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[index], load("reyes-kelly2")
     )
 
 
 @cache
-def weighted(index: int) -> Weighted:
+def weighted(index):
     return weighted_epsilon(controlled(index), certified(index), Effort(boxes=60_000))
 
 
-def certified(index: int, share: str = "1") -> DecreaseProof:
+def certified(index, share="1"):
     """The proof with Λ = I for a share of what is known."""
     case = controlled(index)
     loop = case.loop(CERTIFIED[index] * F(share))
@@ -58,14 +54,14 @@ def certified(index: int, share: str = "1") -> DecreaseProof:
 
 
 @pytest.mark.parametrize("index", one_in(3, [0, 1, 2]))
-def test_some_joint_gains_much_and_the_product_grows(index: int) -> None:
+def test_some_joint_gains_much_and_the_product_grows(index):
     result = weighted(index)
     assert max(result.products) > F(13, 10) * CERTIFIED[index]
     assert np.prod([float(x) for x in result.products]) > float(CERTIFIED[index]) ** 2
     assert min(result.proof.loop.Lambda) == 1
 
 
-def test_the_identity_is_the_answer_where_nothing_better_is_accepted() -> None:
+def test_the_identity_is_the_answer_where_nothing_better_is_accepted():
     identity = certified(0, "1/2")
     result = weighted_epsilon(controlled(0), identity, Effort(turns=1, boxes=0))
     assert result.proof is identity
@@ -73,7 +69,7 @@ def test_the_identity_is_the_answer_where_nothing_better_is_accepted() -> None:
     assert "the budget of boxes is spent" in result.reason
 
 
-def test_casadi_finds_where_weights_fail_worse_than_samples_do() -> None:
+def test_casadi_finds_where_weights_fail_worse_than_samples_do():
     """P at the ends of the climb, from the definition of S; some starts are moved to smaller eigenvalues."""
     case, weights = controlled(0), np.array([0.9, 1.5])
     program, random = resisting_program(case), np.random.default_rng(5)
@@ -84,7 +80,7 @@ def test_casadi_finds_where_weights_fail_worse_than_samples_do() -> None:
     assert (after < before - 0.05).any()
 
 
-def least(case: ControlledArm, weights: np.ndarray, row: np.ndarray) -> float:
+def least(case, weights, row):
     """λmin(B^−½ P B^−½) at (q, e), written out once more."""
     q, e, B = row[:2], row[2:4], np.diag(NumericModel(case.model).viscous)
     family, model, r = case.family, NumericModel(case.model), float(np.linalg.norm(row[2:4]))
@@ -97,7 +93,7 @@ def least(case: ControlledArm, weights: np.ndarray, row: np.ndarray) -> float:
     return float(np.linalg.eigvalsh(P / np.outer(root, root))[0])
 
 
-def test_P_over_boxes_holds_P_with_weights() -> None:
+def test_P_over_boxes_holds_P_with_weights():
     case, loop = controlled(0), weighted(0).proof.loop
     model, family = NumericModel(case.model), named("hyperbolic", 1)
     scale, eps0 = np.array([float(x) for x in loop.Lambda]), float(loop.eps0)
@@ -119,7 +115,7 @@ def test_P_over_boxes_holds_P_with_weights() -> None:
                     assert float(P[i][j].lower()) <= exact[i, j] <= float(P[i][j].upper())
 
 
-def test_larger_weights_are_refused_for_the_same_tree() -> None:
+def test_larger_weights_are_refused_for_the_same_tree():
     proof = weighted(0).proof
     assert isinstance(proof.by, BoxTree)
     loop = proof.loop
@@ -129,7 +125,7 @@ def test_larger_weights_are_refused_for_the_same_tree() -> None:
         assert not proves(replace(loop, coupling=coupling), proof.by.tree)
 
 
-def test_certificates_hold_the_weights() -> None:
+def test_certificates_hold_the_weights():
     proof = weighted(0).proof
     assert verify(proof.statement, proof.certificate).verdict == "proved"
     for coupling in ((F(1),), (F(-1), F(1)), (F(0), F(1))):
@@ -137,16 +133,16 @@ def test_certificates_hold_the_weights() -> None:
             verify(statement_of(replace(proof.loop, coupling=coupling)), proof.certificate)
 
 
-def test_states_are_about_no_weights() -> None:
+def test_states_are_about_no_weights():
     loop, nothing = weighted(0).proof.loop, (F(0), F(0))
     witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
     with pytest.raises(Refused):
         verify(statement_of(loop), witness)
 
 
-def test_epsilon_seeks_weights_unless_told_not_to() -> None:
+def test_epsilon_seeks_weights_unless_told_not_to():
     case = controlled(0)
-    few: dict[str, Any] = {"max_boxes": 4000, "starts": 2}
+    few = {"max_boxes": 4000, "starts": 2}
     usual = epsilon(case.gains, case.model, **few)
     assert usual.weighted is not None
     assert usual.certified is not None
@@ -158,11 +154,11 @@ def test_epsilon_seeks_weights_unless_told_not_to() -> None:
     assert without.certified == usual.certified
 
 
-def test_one_joint_has_no_weights_to_choose() -> None:
+def test_one_joint_has_no_weights_to_choose():
     result = epsilon(pendulum(), load("pendulum1"), max_boxes=2000, starts=2)
     assert result.certified is not None
     assert result.weighted is None
 
 
-def pendulum() -> GainSet:
+def pendulum():
     return GainSet(name="a", family="hyperbolic", m=1, kp=(F(3),), kv=(F(1, 5),))

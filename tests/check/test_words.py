@@ -1,14 +1,10 @@
 """What is printed is what is decided: no value of a statement can be changed without its words changing."""
 
-from __future__ import annotations
-
 import copy
 import json
-from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -29,7 +25,7 @@ WITHOUT_WORDS = {
 """What the words leave out, and what it is."""
 
 
-def leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[tuple[str | int, ...], Any]]:
+def leaves(value, path=()):
     """The values of a statement, each with its place."""
     if isinstance(value, dict | list):
         items = value.items() if isinstance(value, dict) else enumerate(value)
@@ -39,7 +35,7 @@ def leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[tuple
         yield path, value
 
 
-def others(value: Any) -> list[Any]:
+def others(value):
     """Other values that may stand in its place."""
     if isinstance(value, bool):
         return [not value]
@@ -54,7 +50,7 @@ def others(value: Any) -> list[Any]:
     return [str(number + 1), str(number + Fraction(1, 10**12)), str(-number)]
 
 
-def words(data: Any) -> tuple[str, tuple[str, ...]] | None:
+def words(data):
     """The statement in words and what it takes for granted; ``None`` where the data say nothing."""
     try:
         statement = from_json(Statement, data, "statement")
@@ -64,14 +60,14 @@ def words(data: Any) -> tuple[str, tuple[str, ...]] | None:
         return None
 
 
-def statements() -> dict[str, Any]:
+def statements():
     """Those of the good certificates of the arena that are not large."""
     paths = (path if path.is_file() else path / "0.json" for path in sorted((ARENA / "good").iterdir()))
     small = (path for path in paths if path.stat().st_size <= LARGEST)
     return {path.relative_to(ARENA).as_posix(): json.loads(path.read_text())["statement"] for path in small}
 
 
-def left_out(kind: str, path: tuple[str | int, ...]) -> bool:
+def left_out(kind, path):
     names = ".".join(key for key in path if isinstance(key, str))
     return any(kind == of and f"{names}.".startswith(f"{place}.") for of, place in WITHOUT_WORDS)
 

@@ -331,7 +331,7 @@ def test_a_lower_bound_of_a_variable_is_used_and_respected():
     assert propose(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED
 
 
-def test_what_is_not_defined_at_an_end_is_not_proved_there() -> None:
+def test_what_is_not_defined_at_an_end_is_not_proved_there():
     closed = propose(for_all(sinh(x) / x >= 1, 0))
     assert closed.verdict is Verdict.UNDECIDED
     assert "sinh(x)/x: is not shown to have a value" in closed.reason
@@ -381,7 +381,7 @@ def test_the_hypotheses_of_a_bound_are_printed_with_it():
     )
 
 
-def test_the_root_of_a_negative_number_is_no_constant() -> None:
+def test_the_root_of_a_negative_number_is_no_constant():
     b = var("b")
     decision = propose(implies(nonnegative("a", "b"), (), a <= 0 / (sqrt(rho(1) - 3) * b)))
     assert decision.verdict is Verdict.UNDECIDED

@@ -1,12 +1,7 @@
 """Proof scripts whose words would steer a terminal, a page, a spreadsheet or a CI system."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
-from lyapcheck.answers.check import ProofResult
 from lyapcheck.answers.explain import explain
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.files import gather
@@ -28,30 +23,30 @@ proof.add("last", " ".join({words!r}), Constant(expr(0) <= 1), uses=["1 " + {wor
 
 
 @pytest.fixture(scope="module")
-def script(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def script(tmp_path_factory):
     path = tmp_path_factory.mktemp("nasty") / "mine.py"
     path.write_text(SCRIPT.format(title=" ".join(NASTY), words=NASTY), encoding="utf-8")
     return path
 
 
 @pytest.fixture(scope="module")
-def result(script: Path) -> ProofResult:
+def result(script):
     return run_proof(script, ms=(1,), n=1)
 
 
 @pytest.mark.parametrize("form", JudgedFormat)
-def test_no_format_of_check_obeys_an_author(form: str, result: ProofResult) -> None:
+def test_no_format_of_check_obeys_an_author(form, result):
     assert [row.verdict.value for row in result.claims[:2]] == ["proved", "refuted"]
     check(form, result.written(form))
 
 
 @pytest.mark.parametrize("form", Format)
-def test_no_format_of_explain_obeys_an_author(form: str, script: Path) -> None:
+def test_no_format_of_explain_obeys_an_author(form, script):
     check(form, explain("last", str(script)).written(form))
 
 
 @pytest.mark.parametrize("form", JudgedFormat)
-def test_no_format_of_recheck_obeys_an_author(form: str, result: ProofResult, tmp_path: Path) -> None:
+def test_no_format_of_recheck_obeys_an_author(form, result, tmp_path):
     for k, certificate in enumerate(result.certificates.values()):
         (tmp_path / f"{k}|<script>_$&%#^~[x]`*.json").write_text(certificate.text(), encoding="utf-8")
     outcome = Recheck(recheck(gather([tmp_path])))
@@ -59,7 +54,7 @@ def test_no_format_of_recheck_obeys_an_author(form: str, result: ProofResult, tm
     check(form, outcome.written(form))
 
 
-def check(form: str, text: str) -> None:
+def check(form, text):
     """What a format must hold, and nothing that does not print."""
     assert text.replace("\n", "").isprintable()
     CHECKS[form](text)

@@ -6,7 +6,6 @@ import json
 
 import pytest
 
-from lyapcheck.check.statement import Relation
 from lyapcheck.claims import Reals, all_of, implies, nonnegative, positive, reals, run_proof, sin, var
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import NOTHING, UNMET, remarks
@@ -123,5 +122,5 @@ def test_what_stands_in_the_wrong_place_is_named_with_its_repair(fault):
 
 
 def test_lists_are_as_good_as_tuples():
-    given: list[Relation] = [x <= 1]
+    given = [x <= 1]
     assert implies(list(reals("x")), given, CONCLUSION) == implies(reals("x"), tuple(given), CONCLUSION)

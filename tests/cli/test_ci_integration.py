@@ -1,7 +1,5 @@
 """The gate inside the tools that run it: the real pre-commit, and the shell of the GitHub action."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

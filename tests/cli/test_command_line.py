@@ -1,7 +1,5 @@
 """The command line as a whole: bad input, help, versions, faults and readers that go away."""
 
-from __future__ import annotations
-
 import io
 import os
 import re
@@ -116,6 +114,8 @@ BAD = [
         "simulate TABLE2 --time nan --eps0 -1 --target 1,2 --start a,b,c",
         ["--time = nan", "--eps0 = -1.0", "--target = 1,2: has 2 numbers", "--start = a,b,c: each must be"],
     ),
+    ("simulate TABLE2 --experiment --time 0.001", ["T = 0.001"]),
+    ("simulate TABLE2 --robot pelican2 --target 10,20", ["gains"]),
     ("simulate TABLE2 --csv none/run.csv", ["--csv = none/run.csv: there is no directory none"]),
     ("simulate TABLE2 --plot none", ["--plot = none: is not a directory"]),
     ("simulate TABLE2 --robot pelican2", ["--target: is missing"]),
@@ -126,11 +126,14 @@ BAD = [
     ("tune buap3 --torque 1,2", ["--torque = 1,2: has 2 values for 3 joints"]),
     ("tune buap3 --kv-min x", ["--kv-min = x: is not a decimal number"]),
     ("tune buap3 --out none/x.toml", ["--out = none/x.toml: there is no directory none"]),
+    ("tune pelican2 --compare TABLE2", [f"tau_m{m} has gains for 3 joints" for m in (1, 2, 3)]),
     ("tune buap3 --compare none.toml", ["none.toml: file: cannot be read"]),
     ("report --m 0", ["--m = 0: m must be at least 1"]),
     ("report --m 1:21", ["a report covers at most 20 members"]),
     ("report --format html,docx", ["'docx' is not a format"]),
     ("report --robot nobody", ["robot = nobody: is neither"]),
+    ("report --robot reyes-kelly2", [f"tau_{k} has gains for 3 joints" for k in ("m1", "m2", "m3", "pd")]),
+    ("report --compare nowhere", ["cannot be read"]),
     ("report --gains none.toml", ["none.toml: file: cannot be read"]),
     ("report --out TABLE2", ["--out = TABLE2: is a file; name a folder"]),
 ]

@@ -1,11 +1,7 @@
 """Each option of each command by itself at the ends of what it may be: an answer or a refusal, no fault."""
 
-from __future__ import annotations
-
 import random
 import shlex
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -35,7 +31,7 @@ WITHOUT = {
 MEMBERS = (1, 2, 65, 1000, 100_000)
 
 
-def gain_file(folder: Path, arm: str, m: int = 1) -> Path:
+def gain_file(folder, arm, m=1):
     """Gains for an arm, of a share of its torque limits."""
     limits = [100.0 if one is None else float(one.value) for one in load(arm).torque_limit]
     kp, kv = ([f"{share * limit:.6f}" for limit in limits] for share in (0.01, 0.002))
@@ -47,7 +43,7 @@ def gain_file(folder: Path, arm: str, m: int = 1) -> Path:
     return path
 
 
-def base_lines(folder: Path, arm: str, m: int = 1) -> dict[str, str]:
+def base_lines(folder, arm, m=1):
     """A command line of each command, with as little work as it lets itself be asked for."""
     gains, n = shlex.quote(str(gain_file(folder, arm, m))), load(arm).n
     goal = ",".join(["10"] * n)
@@ -65,25 +61,25 @@ def base_lines(folder: Path, arm: str, m: int = 1) -> dict[str, str]:
     }
 
 
-def every_line(folder: Path, arm: str) -> Iterator[str]:
+def every_line(folder, arm):
     """Every option of every command at every extreme, on one arm."""
     for command, base in base_lines(folder, arm).items():
         yield base
         yield from lines(command.partition(" ")[0], base, load(arm).n)
 
 
-def test_no_command_is_forgotten(tmp_path: Path) -> None:
+def test_no_command_is_forgotten(tmp_path):
     assert set(base_lines(tmp_path, "pendulum1")) - {TARGETED} == set(NAMES) - set(WITHOUT)
 
 
 @pytest.mark.parametrize("command", one_in(2, ["gate", "table"]))
-def test_each_option_of_what_is_quick(tmp_path: Path, command: str) -> None:
+def test_each_option_of_what_is_quick(tmp_path, command):
     base = base_lines(tmp_path, "pendulum1")[command]
     assert [said for line in lines(command, base, 1) if (said := fault(line, tmp_path))] == []
 
 
 @pytest.mark.slow
-def test_each_option_of_every_command_on_every_arm(tmp_path: Path) -> None:
+def test_each_option_of_every_command_on_every_arm(tmp_path):
     asked = [line for arm in names() for line in every_line(tmp_path, arm)]
     random.Random(SEED).shuffle(asked)
     begun, faults = computing_time(), []
@@ -95,12 +91,12 @@ def test_each_option_of_every_command_on_every_arm(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("m", one_in(4, MEMBERS[::-1]))
-@pytest.mark.parametrize("command", one_in(3, ["gate", "simulate", "table", "epsilon", "tune"]))
-def test_members_up_to_the_largest(tmp_path: Path, command: str, m: int) -> None:
+@pytest.mark.parametrize("command", one_in(3, ["gate", "simulate", "epsilon", "tune", "table"]))
+def test_members_up_to_the_largest(tmp_path, command, m):
     assert fault(base_lines(tmp_path, "pendulum1", m)[command], tmp_path) == ""
 
 
-def test_one_more_than_the_largest_is_refused_everywhere(tmp_path: Path) -> None:
+def test_one_more_than_the_largest_is_refused_everywhere(tmp_path):
     for command, line in base_lines(tmp_path, "pendulum1", MEMBERS[-1] + 1).items():
         if command != "robot":
             done = lyapcheck(*shlex.split(line), folder=tmp_path)
@@ -110,5 +106,5 @@ def test_one_more_than_the_largest_is_refused_everywhere(tmp_path: Path) -> None
 
 @pytest.mark.slow
 @pytest.mark.parametrize("arm", names())
-def test_weights_are_sought_without_a_fault(tmp_path: Path, arm: str) -> None:
+def test_weights_are_sought_without_a_fault(tmp_path, arm):
     assert fault(f"{base_lines(tmp_path, arm)['epsilon']} --weights", tmp_path) == ""

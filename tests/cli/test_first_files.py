@@ -1,7 +1,5 @@
 """What a newcomer gets: files to begin with, arms to edit, ids to look up, messages that say what to do."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 
@@ -20,16 +18,14 @@ from lyapcheck.simulate.task import task_for
 ROOT = Path(__file__).parents[2]
 
 
-def leaves(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
+def leaves(monkeypatch, *words):
     monkeypatch.setattr(sys, "argv", ["lyapcheck", *words])
     with pytest.raises(SystemExit) as left:
         cli.main()
     return int(left.value.code or 0)
 
 
-def test_init_starts_files_that_the_gate_takes_and_keeps_what_is_there(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_init_starts_files_that_the_gate_takes_and_keeps_what_is_there(monkeypatch, capsys, tmp_path):
     folder = tmp_path / "bench"
     assert leaves(monkeypatch, "init", str(folder)) == 0
     assert leaves(monkeypatch, "gate", str(folder / "gains.toml")) == 0
@@ -39,9 +35,7 @@ def test_init_starts_files_that_the_gate_takes_and_keeps_what_is_there(
     assert "is there already" in capsys.readouterr().err
 
 
-def test_the_gains_of_init_are_gains_that_tune_would_recommend(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_the_gains_of_init_are_gains_that_tune_would_recommend(monkeypatch, tmp_path):
     """The gate accepts them by their conditions, and they meet the targets that the file names."""
     assert leaves(monkeypatch, "init", str(tmp_path)) == 0
     (result,) = gate(tmp_path / "gains.toml")
@@ -55,7 +49,7 @@ def test_the_gains_of_init_are_gains_that_tune_would_recommend(
 
 
 @pytest.mark.parametrize("name", ["buap3", "pelican2", "ur5", "UR5", str(ROOT / "examples" / "panda.toml")])
-def test_an_exported_arm_is_the_arm(name: str, tmp_path: Path) -> None:
+def test_an_exported_arm_is_the_arm(name, tmp_path):
     (tmp_path / "mine.toml").write_text(arm_text(name, tmp_path))
     theirs, mine = robots.load(name), robots.load(tmp_path / "mine.toml")
     q = np.random.default_rng(2).uniform(-3, 3, (4, theirs.n))
@@ -63,14 +57,14 @@ def test_an_exported_arm_is_the_arm(name: str, tmp_path: Path) -> None:
     assert mine.viscous == theirs.viscous
 
 
-def test_a_urdf_file_is_exported_as_an_arm_file_to_be_completed(tmp_path: Path) -> None:
+def test_a_urdf_file_is_exported_as_an_arm_file_to_be_completed(tmp_path):
     text = arm_text(str(ROOT / "examples" / "ur5.urdf"), tmp_path)
     assert "# viscous = …" in text
     (tmp_path / "mine.toml").write_text(text.replace("# viscous = …", "viscous = 2"))
     assert {float(b.value) for b in robots.load(tmp_path / "mine.toml").viscous} == {2.0}
 
 
-def test_an_export_keeps_the_tip(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_an_export_keeps_the_tip(monkeypatch, tmp_path):
     urdf, target = str(ROOT / "examples" / "ur5.urdf"), tmp_path / "mine.toml"
     assert leaves(monkeypatch, "robot", urdf, "--tip", "forearm_link", "--export", str(target)) == 0
     assert 'tip = "forearm_link"' in target.read_text()
@@ -78,29 +72,27 @@ def test_an_export_keeps_the_tip(monkeypatch: pytest.MonkeyPatch, tmp_path: Path
     assert leaves(monkeypatch, "robot", "buap3", "--tip", "x", "--export", str(tmp_path / "no.toml")) == 2
 
 
-def test_an_exported_arm_goes_to_standard_output(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_exported_arm_goes_to_standard_output(monkeypatch, capsys):
     assert leaves(monkeypatch, "robot", "buap3", "--export", "-") == 0
     assert capsys.readouterr().out == arm_text("buap3", Path())
     assert not Path("-").exists()
 
 
-def test_export_does_not_write_over_a_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_export_does_not_write_over_a_file(monkeypatch, tmp_path):
     target = tmp_path / "arm.toml"
     assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 0
     assert target.read_text().startswith('title = "Three-joint')
     assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 2
 
 
-def test_examples_are_known_by_name_and_lean_on_nothing_else() -> None:
+def test_examples_are_known_by_name_and_lean_on_nothing_else():
     assert robots.load("ur5").n == 6
     assert robots.load("Panda").n == 7
     for file in (ROOT / "examples").glob("*.toml"):
         assert "../" not in file.read_text()
 
 
-def test_gate_takes_a_path() -> None:
+def test_gate_takes_a_path():
     assert [one.verdict for one in gate(ROOT / "examples" / "ur5_gains.toml")] == ["accepted"] * 3
 
 
@@ -114,9 +106,7 @@ def test_gate_takes_a_path() -> None:
         ("m = 1\nkp = 25\nkv = [1, 1, 1]", 5, "write kp = [25, 25] for two joints"),
     ],
 )
-def test_messages_name_the_line_the_value_as_written_and_the_repair(
-    tmp_path: Path, body: str, line: int, said: str
-) -> None:
+def test_messages_name_the_line_the_value_as_written_and_the_repair(tmp_path, body, line, said):
     path = tmp_path / "g.toml"
     path.write_text(f'robot = "buap3"\n[[gains]]\nname = "a"\n{body}\n')
     with pytest.raises(InputError) as refused:
@@ -126,6 +116,6 @@ def test_messages_name_the_line_the_value_as_written_and_the_repair(
     assert said in str(problem)
 
 
-def test_a_robot_that_is_not_there_names_the_examples() -> None:
+def test_a_robot_that_is_not_there_names_the_examples():
     with pytest.raises(InputError, match="examples: iiwa14, panda, px100, px150, ur5, xarm6"):
         robots.load("UR6")

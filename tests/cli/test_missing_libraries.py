@@ -1,7 +1,5 @@
 """Where a library is not installed: what does without it works, what does not says what to install."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -50,30 +48,30 @@ LIBRARIES = sorted(name for name in PACKAGES if name != "flint")
 
 
 @pytest.fixture(scope="module")
-def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def alone(tmp_path_factory):
     """A Python with python-flint and nothing else."""
     return environment(tmp_path_factory.mktemp("alone") / "environment", only=FLINT)
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     return _folder(tmp_path_factory.mktemp("work"))
 
 
-def _folder(path: Path) -> Path:
+def _folder(path):
     path.mkdir(exist_ok=True)
     (path / "one.toml").write_text(GAINS, encoding="utf-8")
     (path / "plan.toml").write_text(PLAN, encoding="utf-8")
     return path
 
 
-def does_without(python: Path, lines: dict[str, int], folder: Path) -> None:
+def does_without(python, lines, folder):
     for line, code in lines.items():
         done = run(python, *line.split(), folder=folder)
         assert done.returncode == code, (line, done.stderr)
 
 
-def says_what_to_install(python: Path, lines: dict[str, str], folder: Path) -> None:
+def says_what_to_install(python, lines, folder):
     for line, library in lines.items():
         done = run(python, *line.split(), folder=folder)
         said = f"library = {library}: is not installed, and this needs it; pip install {library}"
@@ -81,25 +79,25 @@ def says_what_to_install(python: Path, lines: dict[str, str], folder: Path) -> N
         assert done.stderr.splitlines()[-1] == f"error: argument: {said}"
 
 
-def test_python_flint_alone_judges_gains_and_certificates(alone: Path, folder: Path) -> None:
+def test_python_flint_alone_judges_gains_and_certificates(alone, folder):
     does_without(alone, ALONE, folder)
 
 
 @pytest.mark.slow
-def test_python_flint_alone_does_so_in_every_way(alone: Path, folder: Path) -> None:
+def test_python_flint_alone_does_so_in_every_way(alone, folder):
     does_without(alone, ALONE | MORE, _folder(folder / "again"))
 
 
-def test_what_needs_a_library_names_it_and_the_line_that_installs_it(alone: Path, folder: Path) -> None:
+def test_what_needs_a_library_names_it_and_the_line_that_installs_it(alone, folder):
     says_what_to_install(alone, LACKING, folder)
 
 
 @pytest.mark.slow
-def test_so_does_every_other_command(alone: Path, folder: Path) -> None:
+def test_so_does_every_other_command(alone, folder):
     says_what_to_install(alone, ALSO, folder)
 
 
-def test_a_condition_whose_search_lacks_a_library_is_undecided(alone: Path, folder: Path) -> None:
+def test_a_condition_whose_search_lacks_a_library_is_undecided(alone, folder):
     done = run(alone, "gate", "one.toml", "--condition", "global", folder=folder)
     assert done.returncode == 3, done.stderr
     assert "needs numpy, which is not installed; pip install numpy" in " ".join(done.stdout.split())
@@ -107,7 +105,7 @@ def test_a_condition_whose_search_lacks_a_library_is_undecided(alone: Path, fold
 
 @pytest.mark.slow
 @pytest.mark.parametrize("library", LIBRARIES)
-def test_no_command_fails_for_want_of_one_library(tmp_path: Path, library: str) -> None:
+def test_no_command_fails_for_want_of_one_library(tmp_path, library):
     python = environment(tmp_path / "environment", without=(library,))
     folder = _folder(tmp_path)
     for name, (words, code) in CALLS.items():
@@ -118,14 +116,14 @@ def test_no_command_fails_for_want_of_one_library(tmp_path: Path, library: str) 
 
 
 @pytest.mark.slow
-def test_without_python_flint_there_is_nothing_to_judge_with(tmp_path: Path) -> None:
+def test_without_python_flint_there_is_nothing_to_judge_with(tmp_path):
     python = environment(tmp_path / "environment", without=FLINT)
     folder = _folder(tmp_path)
     for line in ("gate one.toml", "table", f"recheck {GOOD / 'asy.A.rho.m1.json'}"):
         says_what_to_install(python, {line: "python-flint"}, folder)
 
 
-def test_a_library_of_somebody_else_is_none_of_ours() -> None:
+def test_a_library_of_somebody_else_is_none_of_ours():
     assert missing(ModuleNotFoundError("no", name="colours")) is None
     assert missing(ImportError("no")) is None
     assert str(missing(ModuleNotFoundError("no", name="numpy.linalg"))) == str(lacking("numpy"))

@@ -1,11 +1,7 @@
 """Progress of work that is mostly quick: silent until it has taken long."""
 
-from __future__ import annotations
-
 import threading
-from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import pytest
 
@@ -19,28 +15,28 @@ from tests.helpers.urdf_texts import ARMS
 class Hand:
     """A timer that goes off when a test says so."""
 
-    def __init__(self, seconds: float, action: Callable[[], None]) -> None:
+    def __init__(self, seconds, action):
         self.action, self.running, self.daemon = action, False, False
         timers.append(self)
 
-    def start(self) -> None:
+    def start(self):
         self.running = True
 
-    def cancel(self) -> None:
+    def cancel(self):
         self.running = False
 
 
-timers: list[Hand] = []
+timers = []
 
 
 @pytest.fixture
-def by_hand(monkeypatch: pytest.MonkeyPatch) -> list[Hand]:
+def by_hand(monkeypatch):
     timers.clear()
     monkeypatch.setattr(threading, "Timer", Hand)
     return timers
 
 
-def test_quick_work_shows_nothing(by_hand: list[Hand], capsys: pytest.CaptureFixture[str]) -> None:
+def test_quick_work_shows_nothing(by_hand, capsys):
     with patient("work") as advance:
         advance(0.0, "begun")
         advance(0.5, "half")
@@ -50,7 +46,7 @@ def test_quick_work_shows_nothing(by_hand: list[Hand], capsys: pytest.CaptureFix
     assert capsys.readouterr().err == ""
 
 
-def test_long_work_shows_what_it_said_last(by_hand: list[Hand], capsys: pytest.CaptureFixture[str]) -> None:
+def test_long_work_shows_what_it_said_last(by_hand, capsys):
     with patient("work") as advance:
         advance(0.0, "begun")
         advance(0.5, "half")
@@ -58,11 +54,11 @@ def test_long_work_shows_what_it_said_last(by_hand: list[Hand], capsys: pytest.C
     assert capsys.readouterr().err == "work:  50 % half\n"
 
 
-def test_the_gate_tells_of_certificates_and_of_nothing_else(by_hand: list[Hand]) -> None:
+def test_the_gate_tells_of_certificates_and_of_nothing_else(by_hand):
     one = GainSet("one", 1, (*map(Fraction, (20, 5)),), (*map(Fraction, ("0.1", "0.1")),))
-    said: list[tuple[float, str]] = []
+    said = []
 
-    def judge(*conditions: str) -> Any:
+    def judge(*conditions):
         file = GainFile("gains.toml", "reyes-kelly2", (one,))
         return gate(file, deciding=conditions, on_progress=lambda *step: said.append(step))
 

@@ -1,7 +1,5 @@
 """The fixture in a real pytest run of another project, and the function alone."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from importlib.metadata import entry_points

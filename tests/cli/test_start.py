@@ -1,7 +1,5 @@
 """What the commands that answer at once load: nothing heavy, and no other command."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -25,6 +23,8 @@ finally:
 QUICK = {
     "gate": ["gate", str(paper_gain_file())],
     "gate as JSON": ["gate", str(paper_gain_file()), "--format", "json"],
+    "gate as SARIF": ["gate", str(paper_gain_file()), "--format", "sarif"],
+    "help of tune": ["tune", "--help"],
     "table": ["table", "--m", "1:3"],
     "help": ["--help"],
     "help of a command": ["gate", "--help"],
@@ -32,7 +32,7 @@ QUICK = {
 }
 
 
-def modules_of(words: list[str]) -> set[str]:
+def modules_of(words):
     """The modules that are loaded when a command has been run."""
     line = [sys.executable, "-I", "-c", CODE, *words]
     done = subprocess.run(line, capture_output=True, text=True, check=False, env={"PATH": os.environ["PATH"]})

@@ -1,7 +1,5 @@
 """Ctrl-C and SIGTERM: every command ends at once, with its processes, and leaves nothing half written."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal
@@ -9,7 +7,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -39,7 +36,7 @@ COMMANDS = {
 pytestmark = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="asks /proc for processes")
 
 
-def in_session(session: int) -> list[int]:
+def in_session(session):
     """The processes of a session that still run."""
     result = []
     for path in Path("/proc").iterdir():
@@ -53,7 +50,7 @@ def in_session(session: int) -> list[int]:
     return result
 
 
-def wait_for(what: Callable[[], object], who: subprocess.Popen[bytes] | None = None) -> bool:
+def wait_for(what, who=None):
     """Whether it comes true in time, while a process runs."""
     end = time.monotonic() + 3 * PATIENCE
     while time.monotonic() < end:
@@ -66,7 +63,7 @@ def wait_for(what: Callable[[], object], who: subprocess.Popen[bytes] | None = N
 
 
 @contextmanager
-def started(words: list[str], place: Path) -> Iterator[subprocess.Popen[bytes]]:
+def started(words, place):
     """A command in a session of its own that takes Ctrl-C, however pytest was started."""
     (place / "tmp").mkdir()
     with open(place / "out", "wb") as output, open(place / "err", "wb") as errors:
@@ -87,7 +84,7 @@ def started(words: list[str], place: Path) -> Iterator[subprocess.Popen[bytes]]:
         process.wait()
 
 
-def check_end(process: subprocess.Popen[bytes], number: signal.Signals, place: Path) -> None:
+def check_end(process, number, place):
     """It ended by the signal, silently, with all its processes and temporary files."""
     assert process.wait(PATIENCE) == CODES[number]
     assert (place / "out").read_bytes() == b""
@@ -103,7 +100,7 @@ SIGNALLED = [(name, ONLY_IT) for name in COMMANDS] + [("epsilon", ALL_OF_IT), ("
 
 @pytest.mark.parametrize(("name", "to_all"), but([("check", ONLY_IT)], SIGNALLED))
 @pytest.mark.parametrize("number", one_in(2, CODES))
-def test_a_signal_ends_a_command(name: str, number: signal.Signals, to_all: bool, tmp_path: Path) -> None:
+def test_a_signal_ends_a_command(name, number, to_all, tmp_path):
     with started(COMMANDS[name], tmp_path) as process:
         busy = wait_for(lambda: catches_term(process.pid), process)
         assert busy, (tmp_path / "err").read_text()
@@ -112,7 +109,7 @@ def test_a_signal_ends_a_command(name: str, number: signal.Signals, to_all: bool
         check_end(process, number, tmp_path)
 
 
-def catches_term(pid: int) -> bool:
+def catches_term(pid):
     """Whether a process has a handler for SIGTERM, which Python has not."""
     result = re.search(r"^SigCgt:\s*(\w+)$", Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)
     return result is not None and bool(int(result[1], 16) >> (signal.SIGTERM - 1) & 1)
@@ -121,9 +118,7 @@ def catches_term(pid: int) -> bool:
 @pytest.mark.slow
 @pytest.mark.parametrize("number", CODES)
 @pytest.mark.parametrize("to_all", [False, True], ids=["process", "group"])
-def test_a_signal_ends_a_report_and_its_processes(
-    number: signal.Signals, to_all: bool, tmp_path: Path
-) -> None:
+def test_a_signal_ends_a_report_and_its_processes(number, to_all, tmp_path):
     with started(["report", "--out", str(tmp_path / "pages")], tmp_path) as process:
         assert wait_for(
             lambda: len(in_session(process.pid)) >= 4, process
@@ -134,7 +129,7 @@ def test_a_signal_ends_a_report_and_its_processes(
     assert not (tmp_path / "pages").exists()
 
 
-def test_processes_of_processes_end_too(tmp_path: Path) -> None:
+def test_processes_of_processes_end_too(tmp_path):
     """And a child that takes no Ctrl-C itself; what was being written is gone."""
     code = (
         "import subprocess, sys, time\n"
@@ -158,7 +153,7 @@ def test_processes_of_processes_end_too(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_signals_are_as_before_afterwards() -> None:
+def test_signals_are_as_before_afterwards():
     before = [signal.getsignal(number) for number in CODES], signal.pthread_sigmask(signal.SIG_BLOCK, [])
     with Stopping():
         assert [signal.getsignal(number) for number in CODES] != before[0]
@@ -166,7 +161,7 @@ def test_signals_are_as_before_afterwards() -> None:
     assert now == before
 
 
-def test_a_signal_that_is_ignored_stays_ignored() -> None:
+def test_a_signal_that_is_ignored_stays_ignored():
     """As in a job that a script has put into the background."""
     kept = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
@@ -176,7 +171,7 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
         signal.signal(signal.SIGINT, kept)
 
 
-def test_what_is_pending_no_more_stays(tmp_path: Path) -> None:
+def test_what_is_pending_no_more_stays(tmp_path):
     file = tmp_path / "file"
     with temporary.pending(file):
         file.write_text("")

@@ -1,7 +1,5 @@
 """The built wheel, installed away from the checkout, does what the checkout and the documents say."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex
@@ -42,7 +40,7 @@ def run(*command, cwd):
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory) -> Path:
+def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     done = run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder, cwd=CHECKOUT)
     assert done.returncode == 0, done.stderr
@@ -51,7 +49,7 @@ def wheel(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def installed(wheel, tmp_path_factory) -> Path:
+def installed(wheel, tmp_path_factory):
     """The bin folder of a new environment with the wheel, and with the dependencies of this one.
 
     The dependencies come by a path file, and path files inside that path are not followed: the editable
@@ -70,7 +68,7 @@ def installed(wheel, tmp_path_factory) -> Path:
 
 
 @pytest.fixture
-def elsewhere(tmp_path) -> Path:
+def elsewhere(tmp_path):
     return tmp_path
 
 

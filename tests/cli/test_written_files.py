@@ -1,19 +1,16 @@
 """Files that commands write: in the place of a file only."""
 
-from __future__ import annotations
-
 import os
 import stat
-from pathlib import Path
 from threading import Thread
 
 from lyapcheck.cli.show import require_writable, write_whole
 
 
-def test_a_pipe_is_written_to_and_stays_a_pipe(tmp_path: Path) -> None:
+def test_a_pipe_is_written_to_and_stays_a_pipe(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    read: list[str] = []
+    read = []
     reader = Thread(target=lambda: read.append(pipe.read_text(encoding="utf-8")), daemon=True)
     reader.start()
     require_writable("--out", pipe)
@@ -24,7 +21,7 @@ def test_a_pipe_is_written_to_and_stays_a_pipe(tmp_path: Path) -> None:
     assert [one.name for one in tmp_path.iterdir()] == ["pipe"]
 
 
-def test_a_link_stays_a_link(tmp_path: Path) -> None:
+def test_a_link_stays_a_link(tmp_path):
     (tmp_path / "there").mkdir()
     link, file = tmp_path / "link", tmp_path / "there" / "file"
     link.symlink_to(file)

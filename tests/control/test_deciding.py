@@ -1,9 +1,6 @@
 """Which conditions decide: the command line's, else the set's, else the file's, else (10p) and (19)."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import pytest
 
@@ -28,7 +25,7 @@ kv = [0.1, 0.1, 0.1]
 """
 
 
-def written(folder: Path, file: str = "", own: str = "") -> Path:
+def written(folder, file="", own=""):
     path = folder / "gains.toml"
     path.write_text(SETS.format(file=file, own=own))
     return path
@@ -45,18 +42,18 @@ def written(folder: Path, file: str = "", own: str = "") -> Path:
     ],
 )
 def test_what_is_nearest_to_the_user_decides(
-    tmp_path: Path,
-    file: str,
-    own: str,
-    asked: tuple[str, ...] | None,
-    first: tuple[str, ...],
-    second: tuple[str, ...],
-) -> None:
+    tmp_path,
+    file,
+    own,
+    asked,
+    first,
+    second,
+):
     results = gate(written(tmp_path, file, own), deciding=asked)
     assert [one.deciding for one in results] == [first, second]
 
 
-def test_the_command_the_fixture_and_the_sweep_read_the_same_key(tmp_path: Path) -> None:
+def test_the_command_the_fixture_and_the_sweep_read_the_same_key(tmp_path):
     named = written(tmp_path, own='condition = ["10p", "scalar"]')
     assert invoke("gate", str(named)).exit_code == 0
     assert invoke("gate", str(named), "--condition", "19").exit_code == 1
@@ -71,11 +68,11 @@ def test_the_command_the_fixture_and_the_sweep_read_the_same_key(tmp_path: Path)
     assert [row["verdict"] for row in rows] == ["accepted", "accepted"]
 
 
-def test_each_set_has_the_certificates_of_its_own_conditions(tmp_path: Path) -> None:
+def test_each_set_has_the_certificates_of_its_own_conditions(tmp_path):
     first, second = gate(written(tmp_path, own='condition = ["scalar", "lasalle"]'))
     assert [check.id for check in first.checks if check.joint is None] == ["10", "scalar", "lasalle"]
     assert [check.id for check in second.checks if check.joint is None] == ["10"]
 
 
-def test_a_file_without_the_key_names_nothing() -> None:
+def test_a_file_without_the_key_names_nothing():
     assert {one.condition for one in read_gain_file(paper_gain_file()).gains} == {()}

@@ -17,7 +17,7 @@ SIZES = st.builds(
 
 
 @given(SIZES, st.integers(1, 12))
-def test_the_nearest_decimals_below_and_above(value: Fraction, digits: int) -> None:
+def test_the_nearest_decimals_below_and_above(value, digits):
     low, high = significant_down(value, digits), significant_up(value, digits)
     assert low <= value <= high
     assert high - low <= value * Fraction(10) ** (1 - digits)
@@ -27,10 +27,10 @@ def test_the_nearest_decimals_below_and_above(value: Fraction, digits: int) -> N
 
 
 @pytest.mark.parametrize("exponent", [-300, -22, -1, 0, 1, 22, 300])
-def test_powers_of_ten_are_themselves(exponent: int) -> None:
+def test_powers_of_ten_are_themselves(exponent):
     power = Fraction(10) ** exponent
     assert significant_down(power, 1) == significant_up(power, 1) == power
 
 
-def test_nothing_is_nothing() -> None:
+def test_nothing_is_nothing():
     assert significant_down(Fraction(0), 3) == significant_up(Fraction(0), 3) == 0

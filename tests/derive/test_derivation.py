@@ -1,7 +1,5 @@
 """h, h', γ, ρ, V and dV/dt from U_m: what is printed, what the checker says of it, and planted faults."""
 
-from __future__ import annotations
-
 import doctest
 import json
 from dataclasses import replace
@@ -27,14 +25,14 @@ ARMS = ("pendulum1", "reyes-kelly2", "buap3")
 
 
 @pytest.mark.parametrize("m", MEMBERS)
-def test_the_derived_formulas_are_the_printed_ones(m: int) -> None:
+def test_the_derived_formulas_are_the_printed_ones(m):
     printed, derived = hyperbolic_printed(X, m), member(m)
     assert derived.h == printed.h
     assert same_function(derived.dh, printed.dh, X, m)
 
 
 @pytest.mark.parametrize("m", MEMBERS[1:])
-def test_the_polynomials_are_those_of_the_places_of_gamma_and_rho(m: int) -> None:
+def test_the_polynomials_are_those_of_the_places_of_gamma_and_rho(m):
     u, derived = sp.Symbol("u"), member(m)
     gamma = u**m - 2 * m * u - (2 * m - 1)
     rho = u ** (2 * m) - 2 * m**2 * u ** (m + 1) - (2 * m - 1) * (m + 2) * u**m + 2 * m**2 * u
@@ -43,7 +41,7 @@ def test_the_polynomials_are_those_of_the_places_of_gamma_and_rho(m: int) -> Non
     assert [len(positive_roots(p)) for p in (derived.gamma_polynomial, derived.rho_polynomial)] == [1, 2]
 
 
-def test_isolated_roots_lie_in_their_intervals() -> None:
+def test_isolated_roots_lie_in_their_intervals():
     u = sp.Symbol("u")
     (low, high), *_ = found = positive_roots(sp.Poly((u**2 - 2) * (u - 3) * (u + 1), u), Fraction(1, 10**6))
     assert low**2 < 2 < high**2
@@ -53,13 +51,13 @@ def test_isolated_roots_lie_in_their_intervals() -> None:
 
 
 @pytest.mark.parametrize("m", MEMBERS)
-def test_the_checker_agrees_on_the_family(m: int) -> None:
+def test_the_checker_agrees_on_the_family(m):
     judged = rows.of_member(member(m))
     assert [row.agree for row in judged] == [True] * 4
     assert [row.grade for row in judged[:2]] == ["exact", "exact"]
 
 
-def test_another_potential_is_not_agreed_to() -> None:
+def test_another_potential_is_not_agreed_to():
     """h of twice the potential; and ρ of a polynomial whose roots are elsewhere."""
     wrong = rows.of_member(Member(2, 2 * member(2).potential))
     assert [row.agree for row in wrong] == [False] * 4
@@ -70,18 +68,18 @@ def test_another_potential_is_not_agreed_to() -> None:
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
-def test_v_and_its_derivative_are_those_that_the_checker_proves(n: int) -> None:
+def test_v_and_its_derivative_are_those_that_the_checker_proves(n):
     assert [row.agree for row in rows.of_loop(n)] == [True, True]
 
 
 @pytest.mark.parametrize("term", range(11))
-def test_a_changed_term_is_found(term: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_changed_term_is_found(term, monkeypatch):
     """By SymPy in entries, and by the checker for every n."""
     from lyapcheck.answers.derive import statements
 
     right = lyapunov.terms_15
 
-    def wrong(x: lyapunov.Letters) -> list[object]:
+    def wrong(x):
         return [-t if k == term else t for k, t in enumerate(right(x))]
 
     for module in (lyapunov, statements):
@@ -91,7 +89,7 @@ def test_a_changed_term_is_found(term: int, monkeypatch: pytest.MonkeyPatch) -> 
     assert row.verdict != "proved"
 
 
-def test_another_value_is_found() -> None:
+def test_another_value_is_found():
     found = lyapunov.derivation(2)
     assert found.value_is_one()
     other = replace(found, x=replace(found.x, share=2 * found.x.share))
@@ -100,7 +98,7 @@ def test_another_value_is_found() -> None:
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_on_an_arm_the_chain_rule_gives_the_same(name: str) -> None:
+def test_on_an_arm_the_chain_rule_gives_the_same(name):
     model = robots.load(name)
     arm = written_arm(model)
     assert [row.agree for row in rows.of_arm(model, arm)] == [True]
@@ -108,23 +106,23 @@ def test_on_an_arm_the_chain_rule_gives_the_same(name: str) -> None:
         assert not replace(arm, C=2 * arm.C).derivation().sum_is_rate()
 
 
-def test_degrees_are_those_of_the_terms() -> None:
+def test_degrees_are_those_of_the_terms():
     x = lyapunov.entries(2)
     assert [sp.Poly(t[0], lyapunov.EPS0).monoms() for t in lyapunov.terms_15(x)] == [
         [(k,)] for k in lyapunov.DEGREES
     ]
 
 
-def test_only_powers_over_the_denominator_are_read() -> None:
+def test_only_powers_over_the_denominator_are_read():
     with pytest.raises(sp.PolynomialError):
         member(2).top(1 / S, 1)
 
 
-def test_the_example_of_the_documentation_is_true() -> None:
+def test_the_example_of_the_documentation_is_true():
     assert doctest.testmod(answers.derive).failed == 0
 
 
-def test_formulas_are_typeset_in_every_format() -> None:
+def test_formulas_are_typeset_in_every_format():
     found = lyapcheck.derivation([1, 2], robot="reyes-kelly2")
     assert found.agreed
     assert found.n == 2
@@ -140,7 +138,7 @@ def test_formulas_are_typeset_in_every_format() -> None:
     assert Document("report", (found.section(),)).blocks[0].title.startswith("What SymPy derives")
 
 
-def test_the_command_writes_its_rows(in_this_process: None) -> None:
+def test_the_command_writes_its_rows(in_this_process):
     done = run("derive", "--m", "1", "--n", "1", "--format", "json")
     assert done.returncode == 0
     answer = json.loads(done.stdout)
@@ -154,7 +152,7 @@ def test_the_command_writes_its_rows(in_this_process: None) -> None:
 @pytest.mark.parametrize(
     ("asked", "key"), [({"m": 0}, "m"), ({"m": 500}, "m"), ({"n": 0}, "n"), ({"robot": "none"}, "robot")]
 )
-def test_what_cannot_be_derived_is_refused(asked: dict[str, object], key: str) -> None:
+def test_what_cannot_be_derived_is_refused(asked, key):
     with pytest.raises(InputError) as refused:
         lyapcheck.derivation(**asked)
     assert key in str(refused.value)

@@ -8,7 +8,6 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,19 +36,19 @@ class Call:
     output: str
 
 
-def sections() -> dict[str, list[File | Call]]:
+def sections():
     """What each section has, in its order."""
     _, *parts = re.split(r"^## ", PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)
     return {part.partition("\n")[0]: list(_items(part)) for part in parts}
 
 
-def _items(part: str) -> Iterator[File | Call]:
+def _items(part):
     result = [(match.start(), File(match["path"], match["text"])) for match in FILE.finditer(part)]
     calls = [(match.start(), Call(match["command"], match["output"])) for match in CONSOLE.finditer(part)]
     yield from (item for _, item in sorted([*result, *calls], key=lambda pair: pair[0]))
 
 
-def _copied(source: Path, copy: Path) -> None:
+def _copied(source, copy):
     """A package to which files of the checker can be added: the folders that get none are linked."""
     copy.mkdir(parents=True)
     for entry in source.iterdir():
@@ -64,7 +63,7 @@ def _copied(source: Path, copy: Path) -> None:
 class Workshop:
     """A folder with a copy of lyapcheck, whose checker may get files, and a folder of the user's own."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder):
         self.folder, self.copy, self.mine = folder, folder / "copy", folder / "mine"
         source = Path(lyapcheck.__file__).parent
         _copied(source, self.copy / "lyapcheck")
@@ -72,7 +71,7 @@ class Workshop:
             shutil.copytree(source.parent / "proofs", self.copy / "proofs")
         self.mine.mkdir()
 
-    def put(self, file: File) -> None:
+    def put(self, file):
         """Write a file where the page says that it belongs."""
         room = file.path.partition("/")[0]
         root = self.folder
@@ -85,7 +84,7 @@ class Workshop:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(file.text, encoding="utf-8")
 
-    def up_to(self, title: str) -> Workshop:
+    def up_to(self, title):
         """With the files of all sections before one."""
         for name, items in sections().items():
             if name == title:
@@ -95,13 +94,13 @@ class Workshop:
                     self.put(item)
         raise KeyError(title)
 
-    def run(self, command: str, copied: bool = True) -> subprocess.CompletedProcess[str]:
+    def run(self, command, copied=True):
         """Run a command of the page; with the lyapcheck that is tested here, if not with the copy of it."""
         program, *words = shlex.split(command)
         assert program == "lyapcheck"
         return self.python("from lyapcheck.cli.main import main; main()", *words, copied=copied)
 
-    def python(self, code: str, *words: str, copied: bool = True) -> subprocess.CompletedProcess[str]:
+    def python(self, code, *words, copied=True):
         """Run some lines of Python likewise."""
         root = self.copy if copied else Path(lyapcheck.__file__).parents[1]
         variables = {

@@ -1,10 +1,7 @@
 """Adding is adding a file: every example of ``docs/adding.md`` works, from outside of the package."""
 
-from __future__ import annotations
-
 import json
 import re
-from pathlib import Path
 
 import pytest
 
@@ -23,13 +20,13 @@ FORMATS = ("csv", "html", "json", "latex", "markdown", "org", "text")
 
 
 @pytest.fixture
-def workshop(tmp_path: Path) -> Workshop:
+def workshop(tmp_path):
     """With nothing added yet."""
     return Workshop(tmp_path)
 
 
 @pytest.fixture
-def furnished(workshop: Workshop) -> Workshop:
+def furnished(workshop):
     """With every file of the page."""
     for items in sections().values():
         for item in items:
@@ -38,14 +35,14 @@ def furnished(workshop: Workshop) -> Workshop:
     return workshop
 
 
-def test_the_page_shows_files_and_commands_for_each_of_the_five() -> None:
+def test_the_page_shows_files_and_commands_for_each_of_the_five():
     assert tuple(sections()) == TITLES
     for items in sections().values():
         assert {type(item) for item in items} == {File, Call}
 
 
 @pytest.mark.parametrize("title", but([FORMAT], TITLES))
-def test_each_command_prints_what_the_page_says(workshop: Workshop, title: str) -> None:
+def test_each_command_prints_what_the_page_says(workshop, title):
     """Each command after the files that stand before it."""
     workshop.up_to(title)
     for item in sections()[title]:
@@ -57,13 +54,13 @@ def test_each_command_prints_what_the_page_says(workshop: Workshop, title: str) 
         assert is_excerpt(item.output, done.stdout), f"{item.command} prints\n{done.stdout}"
 
 
-def is_excerpt(excerpt: str, whole: str) -> bool:
+def is_excerpt(excerpt, whole):
     """Whether a text is that of an excerpt, with any lines at each … of it."""
     parts = [re.escape(part) for part in re.split("^…\n", excerpt, flags=re.MULTILINE)]
     return re.fullmatch("(?:.*\n)*?".join(parts), whole) is not None
 
 
-def test_an_excerpt_leaves_out_whole_lines_where_it_says_so() -> None:
+def test_an_excerpt_leaves_out_whole_lines_where_it_says_so():
     assert is_excerpt("a\n…\nc\n", "a\nb\nc\n")
     assert is_excerpt("…\nc\n…\n", "a\nb\nc\n")
     assert not is_excerpt("a\nc\n", "a\nb\nc\n")
@@ -74,13 +71,13 @@ class TestKind:
     """A kind of claim."""
 
     @pytest.fixture
-    def made(self, furnished: Workshop) -> Workshop:
+    def made(self, furnished):
         """With the certificates of the page."""
         assert furnished.run("lyapcheck check servo.py --certificates made").returncode == 1
         return furnished
 
     @pytest.mark.slow
-    def test_its_certificates_are_accepted_and_rest_on_its_file(self, made: Workshop) -> None:
+    def test_its_certificates_are_accepted_and_rest_on_its_file(self, made):
         done = made.run("lyapcheck recheck made --trusted --format json")
         result = json.loads(done.stdout)
         rows = {row["id"]: (row["status"], row["verdict"]) for row in result["certificates"]}
@@ -89,7 +86,7 @@ class TestKind:
             assert "lyapcheck.check.kinds.hurwitz" in result["trusted"][verdict]["modules"]
 
     @pytest.mark.slow
-    def test_a_forged_verdict_is_refused(self, made: Workshop) -> None:
+    def test_a_forged_verdict_is_refused(self, made):
         code = (
             "import json; from pathlib import Path; from lyapcheck.check.certificate import digest_of\n"
             "file = Path('made/k7.json'); data = json.loads(file.read_text()) | {'verdict': 'proved'}\n"
@@ -101,7 +98,7 @@ class TestKind:
         assert "verdict = proved: the proof gives refuted" in done.stdout
 
     @pytest.mark.slow
-    def test_a_checker_without_the_file_does_not_look_for_it(self, made: Workshop) -> None:
+    def test_a_checker_without_the_file_does_not_look_for_it(self, made):
         """Neither beside the certificates nor where the user has files of his own."""
         source = made.copy / "lyapcheck" / "check" / "kinds" / "hurwitz.py"
         for place in (made.folder / "hurwitz.py", made.mine / "check" / "kinds" / "hurwitz.py"):
@@ -112,7 +109,7 @@ class TestKind:
         assert done.stdout.count("Hurwitz: is not a kind that the checker knows") == 2
 
     @pytest.mark.slow
-    def test_a_polynomial_that_is_none_is_undecided(self, furnished: Workshop) -> None:
+    def test_a_polynomial_that_is_none_is_undecided(self, furnished):
         text = (furnished.folder / "servo.py").read_text(encoding="utf-8")
         (furnished.folder / "none.py").write_text(text.replace("(1, 3, 2, k)", "(0, 3, 2, k)"))
         done = furnished.run("lyapcheck check none.py")
@@ -120,7 +117,7 @@ class TestKind:
         assert "must be positive" in done.stdout
 
     @pytest.mark.slow
-    def test_how_it_is_decided_is_what_its_search_says_or_the_kind(self, furnished: Workshop) -> None:
+    def test_how_it_is_decided_is_what_its_search_says_or_the_kind(self, furnished):
         explain = "lyapcheck explain k5 --proof servo.py"
         assert "floating point says where the\nroots are" in furnished.run(explain).stdout
         (furnished.mine / "claims" / "procedures" / "hurwitz.py").unlink()
@@ -130,7 +127,7 @@ class TestKind:
 class TestFamily:
     """A family with its balls."""
 
-    def test_its_doubles_lie_in_its_balls(self, furnished: Workshop) -> None:
+    def test_its_doubles_lie_in_its_balls(self, furnished):
         code = """
 import numpy as np
 from flint import arb
@@ -147,7 +144,7 @@ assert f.h(np.inf) == 1
         assert not done.stderr
 
     @pytest.mark.slow
-    def test_without_balls_for_the_checker_it_runs_and_is_not_certified(self, furnished: Workshop) -> None:
+    def test_without_balls_for_the_checker_it_runs_and_is_not_certified(self, furnished):
         run = "lyapcheck simulate gentle.toml --target 30 --time 8"
         assert furnished.run(run, copied=False).stdout == furnished.run(run).stdout != ""
         done = furnished.run("lyapcheck epsilon gentle.toml", copied=False)
@@ -158,7 +155,7 @@ assert f.h(np.inf) == 1
         assert done.returncode == 3, "nothing says that x h(x) > 0"
 
     @pytest.mark.slow
-    def test_its_certificates_rest_on_its_balls(self, furnished: Workshop) -> None:
+    def test_its_certificates_rest_on_its_balls(self, furnished):
         assert furnished.run("lyapcheck epsilon gentle.toml --certificates soft").returncode == 0
         result = json.loads(furnished.run("lyapcheck recheck soft --trusted --format json").stdout)
         assert "lyapcheck.check.numbers.functions.gentle" in result["trusted"]["proved"]["modules"]
@@ -171,7 +168,7 @@ class TestArm:
     """An arm; the package is the one that is installed."""
 
     @pytest.mark.slow
-    def test_it_has_its_name_and_its_path(self, furnished: Workshop) -> None:
+    def test_it_has_its_name_and_its_path(self, furnished):
         code = "from lyapcheck.robots import load, names; print('bench' in names())\n"
         code += "for arm in ('bench', 'mine/robots/arms/bench.toml'): print(load(arm).name, load(arm).mass)"
         done = furnished.python(code, copied=False)
@@ -180,7 +177,7 @@ class TestArm:
         assert by_name == by_path
         assert by_name.startswith("bench ")
 
-    def test_gain_files_name_it(self, furnished: Workshop) -> None:
+    def test_gain_files_name_it(self, furnished):
         gains = '[[gains]]\nname = "a"\nm = 2\nkp = [20, 5]\nkv = [0.06, 0.05]\n'
         (furnished.folder / "gains.toml").write_text(f'robot = "bench"\n{gains}')
         done = furnished.run("lyapcheck gate gains.toml", copied=False)
@@ -188,7 +185,7 @@ class TestArm:
         assert "friction of elbow = 0.3 N·m·s/rad is assumed" in " ".join(done.stdout.split())
 
     @pytest.mark.slow
-    def test_it_does_not_take_the_name_of_another(self, furnished: Workshop) -> None:
+    def test_it_does_not_take_the_name_of_another(self, furnished):
         arms = furnished.mine / "robots" / "arms"
         (arms / "bench.toml").rename(arms / "pelican2.toml")
         done = furnished.python(
@@ -201,14 +198,14 @@ class TestAnswer:
     """An answer; the package is the one that is installed."""
 
     @pytest.mark.parametrize("form", but(["json"], FORMATS))
-    def test_it_has_every_format(self, furnished: Workshop, form: str) -> None:
+    def test_it_has_every_format(self, furnished, form):
         done = furnished.run(f"lyapcheck torque gentle.toml --format {form}", copied=False)
         assert done.returncode == 0, done.stderr
         assert "soft" in done.stdout
         assert "3.400" in done.stdout
 
     @pytest.mark.slow
-    def test_help_names_it_and_it_takes_no_other_name(self, furnished: Workshop) -> None:
+    def test_help_names_it_and_it_takes_no_other_name(self, furnished):
         own = furnished.mine / "cli" / "commands"
         (own / "torque.py").replace(own / "gate.py")
         assert "the checker judges them" in " ".join(
@@ -219,7 +216,7 @@ class TestAnswer:
         assert "torque Bound the torque that gains can ask for, gravity aside." in " ".join(shown.split())
 
     @pytest.mark.slow
-    def test_an_unbounded_function_has_no_bound(self, furnished: Workshop) -> None:
+    def test_an_unbounded_function_has_no_bound(self, furnished):
         path = furnished.folder / "gentle.toml"
         path.write_text(path.read_text(encoding="utf-8").replace('"gentle"', '"linear"'))
         assert "unbounded" in furnished.run("lyapcheck torque gentle.toml", copied=False).stdout
@@ -229,7 +226,7 @@ class TestFormat:
     """A format; the package is the one that is installed."""
 
     @pytest.mark.slow
-    def test_answers_are_written_in_it(self, furnished: Workshop) -> None:
+    def test_answers_are_written_in_it(self, furnished):
         code = """
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.table import build_table
@@ -243,7 +240,7 @@ print(gate(read_gain_file(paper_gain_file())).written("org"))
         assert done.stdout.count("\n* ") == 1
 
     @pytest.mark.slow
-    def test_every_command_takes_it_and_names_cannot_break_it(self, furnished: Workshop) -> None:
+    def test_every_command_takes_it_and_names_cannot_break_it(self, furnished):
         path = furnished.folder / "gentle.toml"
         path.write_text(path.read_text(encoding="utf-8").replace('"soft"', '"so|ft"'))
         for command in ("torque gentle.toml", "gate gentle.toml", "tune pendulum1 --m 1"):

@@ -1,15 +1,11 @@
 """The formulas of the paper in SymPy, and a normal form in which formulas of the family are compared."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import sympy as sp
 
 from lyapcheck.family.base import SymbolicForms
 
 
-def hyperbolic_printed(x: Any, m: Any) -> SymbolicForms:
+def hyperbolic_printed(x, m):
     """h as printed in (6), its derivative as printed in (8), and U as in (12)."""
     s, c = sp.sinh(x), sp.cosh(x)
     h = s ** (2 * m - 1) * c / (1 + s ** (2 * m))
@@ -17,7 +13,7 @@ def hyperbolic_printed(x: Any, m: Any) -> SymbolicForms:
     return SymbolicForms(h, top / (1 + s ** (2 * m)) ** 2, sp.log(1 + s ** (2 * m)) / (2 * m))
 
 
-def same_function(left: Any, right: Any, x: Any, m: Any) -> bool:
+def same_function(left, right, x, m):
     """Whether two formulas in sinh x, cosh x, sinh^(2m)x and m are the same function, for all m at once.
 
     Both are rational in S = sinh x, C = cosh x, P = sinh^(2m)x and m, with C² = 1 + S². The numerator of
@@ -38,11 +34,11 @@ def same_function(left: Any, right: Any, x: Any, m: Any) -> bool:
     return bool(sp.Poly(top, *generators).rem(sp.Poly(c**2 - 1 - s**2, *generators)).is_zero)
 
 
-def _algebraic(expression: Any, x: Any, m: Any, names: tuple[Any, Any, Any]) -> Any:
+def _algebraic(expression, x, m, names):
     """The expression with its powers of sinh x written as powers of S and P."""
     s, c, p = names
 
-    def power(base: Any, exponent: Any) -> Any:
+    def power(base, exponent):
         if base != sp.sinh(x):
             return sp.Pow(base, exponent)
         rest, pairs = exponent, sp.Integer(0)

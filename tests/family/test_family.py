@@ -1,7 +1,5 @@
 """What holds for every registered family, in all four arithmetics."""
 
-from __future__ import annotations
-
 import casadi as ca
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """The hyperbolic family in doubles against mpmath at 60 digits, in units in the last place."""
 
-from __future__ import annotations
-
 import math
 
 import casadi as ca

@@ -8,13 +8,11 @@ import shutil
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 from urllib.request import Request, urlopen
 
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 FLAGS = (
@@ -32,7 +30,7 @@ class Tab:
     ``errors`` are what the console and uncaught exceptions said.
     """
 
-    def __init__(self, socket: ClientConnection) -> None:
+    def __init__(self, socket):
         self._socket = socket
         self._number = 0
         self.errors: list[str] = []
@@ -43,7 +41,7 @@ class Tab:
         self.send("Page.setLifecycleEventsEnabled", enabled=True)
         self.send("Emulation.setFocusEmulationEnabled", enabled=True)
 
-    def send(self, method: str, **params: Any) -> dict[str, Any]:
+    def send(self, method, **params):
         """The result of a command of the protocol."""
         self._number += 1
         self._socket.send(json.dumps({"id": self._number, "method": method, "params": params}))
@@ -54,7 +52,7 @@ class Tab:
                 return dict(message["result"])
             self._event(message)
 
-    def _event(self, message: dict[str, Any]) -> None:
+    def _event(self, message):
         method, params = message["method"], message["params"]
         if method == "Page.lifecycleEvent" and params["name"] == "load":
             self._loaded.add(params["loaderId"])
@@ -67,7 +65,7 @@ class Tab:
         if method == "Log.entryAdded" and params["entry"]["level"] == "error":
             self.errors.append(params["entry"]["text"])
 
-    def open(self, page: Path, place: str = "") -> None:
+    def open(self, page, place=""):
         """Load a page and wait until it is there, it and not the one before."""
         for address in ("about:blank", page.as_uri() + (f"#{place}" if place else "")):
             self.errors.clear()
@@ -75,7 +73,7 @@ class Tab:
             while loader not in self._loaded:
                 self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
 
-    def arrives(self, page: Path, ending: str) -> bool:
+    def arrives(self, page, ending):
         """Whether a page leads on to an address with an ending."""
         self.send("Page.navigate", url=page.as_uri())
         end = time.monotonic() + PATIENCE
@@ -83,7 +81,7 @@ class Tab:
             self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
         return self._address.endswith(ending)
 
-    def run(self, script: str) -> Any:
+    def run(self, script):
         """The value of an expression, or of what it promises."""
         result = self.send(
             "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True, userGesture=True
@@ -91,19 +89,19 @@ class Tab:
         assert "exceptionDetails" not in result, result
         return result["result"].get("value")
 
-    def enter(self, selector: str, value: object) -> None:
+    def enter(self, selector, value):
         """Put a value into the first control that a selector finds, as a user does."""
         result = f"document.querySelector({json.dumps(selector)})"
         self.run(f"{result}.value = {json.dumps(value)}; {result}.dispatchEvent(new Event('input'))")
 
-    def until(self, script: str) -> Any:
+    def until(self, script):
         """The value of an expression as soon as it counts as true; its last value if it never does."""
         end = time.monotonic() + PATIENCE
         while not (value := self.run(script)) and time.monotonic() < end:
             time.sleep(PAUSE)
         return value
 
-    def size(self, width: int, height: int = 900) -> None:
+    def size(self, width, height=900):
         """The size of the window in pixels, of a page that is open."""
         mobile = width < 500
         self.send(
@@ -115,12 +113,12 @@ class Tab:
         )
         self.until(f"matchMedia('(width: {width}px) and (height: {height}px)').matches")
 
-    def media(self, kind: str = "", scheme: str = "light") -> None:
+    def media(self, kind="", scheme="light"):
         """Screen or paper, and light or dark."""
         features = [{"name": "prefers-color-scheme", "value": scheme}]
         self.send("Emulation.setEmulatedMedia", media=kind, features=features)
 
-    def press(self, key: str) -> None:
+    def press(self, key):
         """One key, down and up."""
         code = {"Tab": 9, "Enter": 13}[key]
         text = {"text": "\r"} if key == "Enter" else {}
@@ -129,17 +127,17 @@ class Tab:
                 "Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, **text
             )
 
-    def picture(self, whole: bool = False) -> bytes:
+    def picture(self, whole=False):
         """What is seen, or the whole page, as PNG."""
         return base64.b64decode(self.send("Page.captureScreenshot", captureBeyondViewport=whole)["data"])
 
-    def paper(self) -> bytes:
+    def paper(self):
         """The page as it is printed, as PDF."""
         return base64.b64decode(self.send("Page.printToPDF", preferCSSPageSize=True)["data"])
 
 
 @contextmanager
-def browser() -> Iterator[Tab]:
+def browser():
     """A browser of its own with one empty page."""
     assert CHROMIUM is not None, "install chromium"
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as home:
@@ -157,7 +155,7 @@ def browser() -> Iterator[Tab]:
             process.wait()
 
 
-def _new_tab(file: Path) -> str:
+def _new_tab(file):
     """The address of a new page, as soon as the browser has said at which port it listens."""
     end = time.monotonic() + PATIENCE
     while not (file.is_file() and file.read_text()):

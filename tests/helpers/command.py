@@ -6,7 +6,6 @@ import io
 import sys
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
-from pathlib import Path
 from subprocess import CompletedProcess
 from unittest.mock import patch
 
@@ -24,12 +23,12 @@ class Done:
     exception: InputError | None = None
 
     @property
-    def output(self) -> str:
+    def output(self):
         """Both streams."""
         return self.stdout + self.stderr
 
 
-def invoke(*words: str) -> Done:
+def invoke(*words):
     """Run ``lyapcheck`` with some words."""
     out, err = io.StringIO(), io.StringIO()
     with redirect_stdout(out), redirect_stderr(err):
@@ -40,11 +39,11 @@ def invoke(*words: str) -> Done:
     return Done(int(code), out.getvalue(), err.getvalue(), refusal)
 
 
-def lyapcheck(*arguments: object, folder: Path | None = None) -> CompletedProcess[str]:
+def lyapcheck(*arguments, folder=None):
     """The whole program in a folder, with what it makes of errors: what a shell would see of it."""
     words = ["lyapcheck", *map(str, arguments)]
     out, err = io.StringIO(), io.StringIO()
-    code: object = None
+    code = None
     with patch.object(sys, "argv", words), chdir(folder or "."), redirect_stdout(out), redirect_stderr(err):
         try:
             main()

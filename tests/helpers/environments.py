@@ -1,20 +1,16 @@
 """Environments in which some of the libraries are missing, as they are where nobody has installed them."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
 import venv
-from collections.abc import Iterable
 from pathlib import Path
-from subprocess import CompletedProcess
 
 ROOT = Path(__file__).parents[2]
 FLINT = ("flint", "python_flint")
 
 
-def _packages() -> list[Path]:
+def _packages():
     """What is installed here."""
     places = [Path(path) for path in sys.path if path.endswith(("site-packages", "dist-packages"))]
     return [
@@ -22,13 +18,13 @@ def _packages() -> list[Path]:
     ]
 
 
-def _is(entry: Path, names: Iterable[str]) -> bool:
+def _is(entry, names):
     """Whether an entry of a folder of packages belongs to one of some packages."""
     start = entry.name.lower().replace("-", "_")
     return any(start == name or start.startswith((f"{name}.", f"{name}_", f"{name}-")) for name in names)
 
 
-def environment(home: Path, *, only: Iterable[str] = (), without: Iterable[str] = ()) -> Path:
+def environment(home, *, only=(), without=()):
     """The Python of a new environment with this checkout, and some of what is installed here.
 
     Args:
@@ -49,7 +45,7 @@ def environment(home: Path, *, only: Iterable[str] = (), without: Iterable[str] 
     return home / "bin" / "python"
 
 
-def run(python: Path, *words: str, folder: Path) -> CompletedProcess[str]:
+def run(python, *words, folder):
     """``lyapcheck`` of an environment, in a folder; nothing is taken from the store."""
     variables = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
     variables |= {"XDG_CACHE_HOME": str(folder / ".cache")}

@@ -1,11 +1,7 @@
 """Every option of every command by itself, with values at the ends of what it may be asked."""
 
-from __future__ import annotations
-
 import re
 import shlex
-from collections.abc import Iterator
-from pathlib import Path
 
 from lyapcheck.cli.commands import load
 from lyapcheck.cli.parser import Parser
@@ -32,7 +28,7 @@ SLOW = {"map", "appendix"}
 NO_NUMBER = re.compile(r"(?<![\w.])[-+]?(nan|NaN)(?![\w=.])")
 
 
-def values(metavar: str, joints: int) -> tuple[str, ...]:
+def values(metavar, joints):
     """What an option is given that stands for one of these in its help."""
     if metavar == "NAME=LO..HI":
         return RANGES
@@ -44,7 +40,7 @@ def values(metavar: str, joints: int) -> tuple[str, ...]:
     return (*NUMBERS, *WHOLE)
 
 
-def lines(command: str, base: str, joints: int) -> Iterator[str]:
+def lines(command, base, joints):
     """The command line ``base`` with each option of a command, one at a time, at each extreme."""
     parser = Parser(prog=command)
     load(command).arguments(parser)
@@ -63,7 +59,7 @@ def lines(command: str, base: str, joints: int) -> Iterator[str]:
                 yield f"{base} {option}={value}" if value else f"{base} {option} ''"
 
 
-def fault(line: str, folder: Path) -> str:
+def fault(line, folder):
     """What is wrong with how a command line ends; empty where nothing is."""
     try:
         done = lyapcheck(*shlex.split(line), folder=folder)

@@ -7,7 +7,6 @@ forces link by link, and nothing merged.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import numpy as np
 
@@ -17,7 +16,7 @@ RIGHT = np.pi / 2
 class Arm:
     """The torque that moves the named joints of a URDF as told; all other joints are at rest at 0."""
 
-    def __init__(self, path: Path, moving: tuple[str, ...]) -> None:
+    def __init__(self, path, moving):
         robot = ET.parse(path).getroot()
         self.links = {link.get("name"): link.find("inertial") for link in robot.findall("link")}
         joints = robot.findall("joint")
@@ -28,7 +27,7 @@ class Arm:
         self.root = next(name for name in self.links if name not in below)
         self.moving = moving
 
-    def torque(self, q, w, a, gravity=(0.0, 0.0, -9.81)) -> np.ndarray:
+    def torque(self, q, w, a, gravity=(0.0, 0.0, -9.81)):
         """The torques for angles q, rates w and accelerations a."""
         self.state = {name: (q[i], w[i], a[i]) for i, name in enumerate(self.moving)}
         self.tau = dict.fromkeys(self.moving, 0.0)
@@ -79,18 +78,18 @@ def _newton_euler(inertial, turn, place, omega, alpha, acceleration):
     return force, spin + np.cross(place + arm, force)
 
 
-def _numbers(element, key, default="0 0 0") -> np.ndarray:
+def _numbers(element, key, default="0 0 0"):
     text = default if element is None else element.get(key, default)
     return np.array([float(word) for word in text.split()])
 
 
-def rpy(angles) -> np.ndarray:
+def rpy(angles):
     """Rz(yaw) Ry(pitch) Rx(roll); an angle written like a right one in ten digits is one."""
     near = [RIGHT * round(x / RIGHT) if abs(x - RIGHT * round(x / RIGHT)) < 1e-9 else x for x in angles]
     roll, pitch, yaw = (_about(np.eye(3)[i], angle) for i, angle in enumerate(near))
     return yaw @ pitch @ roll
 
 
-def _about(axis, angle) -> np.ndarray:
+def _about(axis, angle):
     cross = np.array([np.cross(axis, e) for e in np.eye(3)]).T
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross

@@ -1,19 +1,14 @@
 """What takes long to make, made once for all processes that run tests."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import pickle
-from collections.abc import Callable
 from typing import TypeVar
-
-import pytest
 
 Made = TypeVar("Made")
 
 
-def once(tmp_path_factory: pytest.TempPathFactory, name: str, make: Callable[[], Made]) -> Made:
+def once(tmp_path_factory, name, make):
     """What ``make`` returns, pickled: the first process that asks makes it, the others wait and read it."""
     place = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
@@ -23,5 +18,5 @@ def once(tmp_path_factory: pytest.TempPathFactory, name: str, make: Callable[[],
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not path.exists():
             path.write_bytes(pickle.dumps(make()))
-        result: Made = pickle.loads(path.read_bytes())
+        result = pickle.loads(path.read_bytes())
     return result

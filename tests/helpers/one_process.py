@@ -1,35 +1,31 @@
 """Scripts run, and certificates are judged, in the process of the test, by the same functions."""
 
-from __future__ import annotations
-
 import io
-from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import asdict
 from pathlib import Path
 from subprocess import CompletedProcess
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 
 @contextmanager
-def one_process() -> Iterator[pytest.MonkeyPatch]:
+def one_process():
     """As long as it lasts; what else is to be replaced as long may be."""
     from lyapcheck.check import certificate, guard
     from lyapcheck.claims import fresh_check, script_process
     from lyapcheck.claims import script as ask
     from lyapcheck.rechecking import main as checker
 
-    def run_script(request: Any) -> int:
+    def run_script(request):
         Path(request.answer).write_text(script_process.answer(request), encoding="utf-8")
         return 0
 
-    def ask_worker(own: guard.Guard, content: bytes, full: bool) -> dict[str, Any]:
+    def ask_worker(own, content, full):
         return {"finding": asdict(certificate.judged(content, full))}
 
-    def run_checker(words: list[str], **options: Any) -> CompletedProcess[bytes]:
+    def run_checker(words, **options):
         stdout = io.StringIO()
         with redirect_stdout(stdout):
             code = checker.main(words[words.index("lyapcheck.check") + 1 :])

@@ -1,7 +1,5 @@
 """Other results in the place of those of an answer: zeros, infinities, nothing, equal and hostile values."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import fields, is_dataclass, replace
@@ -13,7 +11,6 @@ import numpy as np
 
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import GainFile
-from lyapcheck.output.answer import Answer
 from lyapcheck.promise import Promise
 from lyapcheck.robots import RobotModel
 
@@ -36,7 +33,7 @@ MOST_DRAWN = 12
 KEPT = (RobotModel, GainFile, Promise, PurePath)
 
 
-def redrawn(answer: Answer, draw: Draw, most: int) -> Answer:
+def redrawn(answer, draw, most):
     """The answer with other numbers, names and gaps, and with none or up to ``most`` of its results."""
     if isinstance(answer, tuple):
         return type(answer)(_several([_value(one, "", "", draw) for one in answer], draw, most))
@@ -51,17 +48,17 @@ def redrawn(answer: Answer, draw: Draw, most: int) -> Answer:
     return replace(answer, **changed)
 
 
-def other(row: Any, draw: Draw) -> Any:
+def other(row, draw):
     """A row of an answer with other numbers, names and gaps."""
     return _value(row, "", "", draw)
 
 
-def _several(results: list[Any], draw: Draw, most: int) -> list[Any]:
+def _several(results, draw, most):
     count = draw((0, 1, len(results), most))
     return [results[k % len(results)] for k in range(count)] if results else []
 
 
-def _value(value: Any, name: str, hint: str, draw: Draw) -> Any:
+def _value(value, name, hint, draw):
     if isinstance(value, KEPT) or name in LEFT or (callable(value) and not is_dataclass(value)):
         return value
     if value is not None and hint.endswith("| None") and draw((False, False, True)):
@@ -72,7 +69,7 @@ def _value(value: Any, name: str, hint: str, draw: Draw) -> Any:
     return _enclosure(draw) if isinstance(value, Enclosure) else _whole(value, name, hint, draw)
 
 
-def _others(value: Any, name: str) -> Sequence[Any]:
+def _others(value, name):
     """What else a number or a text might be; nothing for what the program reads again."""
     if type(value) is Fraction:
         return POSITIVE if name in GAINS else FRACTIONS
@@ -81,7 +78,7 @@ def _others(value: Any, name: str) -> Sequence[Any]:
     return {float: FLOATS, int: COUNTS}.get(type(value), ())
 
 
-def _whole(value: Any, name: str, hint: str, draw: Draw) -> Any:
+def _whole(value, name, hint, draw):
     if isinstance(value, np.ndarray):
         small = value.size <= MOST_DRAWN and value.dtype.kind == "f"
         drawn = [draw((float(x), *FLOATS)) for x in value.flat] if small else value
@@ -101,6 +98,6 @@ def _whole(value: Any, name: str, hint: str, draw: Draw) -> Any:
         return value
 
 
-def _enclosure(draw: Draw) -> Enclosure:
+def _enclosure(draw):
     low = draw(FRACTIONS)
     return Enclosure(low, low + draw((Fraction(0), Fraction(1, 10**40), Fraction(1), Fraction(10**30))))

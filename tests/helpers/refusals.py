@@ -1,11 +1,8 @@
 """Where the checker refuses: every place in its source, and those that a certificate came to."""
 
-from __future__ import annotations
-
 import ast
 import sys
 from collections import Counter
-from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -19,13 +16,13 @@ APART = (CHECK / "refusal.py", CHECK / "covers.py")
 
 
 @cache
-def places() -> dict[tuple[str, int], str]:
+def places():
     """The name of each call of ``require`` and each refusal that is raised, by file and line."""
-    result: dict[tuple[str, int], str] = {}
+    result = {}
     for path in sorted(CHECK.rglob("*.py")):
         module = path.relative_to(CHECK).as_posix()
         if path not in APART:
-            counted: Counter[str] = Counter()
+            counted = Counter()
             for name, node in _refusing(ast.parse(path.read_text(encoding="utf-8")), ()):
                 counted[name] += 1
                 suffix = f" ({counted[name]})" if counted[name] > 1 else ""
@@ -34,7 +31,7 @@ def places() -> dict[tuple[str, int], str]:
     return result
 
 
-def _refusing(node: ast.AST, inside: tuple[str, ...]) -> Iterator[tuple[str, ast.expr]]:
+def _refusing(node, inside):
     """The calls that refuse, each with the function that it stands in and the rule that it names."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.FunctionDef | ast.ClassDef):
@@ -50,12 +47,12 @@ def _refusing(node: ast.AST, inside: tuple[str, ...]) -> Iterator[tuple[str, ast
 
 
 @contextmanager
-def recorded() -> Iterator[set[str]]:
+def recorded():
     """The names of the places at which something is refused meanwhile."""
-    seen: set[str] = set()
+    seen = set()
     known, plain = places(), refusal.Refused.__init__
 
-    def noting(self: refusal.Refused, *words: object) -> None:
+    def noting(self, *words):
         frame = sys._getframe(1)
         while (caller := frame.f_back) is not None and frame.f_code.co_name in ("__init__", "require"):
             frame = caller

@@ -1,7 +1,5 @@
 """Random arms, states and arithmetics that the tests of the robots share."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from flint import fmpq
@@ -29,22 +27,22 @@ axes = st.sampled_from(
 )
 
 
-def angles(n: int) -> st.SearchStrategy[list[tuple[Fraction, Fraction]]]:
+def angles(n):
     """n points (sin, cos) on the unit circle with rational coordinates."""
     half = st.fractions(min_value=-8, max_value=8, max_denominator=12)
     return st.lists(half.map(circle), min_size=n, max_size=n)
 
 
-def circle(t: Fraction) -> tuple[Fraction, Fraction]:
+def circle(t):
     return 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
 
 
-def rates(n: int) -> st.SearchStrategy[list[Fraction]]:
+def rates(n):
     return st.lists(small, min_size=n, max_size=n)
 
 
 @st.composite
-def plain_links(draw: st.DrawFn, most: int = 3) -> list[dict[str, object]]:
+def plain_links(draw, most=3):
     """Links with rational numbers; every inertia belongs to a real body (second moments ⪰ 0)."""
     count = draw(st.integers(1, most))
     vector = st.tuples(small, small, small)
@@ -65,12 +63,10 @@ def plain_links(draw: st.DrawFn, most: int = 3) -> list[dict[str, object]]:
     return links
 
 
-def model_of(
-    links: list[dict[str, object]], gravity: tuple[object, ...] = (0, 0, Fraction(-981, 100))
-) -> RobotModel:
+def model_of(links, gravity=(0, 0, Fraction(-981, 100))):
     n = len(links)
 
-    def exact_parts(value: object) -> object:
+    def exact_parts(value):
         return tuple(map(exact_parts, value)) if isinstance(value, list | tuple) else Fraction(value)
 
     plain = [{"turn": UNIT} | {key: exact_parts(value) for key, value in link.items()} for link in links]
@@ -91,5 +87,5 @@ def model_of(
     )
 
 
-def exact(value: Fraction) -> fmpq:
+def exact(value):
     return fmpq(value.numerator, value.denominator)

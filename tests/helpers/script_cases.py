@@ -1,7 +1,5 @@
 """A proof script as it is shipped, its verdicts, and copies of it with something replaced."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from lyapcheck.claims import run_proof

@@ -1,19 +1,14 @@
 """Long lists of cases: a share for the fast tests, the rest for the slow ones."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable
-from typing import Any
-
 import pytest
 
 
-def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
+def one_in(count, cases):
     """The same cases for ``parametrize``; all but the first and each ``count``-th from it are slow."""
     return [case if k % count == 0 else _slow(case) for k, case in enumerate(cases)]
 
 
-def but(fast: Iterable[Any], cases: Iterable[Any]) -> list[Any]:
+def but(fast, cases):
     """The same cases for ``parametrize``; all but the ``fast`` ones are slow."""
     kept = list(fast)
     result = list(cases)
@@ -21,6 +16,6 @@ def but(fast: Iterable[Any], cases: Iterable[Any]) -> list[Any]:
     return [case if case in kept else _slow(case) for case in result]
 
 
-def _slow(case: Any) -> Any:
+def _slow(case):
     values = case if type(case) is tuple else (case,)  # a named tuple is one value
     return pytest.param(*values, marks=pytest.mark.slow)

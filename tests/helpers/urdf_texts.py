@@ -1,7 +1,5 @@
 """URDF texts that the tests share."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 
@@ -55,11 +53,11 @@ TWO = """\
 """
 
 
-def generic(n: int, seed: int = 1) -> str:
+def generic(n, seed=1):
     """A chain of n joints with nothing special about it: all angles, places and inertias are odd."""
     rng = random.Random(seed)
 
-    def triple(size: float) -> str:
+    def triple(size):
         return " ".join(f"{rng.uniform(-size, size):.3f}" for _ in range(3))
 
     parts = ['<robot name="generic"><link name="l0"/>']

@@ -1,16 +1,10 @@
 """Words of proof in answers: those left once promises say *seen* are not from a promise."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Iterator
-from typing import Any
-
-import pytest
 
 from lyapcheck.answers.check import ProofResult
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Code, Equation, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import Bullets, Code, Equation, Figure, Paragraph, Section, Table
 from lyapcheck.promise import GUARDED, promises_as_seen
 from tests.helpers.command import invoke
 
@@ -20,12 +14,12 @@ QUOTED = re.compile(r"`[^`]*`|--[\w-]+( [\w-]+)?|“[^”]*”")
 """Commands and options, whose names may be words of proof, and the words of an author."""
 
 
-def left_over(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def left_over(words, monkeypatch):
     """What the answers of a command say of proof beside their promises."""
-    answers: list[Answer] = []
+    answers = []
     written = Answer.written
 
-    def kept(answer: Answer, *rest: Any, **more: Any) -> str:
+    def kept(answer, *rest, **more):
         answers.append(answer)
         return written(answer, *rest, **more)
 
@@ -36,24 +30,24 @@ def left_over(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> list[s
         return [text for answer in answers for text in said(answer) if words_of_proof(text)]
 
 
-def words_of_proof(text: str) -> list[str]:
+def words_of_proof(text):
     """The guarded words of a text that promise something."""
     return GUARDED.findall(NEGATED.sub("", QUOTED.sub("", text)))
 
 
-def said(answer: Answer) -> Iterator[str]:
+def said(answer):
     """What an answer says in words: no heads of columns, no keys, no code, no names that a script gives."""
     names = named(answer)
     yield from (text for text in _said(answer) if text not in names)
 
 
-def named(answer: Answer) -> set[str]:
+def named(answer):
     """Names of claims and of parts of a proof, and words of its author."""
     rows = answer.claims if isinstance(answer, ProofResult) else ()
     return {name for row in rows for name in (row.id, row.kind, row.section, row.comment, *row.uses)}
 
 
-def _said(answer: Answer) -> Iterator[str]:
+def _said(answer):
     document = answer.document()
     yield document.title
     yield from texts(document.body)
@@ -62,7 +56,7 @@ def _said(answer: Answer) -> Iterator[str]:
     yield from values(answer.data())
 
 
-def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
+def texts(blocks):
     for block in blocks:
         if isinstance(block, Paragraph):
             yield block.text
@@ -81,7 +75,7 @@ def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
             assert isinstance(block, (Code, Equation))
 
 
-def values(data: Any) -> Iterator[str]:
+def values(data):
     if isinstance(data, str):
         yield data
     elif isinstance(data, dict):

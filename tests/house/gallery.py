@@ -1,7 +1,5 @@
 """The notebooks of the documents, executed: ``python -m tests.house.gallery`` writes their outputs anew."""
 
-from __future__ import annotations
-
 import ast
 import io
 import json
@@ -10,15 +8,14 @@ import sys
 from contextlib import chdir, redirect_stdout
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 NOTEBOOKS = sorted(GALLERY.glob("*.ipynb"))
 
 
-def outputs(notebook: dict[str, Any], folder: Path) -> list[str]:
+def outputs(notebook, folder):
     """What each cell of code prints, its last value included, all in one namespace and a folder."""
-    names: dict[str, Any] = {"__name__": "__main__"}
+    names = {"__name__": "__main__"}
     result = []
     with chdir(folder):
         for cell in notebook["cells"]:
@@ -30,7 +27,7 @@ def outputs(notebook: dict[str, Any], folder: Path) -> list[str]:
     return result
 
 
-def _run(source: str, names: dict[str, Any]) -> None:
+def _run(source, names):
     """A cell as a notebook runs it: the value of a last expression is shown."""
     *first, last = ast.parse(source).body
     ends = isinstance(last, ast.Expr)
@@ -40,13 +37,13 @@ def _run(source: str, names: dict[str, Any]) -> None:
         print(repr(value))
 
 
-def shown(notebook: dict[str, Any]) -> list[str]:
+def shown(notebook):
     """What the file says that each cell of code prints."""
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     return ["".join("".join(output["text"]) for output in cell["outputs"]) for cell in cells]
 
 
-def main() -> int:
+def main():
     """Execute all notebooks and write what they print into them."""
     os.environ["LYAPCHECK_NO_STORE"] = "1"
     for path in NOTEBOOKS:

@@ -1,7 +1,5 @@
 """Each room has a budget of lines and files: what is added has to make room, or to say why it may not."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 
@@ -12,35 +10,35 @@ BUDGETS = tomllib.loads((Path(__file__).parent / "budgets.toml").read_text(encod
 PACKAGE = BUDGETS["lyapcheck"]
 
 
-def rooms() -> dict[str, list[Path]]:
+def rooms():
     """The Python files of each folder of the package; those beside the folders are the room ``top``."""
-    result: dict[str, list[Path]] = {}
+    result = {}
     for path in (ROOT / "lyapcheck").rglob("*.py"):
         parts = path.relative_to(ROOT / "lyapcheck").parts
         result.setdefault(parts[0] if len(parts) > 1 else "top", []).append(path)
     return result
 
 
-def lines(paths: list[Path]) -> int:
+def lines(paths):
     return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
 
 
-def test_every_room_has_a_budget() -> None:
+def test_every_room_has_a_budget():
     assert set(PACKAGE) == set(rooms())
 
 
 @pytest.mark.parametrize("room", sorted(PACKAGE))
-def test_a_room_keeps_its_budget(room: str) -> None:
+def test_a_room_keeps_its_budget(room):
     paths = rooms()[room]
     assert lines(paths) <= PACKAGE[room]["lines"], "delete something, or raise the budget in the same commit"
     assert len(paths) <= PACKAGE[room]["files"], "merge something, or raise the budget in the same commit"
 
 
-def test_tests_keep_theirs() -> None:
+def test_tests_keep_theirs():
     assert lines(list((ROOT / "tests").rglob("*.py"))) <= BUDGETS["tests"]["lines"]
 
 
-def test_budgets_are_no_larger_than_needed() -> None:
+def test_budgets_are_no_larger_than_needed():
     """A budget that is far above what stands there allows growth that nobody has asked for."""
     for room, paths in rooms().items():
         assert PACKAGE[room]["lines"] <= lines(paths) + 150, room

@@ -1,7 +1,5 @@
 """The first claim of CONTRIBUTING.md: the page's own script does what the page says of it."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from pathlib import Path
@@ -15,13 +13,13 @@ PAGE = (Path(__file__).parents[2] / "CONTRIBUTING.md").read_text(encoding="utf-8
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
 
-def script() -> str:
+def script():
     """The one script of the page."""
     (result,) = re.findall(r"^ *```python\n(.*?)^ *```$", PAGE, re.MULTILINE | re.DOTALL)
     return textwrap.dedent(result)
 
 
-def test_the_script_is_decided_and_its_certificate_accepted(tmp_path: Path) -> None:
+def test_the_script_is_decided_and_its_certificate_accepted(tmp_path):
     (tmp_path / "mine.py").write_text(script(), encoding="utf-8")
     checked = lyapcheck(*["check", "mine.py", "--certificates", "made/"], folder=tmp_path)
     assert (checked.returncode, "✓  peak" in checked.stdout) == (0, True), checked.stdout
@@ -31,7 +29,7 @@ def test_the_script_is_decided_and_its_certificate_accepted(tmp_path: Path) -> N
         assert f"`{' '.join(command.args)}`" in PAGE
 
 
-def test_broken_on_purpose_it_is_refuted_with_an_x(tmp_path: Path) -> None:
+def test_broken_on_purpose_it_is_refuted_with_an_x(tmp_path):
     assert re.search(r'`"1\.05"`.* for `"1\.06"`', PAGE)
     (tmp_path / "mine.py").write_text(script().replace("1.06", "1.05"), encoding="utf-8")
     checked = lyapcheck("check", "mine.py", folder=tmp_path)

@@ -1,7 +1,5 @@
 """The documents: their commands are ones that lyapcheck takes; tests/cli/test_wheel.py runs them."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import tomllib
@@ -20,7 +18,7 @@ SCREEN = 60
 """Lines of a README that fits one screen."""
 
 
-def commands(page: Path) -> list[str]:
+def commands(page):
     """The command lines of a page, without comments."""
     result = []
     for block in re.findall(r"```console\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
@@ -33,7 +31,7 @@ EVERY = [(page.name, line) for page in DOCS if page.name != EXTENDED for line in
 
 
 @pytest.mark.parametrize(("page", "line"), EVERY)
-def test_every_command_in_the_documents_is_one(page: str, line: str) -> None:
+def test_every_command_in_the_documents_is_one(page, line):
     name, *words = shlex.split(line)[1:]
     if not name.startswith("-"):
         assert name in NAMES
@@ -42,29 +40,29 @@ def test_every_command_in_the_documents_is_one(page: str, line: str) -> None:
         parser.parse(words)
 
 
-def test_there_are_commands_in_the_documents() -> None:
+def test_there_are_commands_in_the_documents():
     assert len(EVERY) > 25
 
 
 @pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)
-def test_links_lead_somewhere(page: Path) -> None:
+def test_links_lead_somewhere(page):
     targets = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8"))
     local = [target for target in targets if not re.match(r"[a-z]+:", target)]
     assert [target for target in local if not (page.parent / target).exists()] == []
 
 
-def test_every_page_is_in_the_site() -> None:
+def test_every_page_is_in_the_site():
     text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
     assert set(re.findall(r": ([a-z_]+\.md)$", text, re.MULTILINE)) == {
         page.name for page in (ROOT / "docs").glob("*.md")
     }
 
 
-def test_the_readme_fits_a_screen() -> None:
+def test_the_readme_fits_a_screen():
     assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= SCREEN
 
 
-def test_the_citation_is_of_this_version() -> None:
+def test_the_citation_is_of_this_version():
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert f"\nversion: {project['version']}\n" in citation

@@ -1,7 +1,5 @@
 """The notebooks of the documents print what they say they print."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -14,13 +12,13 @@ PAGES = Path(__file__).parents[2] / "mkdocs.yml"
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_prints_what_it_says(path: Path, tmp_path: Path) -> None:
+def test_a_notebook_prints_what_it_says(path, tmp_path):
     notebook = json.loads(path.read_text(encoding="utf-8"))
     assert any(shown(notebook))
     assert outputs(notebook, tmp_path) == shown(notebook)
 
 
-def test_every_notebook_is_a_page_of_the_site() -> None:
+def test_every_notebook_is_a_page_of_the_site():
     assert len(NOTEBOOKS) >= 4
     text = PAGES.read_text(encoding="utf-8")
     assert [path.stem for path in NOTEBOOKS if f"gallery/{path.stem}.md" not in text] == []

@@ -1,10 +1,7 @@
 """The architecture: what may import what, and that every module can be the first that is imported."""
 
-from __future__ import annotations
-
 import ast
 import re
-from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -13,7 +10,7 @@ TOP = Path(__file__).parents[2] / "lyapcheck"
 
 
 @cache
-def modules() -> dict[str, Path]:
+def modules():
     """The modules of the package by name."""
     result = {}
     for path in TOP.rglob("*.py"):
@@ -23,12 +20,12 @@ def modules() -> dict[str, Path]:
 
 
 @cache
-def imported(module: str, types: bool = False) -> tuple[str, ...]:
+def imported(module, types=False):
     """The modules of the package that one imports as it is loaded; those for types alone if asked."""
     return tuple(_imported(ast.parse(modules()[module].read_text(encoding="utf-8")), types))
 
 
-def _imported(tree: ast.AST, types: bool) -> Iterator[str]:
+def _imported(tree, types):
     waiting = [tree]
     while waiting:
         node = waiting.pop()
@@ -46,7 +43,7 @@ def _imported(tree: ast.AST, types: bool) -> Iterator[str]:
         waiting += ast.iter_child_nodes(node)
 
 
-def test_no_modules_import_each_other_in_a_circle() -> None:
+def test_no_modules_import_each_other_in_a_circle():
     """So each can be imported first. A package's ``__init__`` is loaded before what is inside it."""
     graph = {}
     for module in modules():
@@ -58,21 +55,21 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
     TopologicalSorter(graph).prepare()
 
 
-def test_no_two_modules_need_each_others_types() -> None:
+def test_no_two_modules_need_each_others_types():
     """What prints a result takes a type from below it, not the answer that calls it."""
     known = set(modules()) - {TOP.name}  # the public interface names all that it offers
     graph = {module: set(imported(module, types=True)) & known - {module} for module in known}
     TopologicalSorter(graph).prepare()
 
 
-def test_the_checker_imports_nothing_from_the_rest_of_the_house() -> None:
+def test_the_checker_imports_nothing_from_the_rest_of_the_house():
     for module in modules():
         if module.startswith("lyapcheck.check.") and module != "lyapcheck.check.__main__":
             outside = [n for n in imported(module) if n.startswith("lyapcheck.") and ".check" not in n]
             assert not outside, f"{module} imports {outside}"
 
 
-def test_every_work_that_is_referred_to_stands_in_the_bibliography() -> None:
+def test_every_work_that_is_referred_to_stands_in_the_bibliography():
     works = (TOP.parent / "proofs" / "references.bib").read_text(encoding="utf-8")
     known = set(re.findall(r"^@\w+\{(\w+),", works, re.MULTILINE))
     named = {

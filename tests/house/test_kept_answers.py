@@ -1,45 +1,40 @@
 """ε₀ from the store: the same answer, judged again, and never believed."""
 
-from __future__ import annotations
-
 import gzip
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from lyapcheck import store
-from lyapcheck.answers.epsilon import EpsilonResult, epsilon, kept
+from lyapcheck.answers.epsilon import epsilon, kept
 from lyapcheck.answers.epsilon.certificates import certificates
 from lyapcheck.answers.epsilon.kept import kept_epsilon
 from lyapcheck.answers.epsilon.options import Options
 from lyapcheck.control.gains import GainSet
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from tests.arena.attacks import encoded, sealed
 from tests.helpers.shares import one_in
 
 GAINS = GainSet("one", 1, (Fraction(1, 2),), (Fraction(1, 10),))
-BUDGET: dict[str, Any] = {"max_boxes": 300, "starts": 2}
+BUDGET = {"max_boxes": 300, "starts": 2}
 
 
 @pytest.fixture(autouse=True)
-def place(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+def place(monkeypatch, tmp_path):
     monkeypatch.delenv(store.OFF)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return tmp_path / "lyapcheck" / store.ANSWERS
 
 
-def never(*arguments: Any, **options: Any) -> None:
+def never(*arguments, **options):
     raise AssertionError("it was computed again")
 
 
-def rewritten(place: Path, change: Callable[[Any], None]) -> None:
+def rewritten(place, change):
     """All that is kept, changed by someone who knows how it is sealed."""
     for path in place.iterdir():
         answer = json.loads(gzip.decompress(path.read_bytes()[:-32]))
@@ -48,7 +43,7 @@ def rewritten(place: Path, change: Callable[[Any], None]) -> None:
 
 
 @cache
-def computed(ranges: bool) -> tuple[RobotModel, bool, EpsilonResult]:
+def computed(ranges):
     """An arm, and its ε₀ computed once for all tests."""
     vary = (Vary.parsed("viscous=-10%..+10%"),) if ranges else ()
     model = load("pendulum1", vary=vary)
@@ -59,11 +54,11 @@ def computed(ranges: bool) -> tuple[RobotModel, bool, EpsilonResult]:
 
 
 @pytest.fixture(params=one_in(2, [False, True]), ids=["nominal", "ranges"])
-def asked(request: pytest.FixtureRequest) -> tuple[RobotModel, bool, EpsilonResult]:
+def asked(request):
     return computed(request.param)
 
 
-def test_epsilon_is_found_again(monkeypatch: pytest.MonkeyPatch, asked: Any) -> None:
+def test_epsilon_is_found_again(monkeypatch, asked):
     model, ranges, first = asked
     monkeypatch.setattr(kept, "four", lambda *asked: first)
     assert kept_epsilon(GAINS, model, Options(ranges=ranges, **BUDGET)) is first
@@ -78,10 +73,10 @@ def test_epsilon_is_found_again(monkeypatch: pytest.MonkeyPatch, asked: Any) -> 
         kept_epsilon(GAINS, load("pendulum1"), Options(ranges=not ranges, **BUDGET))
 
 
-def resealed(kind: str, change: Callable[[Any], None]) -> Callable[[Any], None]:
+def resealed(kind, change):
     """A change of one certificate, with the digest that it then has."""
 
-    def changed(answer: Any) -> None:
+    def changed(answer):
         one = json.loads(answer["certificates"][kind])
         change(one)
         answer["certificates"][kind] = encoded(sealed(one)).decode()
@@ -104,9 +99,7 @@ def resealed(kind: str, change: Callable[[Any], None]) -> Callable[[Any], None]:
         lambda answer: answer.pop("beside"),
     ],
 )
-def test_an_epsilon_that_was_exchanged_is_asked_again(
-    monkeypatch: pytest.MonkeyPatch, place: Path, asked: Any, change: Callable[[Any], None]
-) -> None:
+def test_an_epsilon_that_was_exchanged_is_asked_again(monkeypatch, place, asked, change):
     model, ranges, first = asked
     monkeypatch.setattr(kept, "four", lambda *asked: first)
     options = Options(ranges=ranges, **BUDGET)
@@ -116,7 +109,7 @@ def test_an_epsilon_that_was_exchanged_is_asked_again(
     assert kept_epsilon(GAINS, model, options).data() == first.data()
 
 
-def test_what_is_true_of_other_gains_is_asked_again(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
+def test_what_is_true_of_other_gains_is_asked_again(monkeypatch, place):
     """The certificates of another gain set, accepted, under the question of this one."""
     model, _, first = computed(ranges=False)
     other = replace(GAINS, kp=(Fraction(2, 5),))

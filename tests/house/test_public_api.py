@@ -1,7 +1,5 @@
 """What ``import lyapcheck`` offers, and what it costs."""
 
-from __future__ import annotations
-
 import ast
 import doctest
 import inspect
@@ -22,7 +20,7 @@ HEAVY = ("numpy", "scipy", "sympy", "casadi", "cvxpy", "matplotlib", "flint", "r
 OBJECTS = [name for name in PUBLIC if name != "__version__"]
 
 
-def declared() -> dict[str, str]:
+def declared():
     """The imports that a type checker sees, in the form of the table that Python uses."""
     result = {}
     tree = ast.parse(Path(lyapcheck.__file__).read_text(encoding="utf-8"))
@@ -82,7 +80,7 @@ def test_a_type_checker_may_trust_the_annotations():
     assert (Path(lyapcheck.__file__).parent / "py.typed").is_file()
 
 
-def homes_with_examples() -> list[str]:
+def homes_with_examples():
     """The modules of public names whose documentation has examples."""
     root = Path(lyapcheck.__file__).parent
     names = sorted({home.partition(":")[0] for home in _HOMES.values()})

@@ -1,9 +1,6 @@
 """Files that users name are opened by the bounded readers alone."""
 
-from __future__ import annotations
-
 import ast
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -50,7 +47,7 @@ OF_THE_SYSTEM = {
 KNOWN = READERS | OURS | WRITTEN | OF_THE_SYSTEM
 
 
-def opened(tree: ast.AST, function: str = "") -> Iterator[str]:
+def opened(tree, function=""):
     """The functions in which something is opened."""
     for node in ast.iter_child_nodes(tree):
         inner = node.name if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) else function
@@ -62,7 +59,7 @@ def opened(tree: ast.AST, function: str = "") -> Iterator[str]:
         yield from opened(node, inner)
 
 
-def places() -> set[tuple[str, str]]:
+def places():
     return {
         (path.relative_to(PACKAGE).as_posix(), function)
         for path in PACKAGE.rglob("*.py")
@@ -70,17 +67,17 @@ def places() -> set[tuple[str, str]]:
     }
 
 
-def test_nothing_else_opens_files() -> None:
+def test_nothing_else_opens_files():
     """What a user names goes through `lyapcheck.files.reader`; what is listed here is named by nobody."""
     assert places() - set(KNOWN) == set()
 
 
-def test_what_is_listed_is_there() -> None:
+def test_what_is_listed_is_there():
     assert set(KNOWN) - places() == set()
 
 
 @pytest.mark.parametrize(
     "text", ["open(p)", "Path(p).read_text()", "p.read_bytes()", "p.open()", "os.open(p, 0)"]
 )
-def test_every_way_to_open_is_seen(text: str) -> None:
+def test_every_way_to_open_is_seen(text):
     assert list(opened(ast.parse(f"def read(p):\n    return {text}"))) == ["read"]

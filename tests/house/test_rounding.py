@@ -1,10 +1,7 @@
 """Numbers beside words of proof are rounded to the safe side: by ``at_most`` and ``at_least`` alone."""
 
-from __future__ import annotations
-
 import ast
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -67,7 +64,7 @@ SEEN = {
 """The functions of the strict rooms that may round to nearest, each with what it prints."""
 
 
-def specifications(node: ast.AST) -> Iterator[str]:
+def specifications(node):
     """How a piece of code rounds to nearest."""
     for inner in ast.walk(node):
         if isinstance(inner, ast.FormattedValue) and isinstance(inner.format_spec, ast.JoinedStr):
@@ -84,7 +81,7 @@ def specifications(node: ast.AST) -> Iterator[str]:
             yield from [inner.func.id] if takes or inner.func.id in ROUNDING else []
 
 
-def texts(node: ast.AST) -> Iterator[str]:
+def texts(node):
     """The strings in a piece of code, docstrings left out."""
     docs = set()
     for inner in ast.walk(node):
@@ -95,14 +92,14 @@ def texts(node: ast.AST) -> Iterator[str]:
             yield inner.value
 
 
-def pieces(tree: ast.Module) -> Iterator[tuple[str, ast.AST]]:
+def pieces(tree):
     """Each function and method with its name, and the other statements of a module and of its classes."""
     for node in tree.body:
         for inner in node.body if isinstance(node, ast.ClassDef) else [node]:
             yield getattr(inner, "name", "module"), inner
 
 
-def complaints(source: str, name: str, strict: bool) -> list[str]:
+def complaints(source, name, strict):
     """What a file rounds to nearest beside a word of proof or, in a strict room, at all."""
     found = []
     for piece, node in pieces(ast.parse(source)):
@@ -120,7 +117,7 @@ def complaints(source: str, name: str, strict: bool) -> list[str]:
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_numbers_beside_words_of_proof_are_rounded_to_the_safe_side(room: str) -> None:
+def test_numbers_beside_words_of_proof_are_rounded_to_the_safe_side(room):
     found = []
     for path in sorted((PACKAGE / room).rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()
@@ -144,6 +141,6 @@ def test_numbers_beside_words_of_proof_are_rounded_to_the_safe_side(room: str) -
         ('def f(x):\n    return f"{x:>10} is proved, {x!r}"', False, False),
     ],
 )
-def test_the_detector_finds_what_it_is_for(source: str, beside: bool, at_all: bool) -> None:
+def test_the_detector_finds_what_it_is_for(source, beside, at_all):
     assert bool(complaints(source, "a.py", strict=False)) == beside
     assert bool(complaints(source, "a.py", strict=True)) == at_all

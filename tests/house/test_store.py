@@ -1,12 +1,7 @@
 """What is kept between runs: found again, whole or not at all, and judged anew."""
 
-from __future__ import annotations
-
 import gzip
 import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -22,42 +17,27 @@ QUESTION = {"what": "<is it>"}
 
 
 @pytest.fixture(autouse=True)
-def place(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+def place(monkeypatch, tmp_path):
     """A store of this test's own."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv(store.OFF)
     return tmp_path / "lyapcheck" / store.ANSWERS
 
 
-def test_an_answer_is_found_under_its_question_alone() -> None:
+def test_an_answer_is_found_under_its_question_alone():
     assert store.take(QUESTION) is None
     store.put(QUESTION, {"answer": ["λ", 1]})
     assert store.take(QUESTION) == {"answer": ["λ", 1]}
     assert store.take({"what": "another"}) is None
 
 
-def test_a_damaged_file_is_not_found(place: Path) -> None:
-    store.put(QUESTION, [1])
-    (path,) = place.iterdir()
-    content = path.read_bytes()
-    for damaged in (content[:-1], b"", content[:5] + b"x" + content[6:], gzip.compress(b"[2]")):
-        path.write_bytes(damaged)
-        assert store.take(QUESTION) is None
-
-
-def test_what_others_could_write_is_not_found(place: Path) -> None:
-    store.put(QUESTION, [1])
-    place.chmod(0o777)
-    assert store.take(QUESTION) is None
-
-
-def test_another_version_asks_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_another_version_asks_anew(monkeypatch):
     store.put(QUESTION, [1])
     monkeypatch.setattr(store, "source_digest", lambda: "another")
     assert store.take(QUESTION) is None
 
 
-def test_nothing_is_taken_or_kept_where_it_is_off(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
+def test_nothing_is_taken_or_kept_where_it_is_off(monkeypatch, place):
     store.put(QUESTION, [1])
     monkeypatch.setenv(store.OFF, "1")
     assert store.take(QUESTION) is None
@@ -65,7 +45,7 @@ def test_nothing_is_taken_or_kept_where_it_is_off(monkeypatch: pytest.MonkeyPatc
     assert len(list(place.iterdir())) == 1
 
 
-def test_what_is_held_is_counted_and_cleared(place: Path) -> None:
+def test_what_is_held_is_counted_and_cleared(place):
     store.put(QUESTION, [1])
     (held,) = store.held()
     assert (held.kind, held.files) == (store.ANSWERS, 1)
@@ -75,18 +55,11 @@ def test_what_is_held_is_counted_and_cleared(place: Path) -> None:
     assert store.held()[0].files == 0
 
 
-def test_a_place_that_cannot_be_written_is_no_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    store.put(QUESTION, [1])
-    assert store.take(QUESTION) is None
-
-
 @pytest.mark.usefixtures("in_this_process")
-def test_a_proof_is_found_again_and_judged_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_proof_is_found_again_and_judged_again(monkeypatch):
     first = run_proof("published.py", (1,), only=("7a",))
 
-    def searched(statement: Any) -> None:
+    def searched(statement):
         raise AssertionError("it was searched for again")
 
     monkeypatch.setattr(runs, "propose", searched)
@@ -95,28 +68,28 @@ def test_a_proof_is_found_again_and_judged_again(monkeypatch: pytest.MonkeyPatch
     assert again.claims[0].verdict is Verdict.PROVED
 
 
-def of_another_statement(answer: dict[str, Any]) -> None:
+def of_another_statement(answer):
     """A true one, with its own digest."""
     text = (ARENA / "good" / "pub.12.json").read_text(encoding="utf-8")
     answer["certificates"]["search"] = text
 
 
-def of_another_proof(answer: dict[str, Any]) -> None:
+def of_another_proof(answer):
     other = json.loads(answer["certificates"]["search"])
     other["proof"] = {"rule": "normal form"}
     answer["certificates"]["search"] = encoded(sealed(other)).decode()
 
 
-def of_another_verdict(answer: dict[str, Any]) -> None:
+def of_another_verdict(answer):
     other = json.loads(answer["certificates"]["search"])
     answer["certificates"]["search"] = encoded(sealed(other | {"verdict": "refuted"})).decode()
 
 
-def no_text(answer: dict[str, Any]) -> None:
+def no_text(answer):
     answer["beside"]["reason"] = {"no": "text"}
 
 
-def no_witness(answer: dict[str, Any]) -> None:
+def no_witness(answer):
     answer["beside"]["witness"] = [3]
 
 
@@ -124,9 +97,7 @@ def no_witness(answer: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     "change", [of_another_statement, of_another_proof, of_another_verdict, no_text, no_witness]
 )
-def test_a_proof_that_was_exchanged_is_searched_for_again(
-    monkeypatch: pytest.MonkeyPatch, place: Path, change: Callable[[dict[str, Any]], None]
-) -> None:
+def test_a_proof_that_was_exchanged_is_searched_for_again(monkeypatch, place, change):
     """Even one whose own digest is right: the checker does not trust where it comes from."""
     first = run_proof("published.py", (1,), only=("7a",))
     asked = []

@@ -1,17 +1,14 @@
 """Both checkers on every committed certificate; ``make kernel-slow`` writes reports/kernel.md."""
 
-from __future__ import annotations
-
 import argparse
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 from lyapcheck.check.certificate import certificate_of
 from lyapcheck.check.files import content, gather
-from lyapcheck.check.recheck import Checked, Outcome, recheck
-from lyapcheck.kernel.coq import FILE, Kernel, written
+from lyapcheck.check.recheck import recheck
+from lyapcheck.kernel.coq import FILE, written
 from lyapcheck.kernel.judge import judged
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
@@ -31,9 +28,9 @@ computing time of Coq.
 """
 
 
-def one_each(outcome: Outcome) -> dict[str, Checked]:
+def one_each(outcome):
     """A certificate for each proposition that is printed; for what is not printed one a file."""
-    found: dict[str, Checked] = {}
+    found = {}
     for one in outcome.checked:
         certificate, _ = certificate_of(content(one.document.path))
         try:
@@ -43,7 +40,7 @@ def one_each(outcome: Outcome) -> dict[str, Checked]:
     return found
 
 
-def page(results: list[Kernel], files: int, left: int) -> Iterator[str]:
+def page(results, files, left):
     """The page, line by line."""
     accepted = [one for one in results if one.accepted]
     by_list = Counter(one.axioms for one in accepted)
@@ -63,7 +60,7 @@ def page(results: list[Kernel], files: int, left: int) -> Iterator[str]:
         yield f"| {reason.replace('|', '∣')} | {count} | {Path(first).name} |\n"
 
 
-def main() -> int:
+def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--folder", type=Path, required=True, help="where the files for Coq go")
     parser.add_argument("--seconds", type=int, default=1800, help="the most that one theorem may take")
@@ -78,7 +75,7 @@ def main() -> int:
         print("\n".join(refused))
         return 1
     chosen = sorted(one_each(outcome).values(), key=lambda one: one.document.path.stat().st_size)
-    results: list[Kernel] = []
+    results = []
     parts = [slice(0, -LARGE)] if asked.small else [slice(0, -LARGE), slice(-LARGE, None)]
     for part in parts:
         results += judged(

@@ -1,12 +1,7 @@
 """What Coq's kernel has accepted before: known by the printed proposition, without Coq."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
-from pathlib import Path
-
-import pytest
 
 from lyapcheck.answers.check.proof import ClaimResult
 from lyapcheck.check.certificate import certificate_of
@@ -23,11 +18,11 @@ from tests.kernel.test_statements import GOOD
 ONE = certificate_of((GOOD / "ext.V-is-positive-definite.json").read_bytes())[0]
 
 
-def result(one: object, decision: Decision) -> ClaimResult:
+def result(one, decision):
     return ClaimResult("V", 1, None, "", "", "", "", (), (), decision, one, 0.0)  # type: ignore[arg-type]
 
 
-def test_check_shows_the_grade_of_what_the_record_has(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_shows_the_grade_of_what_the_record_has(monkeypatch):
     monkeypatch.setattr(coq.shutil, "which", lambda name: None)
     promise = Promise(ONE.statement, JudgedStatement(ONE.statement, ONE.proof, "proved"))
     decision = Decision(Verdict.PROVED, Grade.EXACT, "", certificate=ONE.proof, promise=promise)
@@ -43,9 +38,7 @@ def test_check_shows_the_grade_of_what_the_record_has(monkeypatch: pytest.Monkey
     assert result(other, decision).grade == "exact"
 
 
-def test_another_page_of_definitions_makes_the_record_void(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_page_of_definitions_makes_the_record_void(tmp_path, monkeypatch):
     accepted = json.loads(record.FILE.read_text(encoding="utf-8"))
     old = tmp_path / "accepted.json"
     old.write_text(json.dumps(accepted | {"definitions": "0" * 64}), encoding="utf-8")
@@ -57,7 +50,7 @@ def test_another_page_of_definitions_makes_the_record_void(
         record._record.cache_clear()
 
 
-def test_only_what_coq_accepted_enters_the_record() -> None:
+def test_only_what_coq_accepted_enters_the_record():
     written = json.loads(
         record.written([Kernel("a", True, "", "0 = 0", "real"), Kernel("b", False, "no", "0 = 1", "")])
     )

@@ -1,70 +1,49 @@
 """dV/dt four ways: AD along (11), the terms of (15), NumPy, and balls at exact states; and its parts."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import cache
 
-import casadi as ca
 import numpy as np
 import pytest
 
 from lyapcheck import family, robots
 from lyapcheck.check.loop import states
-from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
+from lyapcheck.lyapunov.graph import lyapunov_graph
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 
 ARMS = ["pendulum1", "reyes-kelly2", "buap3"]
-MEMBERS = [1, 2, 3, 7]
-CASES = [(arm, m) for arm in ARMS for m in MEMBERS]
 KP, KV, EPS0 = (25.0, 50.0, 5.0), (0.25, 0.5, 0.125), 0.375
 
 
 @cache
-def graph_of(arm: str, m: int) -> LyapunovGraph:
+def graph_of(arm, m):
     return lyapunov_graph(robots.load(arm), family.hyperbolic(m))
 
 
-def numeric_of(arm: str, m: int) -> LyapunovNumeric:
+def numeric_of(arm, m):
     model = robots.load(arm)
     return LyapunovNumeric(model, family.hyperbolic(m), KP[: model.n], KV[: model.n], EPS0)
 
 
-def random_states(n: int, count: int, seed: int = 3) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def random_states(n, count, seed=3):
     random = np.random.default_rng(seed)
     return random.uniform(-4, 4, (count, n)), random.normal(0, 2, (count, n)), random.normal(0, 4, (count, n))
 
 
-def evaluated(function: ca.Function, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:
+def evaluated(function, q, e, w):
     n = q.shape[1]
     gains = [np.tile(np.array(k[:n])[:, None], len(q)) for k in (KP, KV)]
     return np.array(function(q.T, e.T, w.T, *gains, np.full((1, len(q)), EPS0))).ravel()
 
 
-def scale_of(w: np.ndarray) -> np.ndarray:
+def scale_of(w):
     """Terms of this size are summed, so this is what rounding is relative to."""
     return 100 * (1 + np.sum(w * w, axis=1))
 
 
-@pytest.mark.parametrize(("arm", "m"), CASES)
-def test_terms_of_15_sum_to_the_derivative_of_v(arm: str, m: int) -> None:
-    graph = graph_of(arm, m)
-    q, e, w = random_states(robots.load(arm).n, 60)
-    by_ad, by_terms = (evaluated(f, q, e, w) for f in (graph.rate, graph.rate_15))
-    assert np.all(abs(by_ad - by_terms) <= 1e-12 * scale_of(w))
-
-
-@pytest.mark.parametrize(("arm", "m"), CASES)
-def test_numpy_agrees_with_casadi(arm: str, m: int) -> None:
-    numeric, graph = numeric_of(arm, m), graph_of(arm, m)
-    q, e, w = random_states(robots.load(arm).n, 60)
-    assert np.all(abs(numeric.rate(q, e, w) - evaluated(graph.rate, q, e, w)) <= 1e-12 * scale_of(w))
-    assert np.allclose(numeric.V(q, e, w), evaluated(graph.V, q, e, w), rtol=1e-12, atol=0)
-
-
 @pytest.mark.parametrize("arm", ARMS)
-def test_all_ways_agree_at_zero_error_and_at_rest(arm: str) -> None:
+def test_all_ways_agree_at_zero_error_and_at_rest(arm):
     numeric, graph, n = numeric_of(arm, 2), graph_of(arm, 2), robots.load(arm).n
     q, e, w = random_states(n, 3)
     e[0], w[1], e[2], w[2] = 0, 0, 0, 0
@@ -75,17 +54,8 @@ def test_all_ways_agree_at_zero_error_and_at_rest(arm: str) -> None:
     assert ways[0][2] == 0
 
 
-def test_one_state_or_many_give_the_same() -> None:
-    numeric = numeric_of("reyes-kelly2", 3)
-    q, e, w = random_states(2, 20_000)
-    together = numeric.rate(q, e, w)
-    assert together.shape == (20_000,)
-    # a batch may take another order of summation, so equal up to rounding
-    assert numeric.rate(q[12_345], e[12_345], w[12_345]) == pytest.approx(together[12_345], rel=1e-12)
-
-
 @pytest.mark.parametrize("arm", ["reyes-kelly2", "buap3"])
-def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
+def test_agrees_with_the_trusted_evaluation_in_balls(arm):
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
 
@@ -101,7 +71,7 @@ def test_agrees_with_the_trusted_evaluation_in_balls(arm: str) -> None:
 
 
 @pytest.mark.parametrize("arm", ARMS)
-def test_parts_are_those_of_the_quadratic_form_without_velocities(arm: str) -> None:
+def test_parts_are_those_of_the_quadratic_form_without_velocities(arm):
     """−a₀ + a₁ε₀ + a₂ε₀² by S = C(q,h) + (Mh)êᵀ/(1+r) − MH', worked out by hand at each state."""
     numeric, model = numeric_of(arm, 2), robots.load(arm)
     plain, shape = NumericModel(model), numeric.family
@@ -126,7 +96,7 @@ def test_parts_are_those_of_the_quadratic_form_without_velocities(arm: str) -> N
         )
 
 
-def test_fast_matrix_decides_the_sign_for_fast_states() -> None:
+def test_fast_matrix_decides_the_sign_for_fast_states():
     numeric, graph = numeric_of("reyes-kelly2", 2), graph_of("reyes-kelly2", 2)
     q, e, _ = random_states(2, 20)
     rows = numeric.at_columns(q, e, np.zeros_like(e)).fast()

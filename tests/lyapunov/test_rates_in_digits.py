@@ -1,7 +1,5 @@
 """dV/dt in doubles against V differentiated along the flow in forty digits, which knows nothing of (15)."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest
@@ -21,7 +19,7 @@ def exact(value):
 class Flow:
     """V along (11) from one state, as a function of time with its right first derivative."""
 
-    def __init__(self, kept: LyapunovNumeric, q, e, w) -> None:
+    def __init__(self, kept, q, e, w):
         self.kept, self.m, self.n = kept, kept.family.m, kept.model.n
         self.q, self.e, self.w = ([mp.mpf(float(x)) for x in row] for row in (q, e, w))
         self.a = mp.lu_solve(mp.matrix(self.mass(self.q)), mp.matrix(self.force()))

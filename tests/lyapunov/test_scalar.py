@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +23,7 @@ positive = st.fractions(min_value=Fraction(1, 50), max_value=100, max_denominato
 forms = st.builds(ScalarForm, positive, positive, positive, positive)
 
 
-def theta(form: ScalarForm, eps: Fraction) -> tuple[Fraction, Fraction, Fraction]:
+def theta(form, eps):
     """θ'11, θ'12 and θ'22 at one ε."""
     off = -eps * (form.cross + eps * form.drift) / 2
     return eps * form.stiffness, off, form.friction - eps * form.drift
@@ -37,12 +36,12 @@ class Diagonal:
     angle_unit: str = "rad"
 
 
-def gains_for(n: int) -> Diagonal:
+def gains_for(n):
     kp, kv = ("25", "50", "5"), ("0.25", "0.5", "0.125")
     return Diagonal(tuple(map(Fraction, kp[:n])), tuple(map(Fraction, kv[:n])))
 
 
-def sampled_bounds(arm: str) -> RobotBounds:
+def sampled_bounds(arm):
     """β_M and k_c from many angles with 1 % on top: enough to test the inequality on sampled states."""
     model = robots.load(arm)
     numeric, random = NumericModel(model), np.random.default_rng(5)
@@ -60,7 +59,7 @@ CASES = [(arm, h) for arm in ("pendulum1", "reyes-kelly2", "buap3") for h in (1,
 
 @pytest.mark.parametrize(("arm", "m"), one_in(4, CASES))
 @pytest.mark.parametrize("eps0", [0.01, 0.3, 3.0])
-def test_theta_bounds_the_rate_at_random_states(arm: str, m: int, eps0: float) -> None:
+def test_theta_bounds_the_rate_at_random_states(arm, m, eps0):
     bounds, gains, h = sampled_bounds(arm), gains_for(robots.load(arm).n), family.hyperbolic(m)
     form = scalar_form(gains, h.constants(), bounds)
     assert form is not None
@@ -73,7 +72,7 @@ def test_theta_bounds_the_rate_at_random_states(arm: str, m: int, eps0: float) -
 @pytest.mark.parametrize(
     "h", [family.hyperbolic(1), family.hyperbolic(3), family.linear()], ids=lambda h: h.name
 )
-def test_sharp_form_keeps_the_rate_negative_up_to_its_eps0(arm: str, h: Any) -> None:
+def test_sharp_form_keeps_the_rate_negative_up_to_its_eps0(arm, h):
     gains, bounds = gains_for(robots.load(arm).n), sampled_bounds(arm)
     sharp = scalar_epsilon(sharp_form(gains, h.constants(), bounds))
     assert sharp.eps0 is not None
@@ -84,9 +83,7 @@ def test_sharp_form_keeps_the_rate_negative_up_to_its_eps0(arm: str, h: Any) -> 
 
 
 @given(forms, st.fractions(min_value=0, max_value=1), positive)
-def test_a_certified_eps0_holds_for_every_smaller_one(
-    form: ScalarForm, share: Fraction, eps0: Fraction
-) -> None:
+def test_a_certified_eps0_holds_for_every_smaller_one(form, share, eps0):
     eps = eps0 * share
     if certifies(form, eps0) and eps > 0:
         t11, t12, t22 = theta(form, eps)
@@ -94,7 +91,7 @@ def test_a_certified_eps0_holds_for_every_smaller_one(
 
 
 @given(forms, positive)
-def test_the_check_is_sylvesters_criterion_at_eps0(form: ScalarForm, eps0: Fraction) -> None:
+def test_the_check_is_sylvesters_criterion_at_eps0(form, eps0):
     t11, t12, t22 = theta(form, eps0)
     assert certifies(form, eps0) == (t11 > 0 and t11 * t22 > t12**2)
 
@@ -103,7 +100,7 @@ def test_the_check_is_sylvesters_criterion_at_eps0(form: ScalarForm, eps0: Fract
     "change",
     [{"stiffness": 0}, {"friction": 0}, {"drift": -1}, {"cross": -1}, {"stiffness": -1, "friction": -1}],
 )
-def test_coefficients_outside_the_argument_certify_nothing(change: dict[str, int]) -> None:
+def test_coefficients_outside_the_argument_certify_nothing(change):
     form = ScalarForm(*map(Fraction, (1, 1, 1, 1)))
     tiny = Fraction(1, 10**6)
     assert certifies(form, tiny)
@@ -113,7 +110,7 @@ def test_coefficients_outside_the_argument_certify_nothing(change: dict[str, int
 
 
 @pytest.mark.parametrize("scale", [Fraction(1, 10**4), Fraction(1), Fraction(10**4)])
-def test_the_program_finds_nearly_the_largest_eps0(scale: Fraction) -> None:
+def test_the_program_finds_nearly_the_largest_eps0(scale):
     form = ScalarForm(Fraction(5) * scale, Fraction(2, 5), Fraction(7), Fraction(5, 2))
     result = scalar_epsilon(form)
     assert result.eps0 is not None
@@ -121,7 +118,7 @@ def test_the_program_finds_nearly_the_largest_eps0(scale: Fraction) -> None:
     assert not certifies(form, result.eps0 * Fraction(1_000_001, 1_000_000))
 
 
-def test_without_friction_or_bound_there_is_a_reason() -> None:
+def test_without_friction_or_bound_there_is_a_reason():
     without = scalar_epsilon(ScalarForm(Fraction(1), Fraction(0), Fraction(1), Fraction(1)))
     assert without.eps0 is None
     assert "friction" in without.reason
@@ -129,7 +126,7 @@ def test_without_friction_or_bound_there_is_a_reason() -> None:
     assert "unbounded" in scalar_epsilon(None).reason
 
 
-def test_published_interval_is_empty_exactly_without_19() -> None:
+def test_published_interval_is_empty_exactly_without_19():
     bounds = RobotBounds(Fraction(3), Fraction(1, 3), Fraction(2, 5), Fraction(2))
     constants = family.hyperbolic(1).constants()
     low, high = (Diagonal((Fraction(9),), (Fraction(k),)) for k in ("0.399", "0.4"))
@@ -137,7 +134,7 @@ def test_published_interval_is_empty_exactly_without_19() -> None:
     assert published_limit(high, constants, bounds) is None
 
 
-def test_gains_per_degree_are_rounded_to_the_safe_side() -> None:
+def test_gains_per_degree_are_rounded_to_the_safe_side():
     bounds, constants = sampled_bounds("reyes-kelly2"), family.linear().constants()
     degrees = Diagonal((Fraction(1),) * 2, (Fraction(1),) * 2, "deg")
     form = sharp_form(degrees, constants, bounds)
@@ -146,16 +143,16 @@ def test_gains_per_degree_are_rounded_to_the_safe_side() -> None:
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 6, 7])
-def test_root_is_rounded_up_and_tight(n: int) -> None:
+def test_root_is_rounded_up_and_tight(n):
     assert root_above(Fraction(n)) ** 2 >= n
     assert (root_above(Fraction(n)) - Fraction(1, 10**12)) ** 2 < n
 
 
-def _thetas(form: ScalarForm, eps: np.ndarray) -> list[tuple[Fraction, ...]]:
+def _thetas(form, eps):
     return list(zip(*(theta(form, Fraction(float(x))) for x in eps), strict=True))
 
 
-def _sampled(arm: str, h: Any, gains: Diagonal, eps0: float) -> tuple[np.ndarray, ...]:
+def _sampled(arm, h, gains, eps0):
     """dV/dt, ε, ‖h(e)‖ and ‖w‖ at random states of many sizes."""
     model = robots.load(arm)
     random, shape = np.random.default_rng(11), (400, model.n)

@@ -1,7 +1,5 @@
 """Kept libraries: private, whole, found again, and never needed."""
 
-from __future__ import annotations
-
 import os
 import stat
 import subprocess
@@ -20,7 +18,7 @@ COMPILES = compiler() is not None
 SOURCE = "int seven(void) { return 7; }\n"
 
 
-def library(source: str = SOURCE):
+def library(source=SOURCE):
     return compiled((source,), lambda: source)
 
 
@@ -34,9 +32,9 @@ def cache(tmp_path, monkeypatch):
 @pytest.fixture
 def compilations(monkeypatch):
     """The sources compiled so far."""
-    seen: list[str] = []
+    seen = []
 
-    def counted(source: str, path: Path, command: str) -> bool:
+    def counted(source, path, command):
         seen.append(source)
         return compile_library(source, path, command)
 
@@ -44,7 +42,7 @@ def compilations(monkeypatch):
     return seen
 
 
-def works() -> bool:
+def works():
     result = library(SOURCE)
     return (result is not None and result.seven() == 7) if COMPILES else result is None
 

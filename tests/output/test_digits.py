@@ -1,7 +1,5 @@
 """Numbers beside words of proof: always on the safe side, never longer than asked."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from fractions import Fraction
@@ -25,7 +23,7 @@ FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 NUMBERS = st.one_of(FRACTIONS, FLOATS, st.integers())
 
 
-def digits_of(text: str) -> int:
+def digits_of(text):
     """Significant digits of a decimal as written, zeros at both ends left out."""
     return len(text.partition("e")[0].replace(".", "").lstrip("-").strip("0")) or 1
 
@@ -37,7 +35,7 @@ def digits_of(text: str) -> int:
 @example(x=1.7976931348623157e308, digits=4)
 @example(x=Fraction(99999, 10), digits=4)
 @example(x=Fraction(-99999, 10), digits=4)
-def test_the_text_is_on_the_safe_side_and_the_nearest_there(x: Fraction | float, digits: int) -> None:
+def test_the_text_is_on_the_safe_side_and_the_nearest_there(x, digits):
     value, up, down = Fraction(x), Fraction(at_most(x, digits)), Fraction(at_least(x, digits))
     assert down <= value <= up
     size = abs(Decimal(value.numerator) / Decimal(value.denominator))
@@ -48,26 +46,26 @@ def test_the_text_is_on_the_safe_side_and_the_nearest_there(x: Fraction | float,
 
 
 @given(x=NUMBERS, digits=DIGITS)
-def test_the_two_are_mirror_images(x: Fraction | float, digits: int) -> None:
+def test_the_two_are_mirror_images(x, digits):
     assert Fraction(at_most(x, digits)) == -Fraction(at_least(-Fraction(x), digits))
 
 
 @given(units=st.integers(-9999, 9999), power=st.integers(-20, 20))
-def test_a_decimal_that_is_short_enough_is_written_as_it_is(units: int, power: int) -> None:
+def test_a_decimal_that_is_short_enough_is_written_as_it_is(units, power):
     x = units * Fraction(10) ** power
     assert at_most(x, 4) == at_least(x, 4)
     assert Fraction(at_most(x, 4)) == x
 
 
 @given(x=NUMBERS, less=DIGITS, more=DIGITS)
-def test_more_digits_are_never_farther_away(x: Fraction | float, less: int, more: int) -> None:
+def test_more_digits_are_never_farther_away(x, less, more):
     few, many = sorted((less, more))
     assert Fraction(at_most(x, many)) <= Fraction(at_most(x, few))
     assert Fraction(at_least(x, many)) >= Fraction(at_least(x, few))
 
 
 @given(middle=st.floats(-1e6, 1e6), radius=st.floats(0, 10), digits=DIGITS)
-def test_of_a_ball_the_end_counts(middle: float, radius: float, digits: int) -> None:
+def test_of_a_ball_the_end_counts(middle, radius, digits):
     ball = arb(middle, radius)
     ends = Enclosure.from_arb(ball)
     assert Fraction(at_least(ball, digits)) <= ends.lower <= ends.upper <= Fraction(at_most(ball, digits))
@@ -93,18 +91,18 @@ def test_of_a_ball_the_end_counts(middle: float, radius: float, digits: int) -> 
         (25, "25", "25"),
     ],
 )
-def test_what_people_read(x: object, up: str, down: str) -> None:
+def test_what_people_read(x, up, down):
     assert at_most(x) == up  # type: ignore[arg-type]
     assert at_least(x) == down  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("round_", [at_most, at_least])
 @pytest.mark.parametrize("x", [math.nan, arb("nan")])
-def test_what_is_no_number_has_no_decimal(round_: object, x: object) -> None:
+def test_what_is_no_number_has_no_decimal(round_, x):
     with pytest.raises(ValueError, match="no decimal"):
         round_(x)  # type: ignore[operator]
 
 
-def test_no_digits_are_refused() -> None:
+def test_no_digits_are_refused():
     with pytest.raises(ValueError, match="1 or more"):
         at_most(1, 0)

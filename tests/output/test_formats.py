@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import dataclass
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -47,16 +46,16 @@ class Sample(Answer):
     schema = "lyapcheck/sample/1"
     name: str
 
-    def document(self) -> Document:
+    def document(self):
         name = self.name
         table = Table((name, "value"), ((name, "1"), ("b", name)), name)
         inner = Section(name, (Paragraph(name), table))
         return Document(name, (Bullets((name, name)), Code(name), inner), (name,))
 
-    def data(self) -> dict[str, Any]:
+    def data(self):
         return {"results": [{"name": self.name, self.name: {"inner": [self.name, 1, None]}}]}
 
-    def annotations(self) -> list[Annotation]:
+    def annotations(self):
         return [
             Annotation(
                 level, f"rule-{level.value}", self.name, self.name, self.name, self.name, self.name, 3, 5
@@ -69,27 +68,27 @@ class Sample(Answer):
 
 
 @given(NAMES)
-def test_a_text_stays_on_its_lines_in_a_terminal(name: str) -> None:
+def test_a_text_stays_on_its_lines_in_a_terminal(name):
     text = Sample(name).written("text")
     assert text.replace("\n", "").isprintable()
     assert printable(name).split() == [] or printable(name).split()[0] in text
 
 
 @given(NAMES)
-def test_latex_obeys_nothing(name: str) -> None:
+def test_latex_obeys_nothing(name):
     head = next(line for line in Sample(name).written("latex").splitlines() if line.startswith(r"\section*"))
     inside = head.removeprefix(r"\section*{").removesuffix("}")
     bare = re.sub(r"\\text\w+\{\}|\\ensuremath\{([^{}]|\{[^{}]*\})*\}|\\[&%$#_{}]", "", inside)
     assert not set(bare) & set("\\&%$#_{}~^"), head
 
 
-def test_latex_writes_signs_of_formulas() -> None:
+def test_latex_writes_signs_of_formulas():
     assert latex_text("γ_2 ≤ √3") == r"\ensuremath{\gamma}\_2 \ensuremath{\le} \ensuremath{\surd}3"
     assert latex_text("q̇ᵀ é") == r"\ensuremath{\dot{q}}\ensuremath{^{T}} é"
 
 
 @given(NAMES)
-def test_json_reads_back(name: str) -> None:
+def test_json_reads_back(name):
     result = json.loads(Sample(name).written("json"))
     assert result["results"] == Sample(name).data()["results"]
     assert result["schema"] == "lyapcheck/sample/1"
@@ -97,7 +96,7 @@ def test_json_reads_back(name: str) -> None:
 
 
 @given(NAMES)
-def test_sarif_keeps_texts_and_leaves_passed_cases_out(name: str) -> None:
+def test_sarif_keeps_texts_and_leaves_passed_cases_out(name):
     (run,) = json.loads(Sample(name).written("sarif"))["runs"]
     assert [result["level"] for result in run["results"]] == ["error", "warning", "note"]
     for result in run["results"]:
@@ -111,7 +110,7 @@ def test_sarif_keeps_texts_and_leaves_passed_cases_out(name: str) -> None:
 
 @given(NAMES)
 @example("\x00\ud7ff\ue000\uffff\t")
-def test_junit_shows_what_prints(name: str) -> None:
+def test_junit_shows_what_prints(name):
     """XML 1.0 has no control characters: what does not print comes as an escape, line ends and tabs apart."""
     shown = "".join(c if c in "\n\r\t" else document_text(c) for c in name)
     (suite,) = ET.fromstring(Sample(name).written("junit"))
@@ -124,18 +123,18 @@ def test_junit_shows_what_prints(name: str) -> None:
 
 
 @pytest.mark.parametrize("format", JudgedFormat)
-def test_a_format_ends_its_last_line_and_is_the_same_twice(format: str) -> None:  # noqa: A002
+def test_a_format_ends_its_last_line_and_is_the_same_twice(format):  # noqa: A002
     once = Sample("a").written(format)
     assert once == Sample("a").written(format)
     assert once.endswith("\n")
     assert not once.endswith("\n\n")
 
 
-def test_what_judges_has_the_formats_of_all_and_three_more() -> None:
+def test_what_judges_has_the_formats_of_all_and_three_more():
     assert {*Format} == {*JudgedFormat} - {"sarif", "junit", "github"}
 
 
-def test_an_answer_prints_as_text_and_shows_itself_in_a_notebook() -> None:
+def test_an_answer_prints_as_text_and_shows_itself_in_a_notebook():
     assert f"{Sample('a')}\n" == Sample("a").written("text")
     assert Sample("a")._repr_html_() == Sample("a").written("html")
 
@@ -146,7 +145,7 @@ LINES = st.lists(st.text("abcdef", min_size=1, max_size=14), max_size=40).map(" 
 
 
 @st.composite
-def tables(draw: st.DrawFn) -> Table:
+def tables(draw):
     columns = draw(st.integers(2, 9))
     align = "".join(draw(st.lists(st.sampled_from("lr"), min_size=columns, max_size=columns)))
     row = st.tuples(*[LINES if side == "l" else st.text("0123.", min_size=1, max_size=9) for side in align])
@@ -155,7 +154,7 @@ def tables(draw: st.DrawFn) -> Table:
 
 
 @given(tables())
-def test_a_table_of_words_and_numbers_fits_in_a_terminal(table: Table) -> None:
+def test_a_table_of_words_and_numbers_fits_in_a_terminal(table):
     """Words are wrapped and columns moved below each other; every number stands whole."""
     text = render(Document("t", (table,)))
     assert all(len(line) <= WIDTH for line in text.splitlines())
@@ -165,7 +164,7 @@ def test_a_table_of_words_and_numbers_fits_in_a_terminal(table: Table) -> None:
                 assert cell in text
 
 
-def test_columns_are_straight_and_numbers_to_the_right() -> None:
+def test_columns_are_straight_and_numbers_to_the_right():
     table = Table(("joint", "value"), (("base", "1.5"), ("shoulder", "-22.25"), ("关节", "3")))
     assert render(Document("t", (table,))).splitlines()[3:] == [
         "joint      value",
@@ -176,7 +175,7 @@ def test_columns_are_straight_and_numbers_to_the_right() -> None:
     ]
 
 
-def test_columns_that_do_not_fit_go_on_below_with_their_keys() -> None:
+def test_columns_that_do_not_fit_go_on_below_with_their_keys():
     table = Table(("m", "a", "b"), (("1", "1" * 40, "2" * 40),))
     text = render(Document("t", (table,)))
     assert text.count("m  ") == 2
@@ -184,12 +183,12 @@ def test_columns_that_do_not_fit_go_on_below_with_their_keys() -> None:
     assert "2" * 40 in text
 
 
-def test_rows_of_other_lengths_are_refused() -> None:
+def test_rows_of_other_lengths_are_refused():
     with pytest.raises(ValueError, match="different lengths"):
         Table(("a", "b"), (("1",),))
 
 
-def test_colour_adds_nothing_but_colour() -> None:
+def test_colour_adds_nothing_but_colour():
     table = Table(("", "verdict"), (("✓", "proved"), ("✗", "refuted"), ("?", "undecided")), align="ll")
     document = Document("✗ 1 refuted", (table, Bullets(("proved",))), ("a note",))
     coloured = render(document, colour=True)
@@ -208,11 +207,11 @@ JSON = st.recursive(
 
 
 @given(JSON)
-def test_a_layout_is_the_value(value: Any) -> None:
+def test_a_layout_is_the_value(value):
     assert json.loads(laid_out(value)) == value
 
 
-def test_a_record_stands_on_a_line() -> None:
+def test_a_record_stands_on_a_line():
     rows = [{"name": "a", "limit": {"lower": "1", "upper": "2"}}] * 2
     assert laid_out({"rows": rows, "n": 1}).splitlines() == [
         "{",

@@ -11,32 +11,31 @@ import os
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
 
 from hypothesis import settings
 from hypothesis import strategies as st
 
 from lyapcheck.files.decimals import decimal_text
 from tests.helpers import command
-from tests.helpers.command import Done
 
 FAMILIES = ("m = 1", "m = 2", "m = 3", 'family = "tanh"', 'family = "arctan"', 'family = "algebraic"')
+MOST_JOINTS = 2 if settings.get_current_profile_name() == "fast" else 3
+"""M ≻ 0 over ranges of three masses takes seconds, which the fast set has not."""
 MOTOR = ("viscous", "coulomb", "torque_limit")
 """Numbers of a joint that neither form of an arm keeps in the file of its links."""
 
 
-ASKED: Counter[tuple[str, str, int]] = Counter()
+ASKED = Counter()
 """How often a test has run a command with which exit code, for the record of ``make promises``."""
 
 
-def drawn(fast: int, thorough: int) -> settings:
+def drawn(fast, thorough):
     """So many examples in the fast and in the slow set, as they cost; as many as all in ``make promises``."""
     known = {"fast": fast, "thorough": thorough}
     return settings(max_examples=known.get(settings.get_current_profile_name(), settings().max_examples))
 
 
-def invoke(*words: str) -> Done:
+def invoke(*words):
     """Run ``lyapcheck`` with some words, and count it."""
     done = command.invoke(*words)
     test = os.environ.get("PYTEST_CURRENT_TEST", "").partition("::")[2].partition(" ")[0].partition("[")[0]
@@ -52,13 +51,13 @@ class Ranged:
     low: Fraction
     high: Fraction
 
-    def at(self, share: Fraction) -> Ranged:
+    def at(self, share):
         """The member at a share of the range."""
         value = self.low + share * (self.high - self.low)
         return Ranged(value, value, value)
 
     @property
-    def text(self) -> str:
+    def text(self):
         """As in an arm file."""
         if self.low == self.high:
             return decimal_text(self.value)
@@ -93,12 +92,12 @@ class Arm:
     payload: Ranged = field(default_factory=lambda: Ranged(*[Fraction(0)] * 3))
 
     @property
-    def n(self) -> int:
+    def n(self):
         """Number of joints."""
         return len(self.joints)
 
     @property
-    def options(self) -> tuple[str, ...]:
+    def options(self):
         """What ``--vary`` says: the payload, and masses of a URDF file, which has no ranges of its own."""
         result = []
         if self.payload.high > 0:
@@ -113,7 +112,7 @@ class Arm:
                     result += ["--vary", f"j{k + 1}_mass={ends}"]
         return tuple(result)
 
-    def at(self, shares: list[Fraction]) -> Arm:
+    def at(self, shares):
         """A member: each range at one of the shares, in turn; a payload is a mass of the last link."""
         rest = iter(shares * 10)
         joints = tuple(
@@ -125,7 +124,7 @@ class Arm:
         heavy = replace(last, mass=Ranged(*[last.mass.value + load] * 3))
         return Arm((*joints[:-1], heavy), self.urdf)
 
-    def written(self, folder: Path, name: str) -> str:
+    def written(self, folder, name):
         """The arm's file or files; returns the name of the arm file."""
         folder.mkdir(exist_ok=True, parents=True)
         text = self._overlay(name) if self.urdf else self._links()
@@ -134,7 +133,7 @@ class Arm:
             (folder / f"{name}.urdf").write_text(self._urdf(), encoding="utf-8")
         return f"{name}.toml"
 
-    def _links(self) -> str:
+    def _links(self):
         lines = ['title = "Drawn"', "gravity = [0, -9.81, 0]"]
         for k, joint in enumerate(self.joints):
             about = decimal_text(joint.inertia)
@@ -150,13 +149,13 @@ class Arm:
             ]
         return "\n".join(lines) + "\n"
 
-    def _overlay(self, name: str) -> str:
+    def _overlay(self, name):
         lines = ['title = "Drawn"', f'urdf = "{name}.urdf"', "gravity = [0, -9.81, 0]"]
         for k in range(self.n):
             lines += ["[[joints]]", f'name = "j{k + 1}"', *self._motor(k)]
         return "\n".join(lines) + "\n"
 
-    def _motor(self, k: int) -> list[str]:
+    def _motor(self, k):
         """Friction and limits of a joint, which both forms of an arm file write alike."""
         joint = self.joints[k]
         lines = [
@@ -164,7 +163,7 @@ class Arm:
         ]
         return [*lines, *(f"gravity_bound = {decimal_text(self.printed[k])}" for _ in self.printed[:1])]
 
-    def _urdf(self) -> str:
+    def _urdf(self):
         parts = ['<robot name="drawn">', '<link name="l0"/>']
         for k, joint in enumerate(self.joints, 1):
             axis, reach = ("1 0 0" if joint.turned else "0 0 1"), (0 if k == 1 else 0.3)
@@ -182,14 +181,14 @@ class Arm:
         return "".join([*parts, "</robot>"])
 
 
-def decimals(low: str, high: str) -> st.SearchStrategy[Fraction]:
+def decimals(low, high):
     """Decimals of three places."""
     ends = (int(Fraction(end) * 1000) for end in (low, high))
     return st.integers(*ends).map(lambda k: Fraction(k, 1000))
 
 
 @st.composite
-def ranged(draw: st.DrawFn, low: str, high: str) -> Ranged:
+def ranged(draw, low, high):
     """A number without a range, or with one on both sides of it or on one."""
     value = draw(decimals(low, high))
     below, above = (draw(st.sampled_from([Fraction(0), Fraction(1, 10), Fraction(1, 2)])) for _ in range(2))
@@ -197,8 +196,8 @@ def ranged(draw: st.DrawFn, low: str, high: str) -> Ranged:
 
 
 @st.composite
-def arms(draw: st.DrawFn, most: int = 3) -> Arm:
-    """An arm of one to three joints."""
+def arms(draw, most=MOST_JOINTS):
+    """An arm of one to so many joints."""
     n = draw(st.integers(1, most))
     none = Ranged(*[Fraction(0)] * 3)
     joints = tuple(
@@ -218,7 +217,7 @@ def arms(draw: st.DrawFn, most: int = 3) -> Arm:
     return replace(arm, printed=nominal_gravity(joints)) if draw(st.booleans()) else arm
 
 
-def nominal_gravity(joints: tuple[Joint, ...]) -> tuple[Fraction, ...]:
+def nominal_gravity(joints):
     """No joint of the nominal arm bears more, N·m: all links stretched out."""
     weight, reach = Fraction(981, 100), Fraction(3, 10)
     return tuple(
@@ -232,9 +231,7 @@ shares = st.lists(st.sampled_from([Fraction(0), Fraction(3, 8), Fraction(1)]), m
 """Where a member lies: at an end of each range, or inside."""
 
 
-def gain_file(
-    folder: Path, arm: str, family: str, kp: list[str], kv: list[str], name: str = "gains", more: str = ""
-) -> Path:
+def gain_file(folder, arm, family, kp, kv, name="gains", more=""):
     """A gain file of one set; ``more`` are further keys of the set, and tables."""
     path = folder / f"{name}.toml"
     lists = f"kp = [{', '.join(kp)}]\nkv = [{', '.join(kv)}]\n{more}"
@@ -242,12 +239,10 @@ def gain_file(
     return path
 
 
-def near_the_border(
-    folder: Path, arm: str, n: int, family: str, options: tuple[str, ...], share: Fraction, more: str = ""
-) -> Path:
+def near_the_border(folder, arm, n, family, options, share, more=""):
     """Gains at a share of the largest that the gate names over the ranges, where it names some."""
     tiny = gain_file(folder, arm, family, ["0.001"] * n, ["0.001"] * n, "tiny", more)
-    largest: dict[str, list[Fraction]] = {"10p": [], "19": []}
+    largest = {"10p": [], "19": []}
     for check in results(asked("gate", str(tiny), *options))[0]["checks"]:
         if check["id"] in largest:
             most = check["largest_admissible"]
@@ -257,12 +252,12 @@ def near_the_border(
     return gain_file(folder, arm, family, *([decimal_text(x) for x in row] for row in (kp, kv)), more=more)
 
 
-def asked(*words: str, plain: bool = False) -> Done:
+def asked(*words, plain=False):
     """A command, with its answer as JSON."""
     return invoke(*words, *([] if plain else ["--format", "json"]))
 
 
-def results(done: Done) -> list[dict[str, Any]]:
+def results(done):
     """What its JSON says."""
-    found: list[dict[str, Any]] = json.loads(done.stdout)["results"]
+    found = json.loads(done.stdout)["results"]
     return found

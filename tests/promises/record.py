@@ -22,15 +22,15 @@ exit codes: 0 is accepted, 1 rejected, 2 refused, 3 undecided.
 class Outcomes:
     """The outcome of each test."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.failed: Counter[str] = Counter()
 
-    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+    def pytest_runtest_logreport(self, report):
         """Note a failure."""
         self.failed[report.nodeid.partition("::")[2].partition("[")[0]] += report.failed
 
 
-def main() -> int:
+def main():
     """Run the tests; write the record where all have passed."""
     outcomes = Outcomes()
     words = [str(FOLDER), "-q", "-p", "no:randomly", "--hypothesis-profile", "promises", *sys.argv[1:]]
@@ -40,7 +40,7 @@ def main() -> int:
     return code
 
 
-def record(failed: Counter[str]) -> str:
+def record(failed):
     """The table."""
     from lyapcheck.verdicts import Exit  # pytest has to import both first
     from tests.promises.draws import ASKED

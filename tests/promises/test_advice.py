@@ -1,13 +1,10 @@
 """What one command recommends the next accepts, and what advice names holds once it is followed."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import pytest
 from hypothesis import given
@@ -16,7 +13,6 @@ from hypothesis import strategies as st
 from lyapcheck.robots import load, names
 from tests.promises.draws import (
     FAMILIES,
-    Arm,
     arms,
     asked,
     drawn,
@@ -32,17 +28,17 @@ LARGE = {str(EXAMPLES / f"{name}.toml") for name in ("xarm6", "panda", "iiwa14")
 ROUNDS = 6
 
 
-def text_of(words: list[str]) -> str:
+def text_of(words):
     return " ".join(invoke(*words).stdout.split())
 
 
 @pytest.mark.parametrize(
     "arm", [pytest.param(arm, marks=[pytest.mark.slow] * (arm in LARGE), id=Path(arm).stem) for arm in ARMS]
 )
-def test_the_gate_accepts_what_tune_writes(tmp_path: Path, arm: str) -> None:
+def test_the_gate_accepts_what_tune_writes(tmp_path, arm):
     out = tmp_path / "gains.toml"
     tuned = invoke("tune", arm, "--m", "1", "--out", str(out))
-    given: list[str] = []
+    given = []
     if tuned.exit_code != 0:  # something is not known: what is advised is given
         text = " ".join(tuned.stdout.split())
         given += ["--viscous-min", "0.5"] if "give --viscous-min" in text else []
@@ -54,7 +50,7 @@ def test_the_gate_accepts_what_tune_writes(tmp_path: Path, arm: str) -> None:
 
 @drawn(4, 60)
 @given(arms(2), st.sampled_from(["0.5", "1"]), st.sampled_from([(), ("--damping", "0.1")]))
-def test_the_gate_accepts_what_tune_writes_for_ranges(arm: Arm, share: str, more: tuple[str, ...]) -> None:
+def test_the_gate_accepts_what_tune_writes_for_ranges(arm, share, more):
     with TemporaryDirectory() as name:
         folder, out = Path(name), Path(name) / "gains.toml"
         words = [str(folder / arm.written(folder, "arm")), "--m", "1", "--peak-share", share, *more]
@@ -65,9 +61,7 @@ def test_the_gate_accepts_what_tune_writes_for_ranges(arm: Arm, share: str, more
 
 
 @pytest.mark.slow
-def test_what_the_file_of_init_says_leads_to_gains_that_every_command_takes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_the_file_of_init_says_leads_to_gains_that_every_command_takes(tmp_path, monkeypatch):
     """init, tune by the line of its gain file, gate, simulate, report."""
     monkeypatch.chdir(tmp_path)
     assert invoke("init", ".").exit_code == 0
@@ -78,14 +72,14 @@ def test_what_the_file_of_init_says_leads_to_gains_that_every_command_takes(
     assert invoke("report", "--gains", "tuned.toml", "--out", "report").exit_code in (0, 3)
 
 
-def test_gains_of_tune_break_no_promise_in_a_run(tmp_path: Path) -> None:
+def test_gains_of_tune_break_no_promise_in_a_run(tmp_path):
     out = tmp_path / "gains.toml"
     assert invoke("tune", "pendulum1", "--m", "1", "--out", str(out)).exit_code == 0
     assert invoke("gate", str(out)).exit_code == 0
     assert invoke("simulate", str(out), "--target", "45", "--time", "0.5").exit_code == 0
 
 
-def test_the_gate_accepts_what_init_starts(tmp_path: Path) -> None:
+def test_the_gate_accepts_what_init_starts(tmp_path):
     done = invoke("init", str(tmp_path))
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("next: lyapcheck ")]
     assert invoke(*shlex.split(line.removeprefix("next: lyapcheck "))).exit_code == 0
@@ -94,13 +88,13 @@ def test_the_gate_accepts_what_init_starts(tmp_path: Path) -> None:
 # --- advice of the gate --------------------------------------------------------------------------
 
 
-def gains_of(path: Path) -> dict[str, list[Fraction]]:
+def gains_of(path):
     text = path.read_text(encoding="utf-8")
     rows = {key: re.search(rf"^{key} = \[(.*)\]$", text, re.MULTILINE) for key in ("kp", "kv")}
     return {key: [Fraction(x) for x in row[1].split(",")] for key, row in rows.items() if row}
 
 
-def followed(path: Path, result: dict[str, Any], joints: list[str]) -> list[tuple[str, str | None]]:
+def followed(path, result, joints):
     """Write the file anew with each value that the checks advise, and return which checks these were."""
     gains, done = gains_of(path), []
     for check in result["checks"]:
@@ -120,7 +114,7 @@ def followed(path: Path, result: dict[str, Any], joints: list[str]) -> list[tupl
     return done
 
 
-def follow_advice(path: Path, joints: list[str], options: tuple[str, ...]) -> None:
+def follow_advice(path, joints, options):
     """Follow it until there is none; each value that is advised must pass."""
     for _ in range(ROUNDS):
         done = asked("gate", str(path), *options)
@@ -144,7 +138,7 @@ def follow_advice(path: Path, joints: list[str], options: tuple[str, ...]) -> No
     raise AssertionError(f"advice without end: {path.read_text()}")
 
 
-def remarks_hold(path: Path, result: dict[str, Any], options: tuple[str, ...]) -> None:
+def remarks_hold(path, result, options):
     """Options that are said to be accepted are."""
     for remark in result["remarks"]:
         told = re.search(r"; ((?:--condition \w+ ?)+)accepts it$", remark)
@@ -154,7 +148,7 @@ def remarks_hold(path: Path, result: dict[str, Any], options: tuple[str, ...]) -
 
 @drawn(4, 60)
 @given(arms(2), st.sampled_from(FAMILIES), st.sampled_from([Fraction(101, 100), Fraction(3)]))
-def test_what_the_gate_advises_passes(arm: Arm, family: str, share: Fraction) -> None:
+def test_what_the_gate_advises_passes(arm, family, share):
     with TemporaryDirectory() as name:
         folder = Path(name)
         path = near_the_border(folder, arm.written(folder, "arm"), arm.n, family, arm.options, share)
@@ -163,7 +157,7 @@ def test_what_the_gate_advises_passes(arm: Arm, family: str, share: Fraction) ->
 
 @pytest.mark.parametrize("kp", ["500", "0.05"])
 @pytest.mark.parametrize("arm", names())
-def test_what_the_gate_advises_for_a_shipped_arm_passes(tmp_path: Path, arm: str, kp: str) -> None:
+def test_what_the_gate_advises_for_a_shipped_arm_passes(tmp_path, arm, kp):
     model, path = load(arm), tmp_path / "gains.toml"
     rows = "\n".join(f"{key} = [{', '.join([x] * model.n)}]" for key, x in (("kp", kp), ("kv", "5")))
     path.write_text(f'robot = "{arm}"\n[[gains]]\nname = "a"\nm = 1\n{rows}\n', encoding="utf-8")
@@ -180,7 +174,7 @@ OBSTACLES = [
 
 @pytest.mark.parametrize(("words", "advice", "option"), OBSTACLES, ids=["k_v", "share"])
 @pytest.mark.parametrize("arm", ["pendulum1", "buap3-small"])
-def test_what_tune_advises_leaves_gains(arm: str, words: tuple[str, ...], advice: str, option: str) -> None:
+def test_what_tune_advises_leaves_gains(arm, words, advice, option):
     base = ["tune", arm, "--m", "1", "--digits", "6"]
     text = text_of([*base, *words])
     values = [Fraction(x) for x in re.findall(advice, text)]
@@ -190,7 +184,7 @@ def test_what_tune_advises_leaves_gains(arm: str, words: tuple[str, ...], advice
     assert invoke(*base, *rest, option, str(float(value))).exit_code == 0, text
 
 
-def test_tune_names_targets_where_there_is_no_friction(tmp_path: Path) -> None:
+def test_tune_names_targets_where_there_is_no_friction(tmp_path):
     joint = "axis = [0, 0, 1]\norigin = [0, 0, 0]\nmass = 1\ncom = [0.3, 0, 0]\ninertia = 0.1\n"
     head = 'title = "x"\ngravity = [0, -9.81, 0]\n[[links]]\nname = "j1"\n'
     text = f"{head}{joint}viscous = 0\ntorque_limit = 20\n"
@@ -203,7 +197,7 @@ def test_tune_names_targets_where_there_is_no_friction(tmp_path: Path) -> None:
 
 @drawn(5, 100)
 @given(arms(1), shares)
-def test_gains_for_ranges_are_gains_for_their_members(arm: Arm, at: list[Fraction]) -> None:
+def test_gains_for_ranges_are_gains_for_their_members(arm, at):
     with TemporaryDirectory() as name:
         folder, out = Path(name), Path(name) / "gains.toml"
         tuned = invoke(
@@ -226,7 +220,7 @@ CORRECTED = {
 }
 
 
-def written(path: Path, arm: str, kp: str, kv: str, family: str = "m = 1") -> Path:
+def written(path, arm, kp, kv, family="m = 1"):
     rows = "\n".join(f"{key} = [{', '.join([x] * load(arm).n)}]" for key, x in (("kp", kp), ("kv", kv)))
     path.write_text(f'robot = "{arm}"\n[[gains]]\nname = "a"\n{family}\n{rows}\n', encoding="utf-8")
     return path
@@ -239,7 +233,7 @@ def written(path: Path, arm: str, kp: str, kv: str, family: str = "m = 1") -> Pa
         pytest.param(("epsilon", "--spread", "0"), id="epsilon, --spread", marks=pytest.mark.slow),
     ],
 )
-def test_what_an_error_tells_to_write_is_taken(tmp_path: Path, words: tuple[str, ...]) -> None:
+def test_what_an_error_tells_to_write_is_taken(tmp_path, words):
     gains = written(tmp_path / "gains.toml", "pendulum1", "3", "0.05")
     line, told = [words[0], str(gains), *words[1:]], []
     while (done := invoke(*line)).exit_code == 2:
@@ -257,7 +251,7 @@ def test_what_an_error_tells_to_write_is_taken(tmp_path: Path, words: tuple[str,
     assert done.exit_code in (0, 3), done.output
 
 
-def test_bounds_tells_what_is_missing_and_takes_it(tmp_path: Path) -> None:
+def test_bounds_tells_what_is_missing_and_takes_it(tmp_path):
     """Dry friction that no file states; a k_p that does not exceed it; an h without a bound."""
     words = ["bounds", str(written(tmp_path / "gains.toml", "pendulum1", "3", "0.05")), "--target", "45"]
     unknown = ["bounds", str(written(tmp_path / "free.toml", "buap3-small", "3", "0.05"))]
@@ -274,7 +268,7 @@ def test_bounds_tells_what_is_missing_and_takes_it(tmp_path: Path) -> None:
     assert invoke(*words, "--friction", friction).exit_code == 0
 
 
-def test_gains_lowered_as_epsilon_tells_have_an_epsilon(tmp_path: Path) -> None:
+def test_gains_lowered_as_epsilon_tells_have_an_epsilon(tmp_path):
     gains = written(tmp_path / "gains.toml", "pendulum1", "3", "5")
     assert "lower the gains k_v to below λmin(B)/(√n γ)" in text_of(["epsilon", str(gains)])
     (result,) = results(asked("gate", str(gains), "--condition", "19"))

@@ -1,7 +1,5 @@
 """What the gate accepts over ranges it accepts at every member of them."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,18 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.files.decimals import decimal_text
-from tests.promises.draws import FAMILIES, Arm, arms, asked, drawn, near_the_border, results, shares
+from tests.promises.draws import FAMILIES, arms, asked, drawn, near_the_border, results, shares
 
 SHARES = st.sampled_from([Fraction(1, 2), Fraction(1), Fraction(101, 100)])
 """Of the largest gains that pass: some pass with room, some at the border, some not."""
 CONDITIONS = st.sampled_from([(), ("10i",), ("10i", "scalar"), ("10p", "lasalle"), ("10",)])
 
 
-def condition_options(conditions: tuple[str, ...]) -> list[str]:
+def condition_options(conditions):
     return [word for name in conditions for word in ("--condition", name)]
 
 
-def more_of_the_file(arm: Arm, conditions: tuple[str, ...], keyed: bool, stated: bool) -> str:
+def more_of_the_file(arm, conditions, keyed, stated):
     """Conditions as a key of the set, and bounds of gravity of the gain file."""
     names = ", ".join(f'"{name}"' for name in conditions)
     key = f"condition = [{names}]\n" if keyed and conditions else ""
@@ -32,14 +30,14 @@ def more_of_the_file(arm: Arm, conditions: tuple[str, ...], keyed: bool, stated:
 @drawn(5, 35)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, CONDITIONS, shares, st.booleans(), st.booleans())
 def test_accepted_over_ranges_is_accepted_at_a_member(
-    arm: Arm,
-    family: str,
-    share: Fraction,
-    conditions: tuple[str, ...],
-    at: list[Fraction],
-    keyed: bool,
-    stated: bool,
-) -> None:
+    arm,
+    family,
+    share,
+    conditions,
+    at,
+    keyed,
+    stated,
+):
     """Ranges of files and options, payloads, masses of URDF files, bounds of both files, named conditions."""
     if arm.n > 2:  # M ≻ 0 over ranges of three masses takes seconds
         conditions = tuple(one for one in conditions if one not in ("scalar", "lasalle"))

@@ -1,19 +1,16 @@
 """What epsilon and bounds promise over ranges holds of the members, and simulated members keep it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.files.decimals import decimal_text
-from tests.promises.draws import FAMILIES, Arm, Ranged, arms, asked, drawn, near_the_border, results, shares
+from tests.promises.draws import FAMILIES, Ranged, arms, asked, drawn, near_the_border, results, shares
 
 SHARES = st.sampled_from([Fraction(1, 10), Fraction(1, 2), Fraction(99, 100)])
 """Of the largest gains that pass."""
@@ -22,7 +19,7 @@ LITTLE = Ranged(Fraction(1, 10), Fraction(1, 20), Fraction(1, 2))
 BUDGET = ("--starts", "1", "--max-boxes", "20", "--jobs", "1", "--no-store")
 
 
-def with_dry_friction(arm: Arm) -> Arm:
+def with_dry_friction(arm):
     """The same arm, of which nothing is left open about dry friction."""
     return replace(
         arm,
@@ -30,7 +27,7 @@ def with_dry_friction(arm: Arm) -> Arm:
     )
 
 
-def files(folder: Path, arm: Arm, family: str, share: Fraction, at: list[Fraction]) -> tuple[str, str]:
+def files(folder, arm, family, share, at):
     """Gain files of one set, for the arm with its ranges and for a member."""
     whole = near_the_border(folder, arm.written(folder, "arm"), arm.n, family, arm.options, share)
     text = whole.read_text(encoding="utf-8").replace("arm.toml", arm.at(at).written(folder, "member"))
@@ -39,18 +36,18 @@ def files(folder: Path, arm: Arm, family: str, share: Fraction, at: list[Fractio
     return str(whole), str(own)
 
 
-def angles(option: str, n: int, *values: int) -> tuple[str, str]:
+def angles(option, n, *values):
     """An option with an angle a joint."""
     return option, ",".join(str(values[i % len(values)]) for i in range(n))
 
 
-def over_ranges(arm: Arm) -> tuple[str, ...]:
+def over_ranges(arm):
     """Options with which the gate proves for all ranges, also where only the file of the arm has some."""
     mass = arm.joints[0].mass
     return arm.options or ("--vary", f"j1_mass={decimal_text(mass.low)}..{decimal_text(mass.high)}")
 
 
-def the_one(*words: str) -> dict[str, Any]:
+def the_one(*words):
     """The answer about the one gain set."""
     done = asked(*words)
     assert done.exit_code in (0, 1, 3), (done.exception, done.stderr)
@@ -59,9 +56,7 @@ def the_one(*words: str) -> dict[str, Any]:
 
 
 @given(arms().map(with_dry_friction), st.sampled_from(FAMILIES), SHARES, shares)
-def test_no_member_rests_farther_from_its_goal_than_is_promised_over_ranges(
-    arm: Arm, family: str, share: Fraction, at: list[Fraction]
-) -> None:
+def test_no_member_rests_farther_from_its_goal_than_is_promised_over_ranges(arm, family, share, at):
     still = ("--time", "0.5", *angles("--target", arm.n, 30, -20), *angles("--start", arm.n, 30, -20))
     with TemporaryDirectory() as name:
         whole, own = files(Path(name), arm, family, share, at)
@@ -78,9 +73,7 @@ def test_no_member_rests_farther_from_its_goal_than_is_promised_over_ranges(
 
 
 @given(arms(), st.sampled_from(FAMILIES), SHARES, shares)
-def test_no_motor_of_a_member_leaves_its_limit_where_the_gate_accepts_10i_over_ranges(
-    arm: Arm, family: str, share: Fraction, at: list[Fraction]
-) -> None:
+def test_no_motor_of_a_member_leaves_its_limit_where_the_gate_accepts_10i_over_ranges(arm, family, share, at):
     motion = "--time", "0.3", *angles("--target", arm.n, 170, -90, 40), *angles("--velocity", arm.n, 200, -90)
     with TemporaryDirectory() as name:
         whole, own = files(Path(name), arm, family, share, at)
@@ -94,9 +87,7 @@ def test_no_motor_of_a_member_leaves_its_limit_where_the_gate_accepts_10i_over_r
 
 
 @given(arms(2), st.sampled_from(FAMILIES), SHARES, shares)
-def test_v_falls_in_motions_of_a_member_for_the_scalar_epsilon_over_ranges(
-    arm: Arm, family: str, share: Fraction, at: list[Fraction]
-) -> None:
+def test_v_falls_in_motions_of_a_member_for_the_scalar_epsilon_over_ranges(arm, family, share, at):
     motion = "--time", "0.3", *angles("--target", arm.n, 170, -90), *angles("--velocity", arm.n, 2000, -900)
     with TemporaryDirectory() as name:
         whole, own = files(Path(name), arm, family, share, at)
@@ -111,9 +102,7 @@ def test_v_falls_in_motions_of_a_member_for_the_scalar_epsilon_over_ranges(
 @pytest.mark.slow
 @drawn(2, 12)
 @given(arms(2), st.sampled_from(FAMILIES), SHARES, shares)
-def test_no_epsilon_promised_over_ranges_is_falsified_at_a_member(
-    arm: Arm, family: str, share: Fraction, at: list[Fraction]
-) -> None:
+def test_no_epsilon_promised_over_ranges_is_falsified_at_a_member(arm, family, share, at):
     with TemporaryDirectory() as name:
         whole, own = files(Path(name), arm, family, share, at)
         over = the_one("epsilon", whole, *arm.options, "--ranges", *BUDGET)

@@ -1,7 +1,5 @@
 """A sweep says what the gate says of the same arm; the robot's answer speaks of its ranges, or says so."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from fractions import Fraction
@@ -29,7 +27,7 @@ SHARES = st.sampled_from([Fraction(1, 2), Fraction(1), Fraction(101, 100)])
 
 @drawn(3, 25)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, shares)
-def test_a_sweep_says_what_the_gate_says(arm: Arm, family: str, share: Fraction, at: list[Fraction]) -> None:
+def test_a_sweep_says_what_the_gate_says(arm, family, share, at):
     with TemporaryDirectory() as name:
         folder = Path(name)
         own = arm.at(at).written(folder, "member")
@@ -49,10 +47,8 @@ def test_a_sweep_says_what_the_gate_says(arm: Arm, family: str, share: Fraction,
 
 @drawn(1, 6)
 @given(arms(2), shares)
-def test_what_robot_proves_over_ranges_holds_at_a_member_and_its_constants_are_nominal(
-    arm: Arm, at: list[Fraction]
-) -> None:
-    def exact(x: Ranged) -> Ranged:
+def test_what_robot_proves_over_ranges_holds_at_a_member_and_its_constants_are_nominal(arm, at):
+    def exact(x):
         return Ranged(x.value, x.value, x.value)
 
     with TemporaryDirectory() as name:

@@ -1,12 +1,8 @@
 """Inputs of which commands once said something false: what they say of them is true."""
 
-from __future__ import annotations
-
 import json
 import math
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -29,20 +25,20 @@ torque_limit = 60
 RANGED = 'assumed = true, note = "x"'
 
 
-def files(folder: Path, more: str = "", mass: Any = 1, viscous: Any = 2, kp: Any = 50, kv: Any = 1) -> str:
+def files(folder, more="", mass=1, viscous=2, kp=50, kv=1):
     (folder / "arm.toml").write_text(ARM.format(mass=mass, viscous=viscous, more=more), encoding="utf-8")
     text = f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [{kp}]\nkv = [{kv}]\n'
     (folder / "gains.toml").write_text(text, encoding="utf-8")
     return str(folder / "gains.toml")
 
 
-def one(*words: str) -> tuple[int, dict[str, Any]]:
+def one(*words):
     done = asked(*words)
     (result,) = results(done)
     return done.exit_code, result
 
 
-def test_a_payload_counts_beside_a_stated_bound_in_gate_sweep_and_tune(tmp_path: Path) -> None:
+def test_a_payload_counts_beside_a_stated_bound_in_gate_sweep_and_tune(tmp_path):
     vary = ("--vary", "payload=0..20")
     gains = files(tmp_path, "gravity_bound = 4.905")
     assert one("gate", gains, *vary)[0] == 1
@@ -63,7 +59,7 @@ def test_a_payload_counts_beside_a_stated_bound_in_gate_sweep_and_tune(tmp_path:
     assert (code, row["limit"]["lower"]) == (1, "-43.005")
 
 
-def test_the_largest_dry_friction_of_the_file_and_of_options_counts(tmp_path: Path) -> None:
+def test_the_largest_dry_friction_of_the_file_and_of_options_counts(tmp_path):
     path = tmp_path / "gains.toml"
     sets = '[[gains]]\nname = "a"\nm = 1\nkp = [28, 60, 7]\nkv = [0.05, 0.05, 0.05]\n'
     path.write_text(f'robot = "buap3"\n{sets}', encoding="utf-8")
@@ -88,7 +84,7 @@ def test_the_largest_dry_friction_of_the_file_and_of_options_counts(tmp_path: Pa
     assert f"leaves at most {math.degrees(math.atanh(3 / 4)):.2f}°" in wide
 
 
-def test_an_eps0_over_ranges_is_that_of_all_their_friction(tmp_path: Path) -> None:
+def test_an_eps0_over_ranges_is_that_of_all_their_friction(tmp_path):
     path = tmp_path / "gains.toml"
     sets = '[bounds]\nviscous_min = 0.1\n[[gains]]\nname = "a"\nm = 1\nkp = [20, 3]\nkv = [5.0, 0.9]\n'
     path.write_text(f'robot = "reyes-kelly2"\n{sets}', encoding="utf-8")
@@ -100,15 +96,7 @@ def test_an_eps0_over_ranges_is_that_of_all_their_friction(tmp_path: Path) -> No
     assert max(Fraction(high) for _, high in statement["viscous"]) > 200
 
 
-def test_certificates_over_ranges_are_about_the_ranges(tmp_path: Path) -> None:
-    made = tmp_path / "made"
-    gains = files(tmp_path, kp=5)
-    assert invoke("gate", gains, "--vary", "payload=0..5", "--certificates", str(made)).exit_code == 0
-    assert json.loads((made / "a.json").read_text())["statement"]["parameters"] == [["1", "6"]]
-    assert invoke("recheck", str(made)).exit_code == 0
-
-
-def test_a_damping_ratio_that_is_asked_for_holds_over_the_ranges(tmp_path: Path) -> None:
+def test_a_damping_ratio_that_is_asked_for_holds_over_the_ranges(tmp_path):
     out = tmp_path / "gains.toml"
     words = ("tune", "reyes-kelly2", "--m", "1", "--damping", "1.0", "--vary", "viscous=-80%..+0%")
     assert invoke(*words, "--out", str(out)).exit_code == 0
@@ -121,19 +109,8 @@ def test_a_damping_ratio_that_is_asked_for_holds_over_the_ranges(tmp_path: Path)
     assert invoke("gate", str(out)).exit_code == 0
 
 
-def test_a_bound_that_the_arm_itself_breaks_is_said(tmp_path: Path) -> None:
-    gains = files(tmp_path, "gravity_bound = 1", 10)
-    done = invoke("gate", gains)
-    assert (done.exit_code, "the stated bound of 1 N·m is false" in " ".join(done.stdout.split())) == (
-        1,
-        True,
-    )
-
-
 @pytest.mark.parametrize("conditions", [("scalar",), ("10p", "lasalle")])
-def test_no_certificate_of_a_verdict_over_ranges_rests_on_the_nominal_arm(
-    tmp_path: Path, conditions: tuple[str, ...]
-) -> None:
+def test_no_certificate_of_a_verdict_over_ranges_rests_on_the_nominal_arm(tmp_path, conditions):
     """Without --vary proofs are about nominal numbers; the verdict is about the ranges of the file."""
     gains = files(tmp_path, "", f"{{value = 1, low = 0.9, high = 1.1, {RANGED}}}", kp=5)
     options = [word for name in conditions for word in ("--condition", name)]

@@ -1,7 +1,5 @@
 """No answer says a word of proof but through a promise: with promises turned into *seen*, none is left."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -19,11 +17,11 @@ ASKED = {
 
 
 @pytest.mark.parametrize("words", ASKED.values(), ids=list(ASKED))
-def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_word_of_proof_is_a_promise(words, monkeypatch):
     assert not left_over(words, monkeypatch)
 
 
-def test_the_words_are_found() -> None:
+def test_the_words_are_found():
     assert words_of_proof("✓ accepted; at most 3.2°")
     assert not words_of_proof("no ε₀ is certified")
     assert not words_of_proof("use `gate --condition stable` or --stable")

@@ -1,24 +1,19 @@
 """No answer says a word of proof but through a promise: with promises turned into *seen*, none is left."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction as F
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.answers.gate.otherwise import positive
 from lyapcheck.answers.gate.shown import shown_gravity
-from lyapcheck.control.gains import GainSet
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Code, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import Bullets, Code, Figure, Paragraph, Section, Table
 from lyapcheck.promise import GUARDED, promises_as_seen
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.command import invoke
@@ -89,13 +84,13 @@ ASKED = {
 
 
 @pytest.fixture(autouse=True)
-def in_a_folder_with_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def in_a_folder_with_files(tmp_path, monkeypatch):
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
 
 
-def said(answer: Answer) -> Iterator[str]:
+def said(answer):
     """What an answer says in words: no heads of columns, no keys, no code."""
     document = answer.document()
     yield document.title
@@ -105,7 +100,7 @@ def said(answer: Answer) -> Iterator[str]:
     yield from values(answer.data())
 
 
-def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
+def texts(blocks):
     for block in blocks:
         if isinstance(block, Paragraph):
             yield block.text
@@ -124,7 +119,7 @@ def texts(blocks: tuple[Block, ...]) -> Iterator[str]:
             assert isinstance(block, Code)
 
 
-def values(data: Any) -> Iterator[str]:
+def values(data):
     if isinstance(data, str):
         yield data
     elif isinstance(data, dict):
@@ -135,14 +130,14 @@ def values(data: Any) -> Iterator[str]:
             yield from values(value)
 
 
-def words_of_proof(text: str) -> list[str]:
+def words_of_proof(text):
     """The guarded words of a text that promise something."""
     return GUARDED.findall(NEGATED.sub("", QUOTED.sub("", text)))
 
 
 @pytest.mark.parametrize("words", ASKED.values(), ids=list(ASKED))
-def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
-    answers: list[Answer] = []
+def test_every_word_of_proof_is_a_promise(words, monkeypatch):
+    answers = []
     written = Answer.written
     monkeypatch.setattr(
         Answer,
@@ -156,7 +151,7 @@ def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: p
     assert not left
 
 
-def undecided(*words: str) -> str:
+def undecided(*words):
     """What an answer says that must be undecided, since what is proved is about something else."""
     done = invoke(*words)
     assert (done.exit_code, done.stdout[:1]) == (3, "?")
@@ -169,13 +164,13 @@ RANGED = ("gate", "passes.toml", "--vary", "payload=0..2")
 
 
 @pytest.fixture
-def passes() -> None:
+def passes():
     """A file of the set that passes alone."""
     Path("passes.toml").write_text(FILES["gains.toml"].partition('[[gains]]\nname = "saturates"')[0])
 
 
 @pytest.mark.usefixtures("passes")
-def test_limits_of_the_nominal_arm_answer_no_question_about_ranges(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_limits_of_the_nominal_arm_answer_no_question_about_ranges(monkeypatch):
     assert invoke(*RANGED).exit_code == 0
     nominal = (((F(1), F(1)),), ((F(2), F(2)),), (F(60),))
     monkeypatch.setattr("lyapcheck.answers.gate.promises.numbers_of", lambda *_: nominal)
@@ -183,7 +178,7 @@ def test_limits_of_the_nominal_arm_answer_no_question_about_ranges(monkeypatch: 
 
 
 @pytest.mark.usefixtures("passes")
-def test_larger_motors_and_more_friction_answer_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_larger_motors_and_more_friction_answer_nothing(monkeypatch):
     for field, (viscous, torque) in {"limits": (2, 61), "viscous": (3, 60)}.items():
         stronger = (((F(1), F(3)),), ((F(viscous), F(viscous)),), (F(torque),))
         with monkeypatch.context() as patch:
@@ -192,7 +187,7 @@ def test_larger_motors_and_more_friction_answer_nothing(monkeypatch: pytest.Monk
 
 
 @pytest.mark.usefixtures("passes")
-def test_gravity_of_the_nominal_arm_answers_no_question_about_ranges(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_gravity_of_the_nominal_arm_answers_no_question_about_ranges(monkeypatch):
     monkeypatch.setattr(
         "lyapcheck.answers.gate.promises.shown_gravity",
         lambda arm, k_g: shown_gravity(load("arm.toml", vary=[Vary.parsed("payload=0..1")]), k_g),
@@ -202,9 +197,7 @@ def test_gravity_of_the_nominal_arm_answers_no_question_about_ranges(monkeypatch
 
 @pytest.mark.usefixtures("passes")
 @pytest.mark.parametrize("condition", ["scalar", "lasalle"])
-def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(
-    monkeypatch: pytest.MonkeyPatch, condition: str
-) -> None:
+def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(monkeypatch, condition):
     words = (*RANGED, "--condition", condition)
     assert invoke(*words).exit_code == 0
     monkeypatch.setattr(
@@ -216,10 +209,10 @@ def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(
 
 
 @pytest.mark.usefixtures("passes")
-def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch):
     assert "leaves at most" in invoke(*RANGED).stdout
 
-    def of_less(gains: GainSet, model: RobotModel) -> list[F | None]:
+    def of_less(gains, model):
         coulomb = tuple(x and replace(x, low=x.value, high=x.value) for x in model.coulomb)
         return rest_errors(gains, replace(model, coulomb=coulomb))
 
@@ -227,7 +220,7 @@ def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch: pytes
     assert "leaves at most" not in invoke(*RANGED).stdout
 
 
-def test_the_words_are_found() -> None:
+def test_the_words_are_found():
     assert words_of_proof("✓ accepted; at most 3.2°")
     assert not words_of_proof("no ε₀ is certified")
     assert not words_of_proof("use `gate --condition stable` or --stable")

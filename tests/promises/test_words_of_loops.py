@@ -1,19 +1,11 @@
 """No answer says a word of proof but through a promise: with promises turned into *seen*, none is left."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from lyapcheck.control.gains import GainSet
-from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon
-from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.rest import resting
 from tests.helpers.command import invoke
 from tests.helpers.words_of_proof import left_over
@@ -77,7 +69,7 @@ COSTLY = ("epsilon with weights", "sweep")
 
 
 @pytest.fixture(autouse=True)
-def in_a_folder_with_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def in_a_folder_with_files(tmp_path, monkeypatch):
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
@@ -90,14 +82,14 @@ def in_a_folder_with_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         for name, words in ASKED.items()
     ],
 )
-def test_every_word_of_proof_is_a_promise(words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_word_of_proof_is_a_promise(words, monkeypatch):
     assert not left_over(words, monkeypatch)
 
 
 def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def nominal(controlled: ControlledArm, *rest: Any, **more: Any) -> CertifiedEpsilon:
+    monkeypatch,
+):
+    def nominal(controlled, *rest, **more):
         return certified_epsilon(replace(controlled, ranges=False), *rest, **more)
 
     monkeypatch.setattr("lyapcheck.answers.epsilon.compute.certified_epsilon", nominal)
@@ -108,9 +100,9 @@ def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(
 
 
 def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bounds(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def easier(gains: GainSet, dry: Sequence[Fraction]) -> JudgedStatement | None:
+    monkeypatch,
+):
+    def easier(gains, dry):
         return resting(gains, [Fraction(9, 10) * f for f in dry])
 
     words = (*BOUNDS, "--friction", "1,0.5")

@@ -1,10 +1,7 @@
 """Faults in the paper's theorems as systems, of torque, V, bounds, conditions, h and arm: none is proved."""
 
-from __future__ import annotations
-
 import pytest
 
-from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.claims import companion, var
 from lyapcheck.claims.arguments import at_arm
 from lyapcheck.claims.procedures import propose
@@ -44,7 +41,7 @@ FAULTS = {
 """What is asked, and what is exchanged in the script."""
 
 
-def altered(tmp_path, right: str, wrong: str, asked: tuple[str, str, str]) -> Stable:
+def altered(tmp_path, right, wrong, asked):
     assert SOURCE.count(right) == 1, right
     source = SOURCE.replace(right, wrong)
     source = source[: source.index('proof.section("Every function')].replace(

@@ -1,28 +1,23 @@
 """One small real report for all tests of reports."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from lyapcheck.answers.check import ProofResult, run
+from lyapcheck.answers.check import run
 from lyapcheck.answers.check.run import run_proof
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.report import compute
 from lyapcheck.report.build import build, render, write
-from lyapcheck.report.model import Report, Subject
+from lyapcheck.report.model import Subject
 from tests.helpers import small_proofs
 from tests.helpers.once import once
 from tests.helpers.one_process import one_process
 from tests.helpers.small_proofs import small_proof
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(items):
     """A whole report takes ten seconds; what is quick is about reports put together by hand."""
     for item in items:
         if "report" in getattr(item, "fixturenames", ()):
@@ -32,31 +27,31 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 class AtOnce(Executor):
     """Does what it is handed before it returns."""
 
-    def __init__(self, *anything: object) -> None:
+    def __init__(self, *anything):
         pass
 
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        result: Future[Any] = Future()
+    def submit(self, fn, /, *args, **kwargs):
+        result = Future()
         result.set_result(fn(*args, **kwargs))
         return result
 
 
 @pytest.fixture(scope="session")
-def subject() -> Subject:
+def subject():
     """The two-joint arm, m = 1."""
     file = read_gain_file(paper_gain_file(small_proofs.GAINS))
     return Subject(small_proofs.ROBOT, (small_proofs.MEMBER,), (replace(file, gains=file.gains[:1]),))
 
 
 @pytest.fixture(scope="session")
-def report(subject: Subject, tmp_path_factory: pytest.TempPathFactory) -> Report:
+def report(subject, tmp_path_factory):
     """What is said about it, with all computations in this process; tests of processes make their own."""
 
-    def kept(proof: str, ms: Any, robot: str, n: None, gains: str, only: Sequence[str]) -> ProofResult:
+    def kept(proof, ms, robot, n, gains, only):
         assert (robot, tuple(ms)) == (small_proofs.ROBOT, (small_proofs.MEMBER,))
         return run_proof(proof, ms, robot, n, gains, only) if only else small_proof(tmp_path_factory, proof)
 
-    def made() -> Report:
+    def made():
         with one_process() as patch:
             patch.setattr(compute, "ProcessPoolExecutor", AtOnce)
             patch.setattr(run, "run_proof", kept)
@@ -66,19 +61,19 @@ def report(subject: Subject, tmp_path_factory: pytest.TempPathFactory) -> Report
 
 
 @pytest.fixture(scope="session")
-def everything(report: Report, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str | bytes]:
+def everything(report, tmp_path_factory):
     """Its files by their names."""
     return once(tmp_path_factory, "rendered", lambda: render(report))
 
 
 @pytest.fixture(scope="session")
-def files(everything: dict[str, str | bytes]) -> dict[str, str]:
+def files(everything):
     """All of it as text; what is not is known by its name only."""
     return {name: content if isinstance(content, str) else "" for name, content in everything.items()}
 
 
 @pytest.fixture(scope="session")
-def folder(everything: dict[str, str | bytes], tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(everything, tmp_path_factory):
     """All of it on disk."""
     place = tmp_path_factory.mktemp("report")
     write(everything, place)

@@ -1,11 +1,9 @@
 """``make screenshots``: pictures of the committed page for people to look at, in build/screenshots/."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 
-from tests.helpers.browser import CHROMIUM, Tab, browser
+from tests.helpers.browser import CHROMIUM, browser
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "reports" / "index.html"
@@ -13,7 +11,7 @@ FOLDER = ROOT / "build" / "screenshots"
 PLACES = ("verdict", "findings", "claims", "gains", "evidence")
 
 
-def main() -> int:
+def main():
     """Every section at a desk by day and by night, the whole page on a phone, and what is printed."""
     if CHROMIUM is None:
         print("install chromium to take pictures", file=sys.stderr)
@@ -34,7 +32,7 @@ def main() -> int:
     return 0
 
 
-def _take(tab: Tab, name: str, place: str) -> None:
+def _take(tab, name, place):
     tab.open(PAGE, place)
     (FOLDER / f"{name}.png").write_bytes(tab.picture())
 

@@ -1,15 +1,10 @@
 """The page in a real browser: no error, links, filters, runs, keyboard, phone, dark, paper, no script."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from lyapcheck.report.model import Report
-from tests.helpers.browser import CHROMIUM, Tab, browser
+from tests.helpers.browser import CHROMIUM, browser
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 PHONE, DESK = 390, 1280
@@ -18,13 +13,13 @@ ROWS = "[...document.querySelectorAll('table.claims tbody tr')]"
 
 
 @pytest.fixture(scope="module")
-def chromium() -> Iterator[Tab]:
+def chromium():
     with browser() as tab:
         yield tab
 
 
 @pytest.fixture
-def page(chromium: Tab, folder: Path) -> Iterator[Tab]:
+def page(chromium, folder):
     """The page, freshly loaded at a desk."""
     chromium.send("Emulation.setScriptExecutionDisabled", value=False)
     chromium.media()
@@ -34,7 +29,7 @@ def page(chromium: Tab, folder: Path) -> Iterator[Tab]:
     assert chromium.errors == []
 
 
-def test_every_link_leads_somewhere(page: Tab, folder: Path) -> None:
+def test_every_link_leads_somewhere(page, folder):
     assert page.run("document.querySelectorAll('a[href]').length") > 200
     places = "[...document.querySelectorAll('a[href^=\"#\"]')].map(a => a.getAttribute('href').slice(1))"
     assert page.run(f"{places}.filter(name => !document.getElementById(decodeURIComponent(name)))") == []
@@ -45,7 +40,7 @@ def test_every_link_leads_somewhere(page: Tab, folder: Path) -> None:
     assert [name for name in files if not (folder / name).is_file()] == []
 
 
-def test_the_first_screen_answers(page: Tab) -> None:
+def test_the_first_screen_answers(page):
     page.size(DESK, 900)
     end = page.run("document.querySelector('.picture').getBoundingClientRect().bottom")
     assert end <= 900
@@ -53,14 +48,14 @@ def test_the_first_screen_answers(page: Tab) -> None:
     assert page.run(colours).count("bad") == 1
 
 
-def test_a_claim_that_is_followed_is_open(page: Tab, folder: Path) -> None:
+def test_a_claim_that_is_followed_is_open(page, folder):
     page.open(folder / "index.html", "16.6")
     assert page.until("document.getElementById('16.6').querySelector('.member').checkVisibility()")
     page.run("location.hash = '#equation-16'")
     assert page.until("document.getElementById('equation-16').checkVisibility()")
 
 
-def test_filters_leave_what_was_asked_for(page: Tab, report: Report) -> None:
+def test_filters_leave_what_was_asked_for(page, report):
     page.enter("#by-verdict", "refuted")
     shown = page.run(f"{ROWS}.filter(row => !row.hidden).map(row => row.id)")
     refuted = {row.id for row in report.claims if row.verdict == "refuted"}
@@ -71,7 +66,7 @@ def test_filters_leave_what_was_asked_for(page: Tab, report: Report) -> None:
     assert page.run(f"{ROWS}.every(row => row.hidden)")
 
 
-def test_columns_are_sorted_both_ways_and_back(page: Tab) -> None:
+def test_columns_are_sorted_both_ways_and_back(page):
     first = "document.querySelector('table.claims')"
     ids = f"[...{first}.tBodies[0].rows].map(row => row.cells[2].textContent)"
     before = page.run(ids)
@@ -84,7 +79,7 @@ def test_columns_are_sorted_both_ways_and_back(page: Tab) -> None:
     assert result[2] == before
 
 
-def test_the_switch_of_m_needs_no_script(page: Tab) -> None:
+def test_the_switch_of_m_needs_no_script(page):
     both = "<i id=other data-m=2>other</i><i id=same data-m=1>same</i>"
     page.run(f"document.body.insertAdjacentHTML('beforeend', '{both}')")
     page.run("document.getElementById('m1').click()")
@@ -92,20 +87,20 @@ def test_the_switch_of_m_needs_no_script(page: Tab) -> None:
     assert page.run("document.getElementById('same').checkVisibility()")
 
 
-def test_the_graph_shows_what_a_claim_rests_on(page: Tab) -> None:
+def test_the_graph_shows_what_a_claim_rests_on(page):
     page.run("document.querySelector('.box[data-claim=\"16\"]').dispatchEvent(new Event('pointerenter'))")
     lit = page.run("[...document.querySelectorAll('.box.on')].map(box => box.dataset.claim)")
     assert {"16", "16.6", "15"} <= set(lit)
     assert "P" not in lit
 
 
-def test_each_gain_set_shows_its_run_without_anything_that_moves(page: Tab, report: Report) -> None:
+def test_each_gain_set_shows_its_run_without_anything_that_moves(page, report):
     drawn = "[...document.querySelectorAll('#gains .run')].map(one => one.querySelectorAll('svg').length)"
     assert page.run(drawn) == [2] * len(report.runs)
     assert page.run("document.getAnimations().length") == 0
 
 
-def test_the_keyboard_goes_down_the_page(page: Tab) -> None:
+def test_the_keyboard_goes_down_the_page(page):
     """In the order in which a screen reader says it, beginning with the way past the navigation."""
     page.run("window.at = document.body; window.back = 0")
     seen = []
@@ -122,7 +117,7 @@ def test_the_keyboard_goes_down_the_page(page: Tab) -> None:
 
 
 @pytest.mark.parametrize("opened", [False, True])
-def test_a_phone_needs_no_sideways_scrolling(page: Tab, opened: bool) -> None:
+def test_a_phone_needs_no_sideways_scrolling(page, opened):
     page.size(PHONE)
     if opened:
         page.run("document.querySelectorAll('details').forEach(one => { one.open = true })")
@@ -146,7 +141,7 @@ CONTRAST = """
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_everything_can_be_read_by_day_and_by_night(page: Tab, scheme: str) -> None:
+def test_everything_can_be_read_by_day_and_by_night(page, scheme):
     page.media(scheme=scheme)
     ratios = page.run(CONTRAST)
     assert len(ratios) > 30
@@ -156,12 +151,12 @@ def test_everything_can_be_read_by_day_and_by_night(page: Tab, scheme: str) -> N
     )
 
 
-def test_paper_holds_it_on_six_pages(page: Tab) -> None:
+def test_paper_holds_it_on_six_pages(page):
     counts = re.findall(rb"/Count (\d+)", page.paper())
     assert 1 <= max(map(int, counts)) <= MOST_PAGES
 
 
-def test_nothing_is_lost_without_a_script(page: Tab, folder: Path, report: Report) -> None:
+def test_nothing_is_lost_without_a_script(page, folder, report):
     page.send("Emulation.setScriptExecutionDisabled", value=True)
     page.open(folder / "index.html")
     text = page.send("DOM.getOuterHTML", nodeId=page.send("DOM.getDocument")["root"]["nodeId"])["outerHTML"]
@@ -169,5 +164,5 @@ def test_nothing_is_lost_without_a_script(page: Tab, folder: Path, report: Repor
     assert all(f'id="{row.id}"' in text for row in report.claims)
 
 
-def test_the_old_page_of_a_member_leads_to_the_new(page: Tab, folder: Path) -> None:
+def test_the_old_page_of_a_member_leads_to_the_new(page, folder):
     assert page.arrives(folder / "m1.html", "index.html#m1")

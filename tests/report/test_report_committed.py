@@ -1,13 +1,9 @@
 """The committed report is about what today's code asks: statements, gains, gate, words and page."""
 
-from __future__ import annotations
-
 import json
 import re
-from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -26,14 +22,14 @@ from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 
 FOLDER = Path(__file__).parents[2] / "reports"
-REPORT: dict[str, Any] = json.loads((FOLDER / "report.json").read_text(encoding="utf-8"))
+REPORT = json.loads((FOLDER / "report.json").read_text(encoding="utf-8"))
 PAGE = (FOLDER / "index.html").read_text(encoding="utf-8")
 REPAIR = "make report, and commit reports/"
 
 
 @pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("proof", [PROOF, *OTHERS])
-def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
+def test_every_claim_is_the_one_that_its_script_makes_today(proof):
     ms = REPORT["m"]
     script = find_script(proof)
     handover = ask(ScriptRequest(str(script), script.name, tuple(paper_case_data(m) for m in ms)))
@@ -50,19 +46,19 @@ def test_every_claim_is_the_one_that_its_script_makes_today(proof: str) -> None:
             assert _certificate(row["certificate"])["statement"] == to_json(stated), (row["id"], REPAIR)
 
 
-def test_every_part_that_a_drawing_names_is_on_the_page() -> None:
+def test_every_part_that_a_drawing_names_is_on_the_page():
     """A hatching that is not there is drawn as nothing, and so are its bars."""
     named = set(re.findall(r'(?:url\(|href=")#([^)"]+)', PAGE))
     assert named <= set(re.findall(r' id="([^"]*)"', PAGE)), REPAIR
 
 
-def decided(row: Mapping[str, Any]) -> list[Any]:
+def decided(row):
     """What the gate decides about gains, without its advice."""
     keys = ("id", "joint", "verdict", "value", "limit")
     return [row["name"], row["m"], row["verdict"], [[one[key] for key in keys] for one in row["checks"]]]
 
 
-def test_arm_gains_gate_and_table_are_those_of_today() -> None:
+def test_arm_gains_gate_and_table_are_those_of_today():
     subject, arm = _subject("", None, None), load(REPORT["robot"]["name"])
     assert (subject.robot, list(subject.ms)) == (arm.name, REPORT["m"])
     assert [decided(row) for row in REPORT["gate"]] == [
@@ -71,7 +67,7 @@ def test_arm_gains_gate_and_table_are_those_of_today() -> None:
     assert REPORT["table"] == json.loads(json.dumps(build_table(subject.ms).data()["rows"])), REPAIR
 
 
-def test_every_eps0_is_of_the_arm_and_gains_of_today() -> None:
+def test_every_eps0_is_of_the_arm_and_gains_of_today():
     arm = load(REPORT["robot"]["name"])
     sets = {one.name: one for file in _subject("", None, None).gain_files for one in file.gains}
     assert [row["name"] for row in REPORT["epsilon"]] == list(sets), REPAIR
@@ -85,7 +81,7 @@ def test_every_eps0_is_of_the_arm_and_gains_of_today() -> None:
             assert to_json(statement_of(loop)) == stated, (path, REPAIR)
 
 
-def test_words_and_page_are_those_of_today() -> None:
+def test_words_and_page_are_those_of_today():
     notes = published_notes()
     assert REPORT["paper"] == notes.paper.citation, REPAIR
     for finding in REPORT["findings"]:
@@ -97,6 +93,6 @@ def test_words_and_page_are_those_of_today() -> None:
         assert raw(name) in PAGE, REPAIR
 
 
-def _certificate(path: str) -> dict[str, Any]:
-    result: dict[str, Any] = json.loads((FOLDER / path).read_text(encoding="utf-8"))
+def _certificate(path):
+    result = json.loads((FOLDER / path).read_text(encoding="utf-8"))
     return result

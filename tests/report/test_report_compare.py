@@ -1,11 +1,7 @@
 """Two reports side by side: what got worse is said first and makes the exit code 1."""
 
-from __future__ import annotations
-
 import json
 from copy import deepcopy
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -13,7 +9,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.report.compare import SCHEMAS, compare, read_report
 
 CHECK = {"id": "19", "joint": "base", "margin": "0.1"}
-OLD: dict[str, Any] = {
+OLD = {
     "schema": "lyapcheck/report/2",
     "claims": [
         {"proof": "published", "id": "a", "m": 1, "verdict": "proved", "grade": "exact"},
@@ -25,17 +21,17 @@ OLD: dict[str, Any] = {
 }
 
 
-def changed(*places: Any, to: Any) -> dict[str, Any]:
+def changed(*places, to):
     """The old report with another value in one place."""
     new = deepcopy(OLD)
-    inner: Any = new
+    inner = new
     for place in places[:-1]:
         inner = inner[place]
     inner[places[-1]] = to
     return new
 
 
-def test_nothing_changed() -> None:
+def test_nothing_changed():
     result = compare(OLD, OLD, "old")
     assert result.changes == ()
     assert result.exit_code == 0
@@ -56,13 +52,13 @@ def test_nothing_changed() -> None:
         (changed("epsilon", 0, "certified", to=None), "ε₀", True),
     ],
 )
-def test_a_change_is_found_and_weighed(new: dict[str, Any], what: str, worse: bool) -> None:
+def test_a_change_is_found_and_weighed(new, what, worse):
     result = compare(OLD, new, "old")
     assert [(change.what, change.worse) for change in result.changes] == [(what, worse)]
     assert result.exit_code == int(worse)
 
 
-def test_what_got_worse_comes_first_in_every_format() -> None:
+def test_what_got_worse_comes_first_in_every_format():
     new = changed("claims", 1, "verdict", to="proved")
     new["gate"][0]["verdict"] = "rejected"
     result = compare(OLD, new, "old")
@@ -73,7 +69,7 @@ def test_what_got_worse_comes_first_in_every_format() -> None:
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "lyapcheck/report/1"}'])
-def test_what_is_no_report_is_refused(text: str, tmp_path: Path) -> None:
+def test_what_is_no_report_is_refused(text, tmp_path):
     path = tmp_path / "report.json"
     path.write_text(text)
     with pytest.raises(InputError, match=r"--compare"):
@@ -82,7 +78,7 @@ def test_what_is_no_report_is_refused(text: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("rows", ["{}", "3", "[3]", '[{"name": "one"}]', '[{"name": ["one"], "checks": 3}]'])
 @pytest.mark.parametrize("key", ["claims", "others", "gate", "epsilon"])
-def test_a_report_with_other_rows_is_refused(key: str, rows: str, tmp_path: Path) -> None:
+def test_a_report_with_other_rows_is_refused(key, rows, tmp_path):
     path = tmp_path / "report.json"
     whole = {"claims": [], "others": [], "gate": [], "epsilon": [], "schema": SCHEMAS[0]}
     path.write_text(json.dumps({**whole, key: json.loads(rows)}))

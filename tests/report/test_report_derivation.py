@@ -1,9 +1,6 @@
 """A report prints what SymPy derives, typeset, beside what the checker says of it."""
 
-from __future__ import annotations
-
 import json
-from typing import Any
 
 import pytest
 
@@ -22,8 +19,8 @@ TITLE = "What SymPy derives, and what the checker says of it"
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
-    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings", "map"), ())
+def report():
+    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings", "map"), ())
     return Report(
         robot=load("reyes-kelly2"),
         ms=(2,),
@@ -39,11 +36,11 @@ def report() -> Report:
 
 
 @pytest.fixture(scope="module")
-def files(report: Report) -> dict[str, str]:
+def files(report):
     return {name: str(content) for name, content in render(report).items()}
 
 
-def test_the_page_has_it_as_formulas_with_the_comparison_above(files: dict[str, str]) -> None:
+def test_the_page_has_it_as_formulas_with_the_comparison_above(files):
     section = files["index.html"].split('<section id="derive">')[1].split("</section>")[0]
     assert TITLE in section
     assert section.index("dV/dt: the terms of (15) add up") < section.index("<math")
@@ -51,7 +48,7 @@ def test_the_page_has_it_as_formulas_with_the_comparison_above(files: dict[str, 
     assert 'href="#derive"' in files["index.html"]
 
 
-def test_markdown_and_paper_have_it_too(report: Report, files: dict[str, str]) -> None:
+def test_markdown_and_paper_have_it_too(report, files):
     paper = markup(ReportAnswer(report, appendix=False).document(), "running")
     for text in (files["report.md"], paper):
         assert TITLE in text
@@ -60,7 +57,7 @@ def test_markdown_and_paper_have_it_too(report: Report, files: dict[str, str]) -
     assert r"U_{2}(x) = \frac{\log" in files["report.md"]
 
 
-def test_data_have_every_formula_and_both_judgements(files: dict[str, str]) -> None:
+def test_data_have_every_formula_and_both_judgements(files):
     derived = json.loads(files["report.json"])["derive"]
     assert derived["agree"] is True
     assert [one["id"] for one in derived["formulas"]][:7] == ["U", "6", "8", "gamma", "rho", "eps", "12"]
@@ -69,5 +66,5 @@ def test_data_have_every_formula_and_both_judgements(files: dict[str, str]) -> N
     assert "γ = 1.053569219" in gamma["derived"]
 
 
-def test_members_that_sympy_takes_too_long_for_are_left_out() -> None:
+def test_members_that_sympy_takes_too_long_for_are_left_out():
     assert derive_job((1, 41), "pendulum1").ms == (1,)

@@ -1,12 +1,9 @@
 """The report on the printed experiment: what it says follows from the study, and nothing is said by heart."""
 
-from __future__ import annotations
-
 import csv
 import json
 from dataclasses import fields, replace
 from io import StringIO
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -42,7 +39,7 @@ NOTES = published_notes()
 
 
 @pytest.fixture(scope="module")
-def found() -> StudyRow:
+def found():
     """A small study of m = 1 and PD, as it stands in a report."""
     sets = [read_gain_file(paper_gain_file(name)).gains[0] for name in ("table2", "table2_pd")]
     small = study(sets, load("buap3"), spread=8, corners=8, seed=1)
@@ -51,9 +48,9 @@ def found() -> StudyRow:
 
 
 @pytest.fixture(scope="module")
-def files(found: StudyRow) -> dict[str, str | bytes]:
+def files(found):
     model = load("buap3")
-    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs", "map"), ())
+    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "map"), ())
     found_out = findings(NOTES, (), {}, (), found)
     report = Report(
         robot=model,
@@ -71,7 +68,7 @@ def files(found: StudyRow) -> dict[str, str | bytes]:
     return render(report)
 
 
-def test_tags_of_its_pages_are_closed_in_their_order(files: dict[str, str | bytes]) -> None:
+def test_tags_of_its_pages_are_closed_in_their_order(files):
     for name, page in files.items():
         if name.endswith(".html"):
             reader = Balance()
@@ -79,35 +76,35 @@ def test_tags_of_its_pages_are_closed_in_their_order(files: dict[str, str | byte
             assert reader.open == []
 
 
-def number(**changed: Any) -> NumberRow:
-    blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(NumberRow))
+def number(**changed):
+    blank = dict.fromkeys(field.name for field in fields(NumberRow))
     plain = {"quantity": "settling", "joint": "base", "unit": "s", "printed": 1.0, "at_most": False}
     return NumberRow(**(blank | plain | {"nearest": 1.2, "answer": "no", "runs": 10} | changed))
 
 
-def run_row(**about: Any) -> RunRow:
+def run_row(**about):
     return RunRow(**(dict.fromkeys(field.name for field in fields(RunRow)) | about))
 
 
 @pytest.mark.slow
-def test_the_pages_show_every_printed_number(found: StudyRow, files: dict[str, str | bytes]) -> None:
+def test_the_pages_show_every_printed_number(found, files):
     for one in found.sets:
         for entry in one.numbers:
             assert f">{_shown(entry)}<" in str(files["index.html"])
         assert str(files["report.md"]).count(f"| {one.name}: ") == len(one.numbers)
 
 
-def _shown(entry: NumberRow) -> str:
+def _shown(entry):
     unit = "°" if entry.unit == "°" else f" {entry.unit}"
     return f"{'below ' if entry.at_most else ''}{entry.printed:g}{unit}"
 
 
-def test_json_carries_the_study(found: StudyRow, files: dict[str, str | bytes]) -> None:
+def test_json_carries_the_study(found, files):
     assert read(StudyRow, json.loads(str(files["report.json"]))["sensitivity"]) == found
 
 
 @pytest.mark.slow
-def test_figures_draw_what_the_data_beside_them_say(found: StudyRow, files: dict[str, str | bytes]) -> None:
+def test_figures_draw_what_the_data_beside_them_say(found, files):
     for stem in ("spread", "assumptions"):
         ElementTree.fromstring(str(files[f"figures/{stem}.svg"]))
         assert f"figures/{stem}.csv" in str(files["index.html"])
@@ -123,7 +120,7 @@ def test_figures_draw_what_the_data_beside_them_say(found: StudyRow, files: dict
 
 
 @pytest.mark.slow
-def test_indices_stand_beside_the_bench(found: StudyRow) -> None:
+def test_indices_stand_beside_the_bench(found):
     runs = [
         run_row(name="tau_m1", L2=31.0, printed=PrintedRow(25.4, None, ())),
         run_row(name="other", L2=9.0),
@@ -137,7 +134,7 @@ def test_indices_stand_beside_the_bench(found: StudyRow) -> None:
     assert rows[2] == ["other", "9", "", ""]
 
 
-def test_findings_follow_the_answers(found: StudyRow) -> None:
+def test_findings_follow_the_answers(found):
     subjects = [item.subject for item in findings(NOTES, (), {}, (), found)]
     assert subjects[0] == "L2 index of tau_m1"
     assert "indices of all gains" in subjects
@@ -149,7 +146,7 @@ def test_findings_follow_the_answers(found: StudyRow) -> None:
 
 
 @pytest.mark.parametrize(("nominal", "count"), [(25.4, 0), (25.8, 0), (31.0, 1), (20.0, 1)])
-def test_indices_near_the_print_are_no_finding(found: StudyRow, nominal: float, count: int) -> None:
+def test_indices_near_the_print_are_no_finding(found, nominal, count):
     first = found.sets[0]
     alone = replace(first, numbers=(replace(first.numbers[0], nominal=nominal),))
     assert len(findings(NOTES, (), {}, (), replace(found, sets=(alone,), together=None))) == count
@@ -165,12 +162,12 @@ def test_indices_near_the_print_are_no_finding(found: StudyRow, nominal: float, 
         ({"answer": "no part"}, "no part in it", "no assumption has a part in it: 1.2 s for all arms seen"),
     ],
 )
-def test_answers_in_words(changed: dict[str, Any], cell: str, sentence: str) -> None:
+def test_answers_in_words(changed, cell, sentence):
     assert answer_cell(number(**changed)) == cell
     assert answer_words(number(**changed)).startswith(sentence)
 
 
-def test_small_shares_are_not_what_a_number_hangs_on() -> None:
+def test_small_shares_are_not_what_a_number_hangs_on():
     assumed = tuple(AssumedRow(name, name, "", 0.0, 0.0, 0.0) for name in ("a", "b", "c"))
     about = StudyRow("arm", "", 0, 0, 0, False, 0, assumed, (), None)
     assert leading(number(shares={"a": 0.05, "b": 0.6, "c": 0.2}), about) == "b 60 %, c 20 %"
@@ -178,7 +175,7 @@ def test_small_shares_are_not_what_a_number_hangs_on() -> None:
     assert leading(number(), about) == ""
 
 
-def test_ranges_and_values_in_words() -> None:
+def test_ranges_and_values_in_words():
     assert span((1.0, None)) == "1 to not settled"
     assert span((None, None)) == "not settled"
     assert span((36.0, 36.0)) == "36"
@@ -186,7 +183,7 @@ def test_ranges_and_values_in_words() -> None:
     assert value_words(None, "s") == "not settled"
 
 
-def test_counts_are_counted(found: StudyRow) -> None:
+def test_counts_are_counted(found):
     yes = sum(entry.answer == "yes" for one in found.sets for entry in one.numbers)
     assert f"{yes} are what some arm in range does" in tally_words(found)
     assert "on 6 the arm has no influence" in tally_words(found)
@@ -196,18 +193,18 @@ def test_counts_are_counted(found: StudyRow) -> None:
         assert words in together_words(changed, changed.together)
 
 
-def with_together(found: StudyRow, **changed: Any) -> StudyRow:
+def with_together(found, **changed):
     assert found.together is not None
     return replace(found, together=replace(found.together, **changed))
 
 
-def test_an_arm_that_the_paper_did_not_run_has_no_such_part() -> None:
+def test_an_arm_that_the_paper_did_not_run_has_no_such_part():
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
     assert printed_experiment(gains, load("reyes-kelly2")) is None
     assert printed_experiment([replace(gains[0], m=9)], load("buap3-small")) is None
 
 
-def test_a_report_takes_the_sets_that_it_is_about_from_the_study() -> None:
+def test_a_report_takes_the_sets_that_it_is_about_from_the_study():
     """The study was run for the arm as it is now: run ``make study`` after a change of its numbers."""
     model = load("buap3")
     (first, *_, last) = read_gain_file(paper_gain_file("table2")).gains
@@ -217,7 +214,7 @@ def test_a_report_takes_the_sets_that_it_is_about_from_the_study() -> None:
     assert both.together is None
 
 
-def test_another_arm_of_that_name_has_no_such_part() -> None:
+def test_another_arm_of_that_name_has_no_such_part():
     model = load("buap3")
     name, number = next(iter(model.numbers.items()))
     other = replace(model, numbers=model.numbers | {name: replace(number, value=number.value * 2, high=None)})

@@ -1,7 +1,5 @@
 """The map over m and k_v rests on certificates that are judged."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from fractions import Fraction
@@ -19,7 +17,7 @@ from lyapcheck.robots import load
 
 
 @pytest.mark.slow
-def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> None:
+def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path):
     """Each place that names an ε₀: the checker proves it, for that m and that k_v."""
     model, gains = load("pendulum1"), {1: GainSet("g", 1, (Fraction(4),), (Fraction(1),))}
     cells = gain_map(model, gains, [0.5], scales=("0.2", "1"))
@@ -37,9 +35,7 @@ def test_a_map_of_an_arm_of_ones_own_rests_on_certificates(tmp_path: Path) -> No
 
 
 @pytest.mark.slow
-def test_the_map_of_the_papers_arm_is_shown_where_the_checker_accepts_it(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_the_map_of_the_papers_arm_is_shown_where_the_checker_accepts_it(monkeypatch, tmp_path):
     """For the paper's arm and K_p alone, and not if one ε₀ is larger than its certificate says."""
     model = load("buap3")
     sets = {one.m: one for one in read_gain_file(paper_gain_file()).gains if one.m is not None}

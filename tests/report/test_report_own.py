@@ -1,17 +1,12 @@
 """A report on one's own arm and gains says the same of one gain set and one condition in every place."""
 
-from __future__ import annotations
-
 import json
 import re
-from collections.abc import Iterator
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from lyapcheck.answers.gate.judge import GateResult, judged_sets
+from lyapcheck.answers.gate.judge import judged_sets
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
 from lyapcheck.report import compute
 from lyapcheck.report.at_hand import as_the_gate_judges
@@ -40,7 +35,7 @@ kv = [2]
 VERDICTS = {"accepted": "proved", "rejected": "refuted", "undecided": "undecided"}
 
 
-def built(folder: Path, gains: str, robot: str = "pendulum1") -> Report:
+def built(folder, gains, robot="pendulum1"):
     """A report, with all computations in this process."""
     path = folder / "mine.toml"
     path.write_text(gains, encoding="utf-8")
@@ -49,7 +44,7 @@ def built(folder: Path, gains: str, robot: str = "pendulum1") -> Report:
         return build(Subject(robot, (1,), (read_gain_file(path),), own=True))
 
 
-def said(rows: Any, gate: Any) -> Iterator[tuple[str, str, str, str]]:
+def said(rows, gate):
     """Gain set, condition, the gate's verdict and that of the claim."""
     for result in gate:
         for condition in ("10p", "19"):
@@ -60,7 +55,7 @@ def said(rows: Any, gate: Any) -> Iterator[tuple[str, str, str, str]]:
 
 
 @pytest.mark.usefixtures("in_this_process")
-def test_claims_about_gains_are_the_gates_one_a_set() -> None:
+def test_claims_about_gains_are_the_gates_one_a_set():
     gate = judged_sets(read("pendulum1", {"light": ("0.1", "0.05"), "damped": ("3", "2")}))
     rows = [
         claim_row(name, m=m, proof="published", n=1)
@@ -78,7 +73,7 @@ def test_claims_about_gains_are_the_gates_one_a_set() -> None:
     assert len(certificates) == 4
 
 
-def read(robot: str, sets: dict[str, tuple[str, str]]) -> GainFile:
+def read(robot, sets):
     """A gain file with the same k_p and k_v in every joint of an arm of one or three."""
     n = {"pendulum1": 1, "buap3": 3}[robot]
     gains = (
@@ -89,7 +84,7 @@ def read(robot: str, sets: dict[str, tuple[str, str]]) -> GainFile:
 
 
 @pytest.mark.slow
-def test_every_place_of_a_page_says_the_same(tmp_path: Path) -> None:
+def test_every_place_of_a_page_says_the_same(tmp_path):
     report = built(tmp_path, PENDULUM)
     places = list(said(report.claims, report.gate))
     assert sorted((name, condition) for name, condition, _, _ in places) == [
@@ -111,16 +106,16 @@ def test_every_place_of_a_page_says_the_same(tmp_path: Path) -> None:
     assert len(set(ids)) == len(ids)
 
 
-def on_the_gate(sets: dict[str, tuple[str, str]], robot: str = "buap3") -> list[GateResult]:
+def on_the_gate(sets, robot="buap3"):
     return judged_sets(read(robot, sets))
 
 
-def words_of(gate: list[GateResult], certified: dict[str, str]) -> tuple[str, dict[str, str]]:
+def words_of(gate, certified):
     """The sentence and the badges of a report that has nothing but a gate and ε₀."""
     rows = tuple(
         epsilon_row(name=name, m=1, certified=eps0, promise=KEPT) for name, eps0 in certified.items()
     )
-    blank: dict[str, Any] = dict.fromkeys(Report.__dataclass_fields__)
+    blank = dict.fromkeys(Report.__dataclass_fields__)
     report = Report(
         **(
             blank
@@ -130,7 +125,7 @@ def words_of(gate: list[GateResult], certified: dict[str, str]) -> tuple[str, di
     return " ".join(sentences(report)), {one.subject: one.word for one in badges(report)}
 
 
-def test_each_gain_set_breaks_what_it_breaks() -> None:
+def test_each_gain_set_breaks_what_it_breaks():
     gate = on_the_gate({"strong": ("9", "0.1"), "damped": ("1", "0.9"), "fit": ("1", "0.1")})
     sentence, _ = words_of(gate, {})
     assert "strong (m = 1) breaks (10p), damped (m = 1) breaks (19)" in sentence
@@ -138,7 +133,7 @@ def test_each_gain_set_breaks_what_it_breaks() -> None:
     assert "and damped" not in sentence
 
 
-def test_stable_is_said_only_where_no_motor_saturates() -> None:
+def test_stable_is_said_only_where_no_motor_saturates():
     gate = on_the_gate({"strong": ("100", "0.1"), "damped": ("1", "0.9")})
     sentence, words = words_of(gate, {"strong": "0.1", "damped": "0.1"})
     assert words == {one.name: one.standing for one in gate}
@@ -167,7 +162,7 @@ torque_limit = 10
 
 
 @pytest.mark.slow
-def test_an_arm_without_friction_has_a_report_with_what_is_undecided(tmp_path: Path) -> None:
+def test_an_arm_without_friction_has_a_report_with_what_is_undecided(tmp_path):
     arm = tmp_path / "free.toml"
     arm.write_text(FRICTIONLESS, encoding="utf-8")
     gains = f'robot = "{arm}"\n[[gains]]\nname = "one"\nm = 1\nkp = [2]\nkv = [0.5]\n'

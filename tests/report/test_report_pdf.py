@@ -1,9 +1,6 @@
 """The report on paper: a few pages, the same bytes, nothing obeyed."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 
 import pytest
 
@@ -22,7 +19,7 @@ NASTY = [
 
 
 @pytest.mark.parametrize("text", NASTY)
-def test_a_text_is_a_literal(text: str, tmp_path: Path) -> None:
+def test_a_text_is_a_literal(text, tmp_path):
     assert re.fullmatch(r'"(?:[^"\\]|\\["\\])*"', quoted(text))
     table = Table((text, "b"), ((text, text),), text)
     document = Document(text, (Paragraph(text), Bullets((text,)), Code(text), Section(text, (table,))))

@@ -1,9 +1,6 @@
 """Numbers beside words of proof are rounded to the side on which they stay true."""
 
-from __future__ import annotations
-
 import re
-from typing import Any
 
 import pytest
 
@@ -21,7 +18,7 @@ PROVED = {"0.05": "0.10279", "0.1": "0.1025702", "0.2": "0.09999999"}
 
 
 @pytest.fixture
-def maps() -> Tally:
+def maps():
     result = Tally()
     row = {"robot": "a", "variation": (), "ask": "epsilon", "verdict": "proved", "reason": "", "m": 1}
     for kv, value in PROVED.items():
@@ -29,21 +26,21 @@ def maps() -> Tally:
     return result
 
 
-def test_a_map_shows_no_eps0_above_what_is_proved(maps: Tally) -> None:
+def test_a_map_shows_no_eps0_above_what_is_proved(maps):
     text = SweepAnswer("plan.toml", maps).written("text")
     shown = re.findall(r"^ *1 +(.*)$", text, re.MULTILINE)[0].split()
     assert shown == ["0.102", "0.102", "0.0999"]
 
 
-def test_the_drawing_shows_none_either(maps: Tally) -> None:
+def test_the_drawing_shows_none_either(maps):
     drawing = str(files(SweepAnswer("plan.toml", maps, figures=True))["figures/map1_eps0.svg"])
     assert {">0.102<", ">0.0999<"} <= set(re.findall(r">0\.\d+<", drawing))
     assert ">0.103<" not in drawing
 
 
-def test_the_map_of_a_report_shows_an_eps0_as_it_is_proved() -> None:
+def test_the_map_of_a_report_shows_an_eps0_as_it_is_proved():
     cells = tuple(MapCell(1, kv, eps0, 1.0, 0.5, True) for kv, eps0 in PROVED.items())
-    empty: dict[str, Any] = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
+    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
     empty |= {"sensitivity": None, "figures": {}}
     about = {"robot": load("buap3"), "table": build_table((1,)), "gate": GateAnswer(()), "map": cells}
     about |= {"derived": derivation(1)}

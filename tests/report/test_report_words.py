@@ -1,13 +1,9 @@
 """What a report says: words of proof by promises alone, and words for extreme results."""
 
-from __future__ import annotations
-
 import json
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
-from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
@@ -16,13 +12,12 @@ from hypothesis import strategies as st
 from lyapcheck.promise import promises_as_seen
 from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
-from lyapcheck.report.model import Report
 from tests.helpers.redrawn import other
 from tests.helpers.words_of_proof import said, words_of_proof
 
 
 @pytest.mark.slow
-def test_every_word_of_proof_in_a_report_is_a_promise(report: Report) -> None:
+def test_every_word_of_proof_in_a_report_is_a_promise(report):
     """But those of the gate, which a test of its own holds to promises, and what people have written."""
     rows = report.every_claim
     written = {*said(report.gate), *report.notes.known}
@@ -38,7 +33,7 @@ def test_every_word_of_proof_in_a_report_is_a_promise(report: Report) -> None:
     assert not left
 
 
-def texts_of(data: Any) -> Iterator[str]:
+def texts_of(data):
     """All texts in plain data."""
     if isinstance(data, str):
         yield data
@@ -57,7 +52,7 @@ def texts_of(data: Any) -> Iterator[str]:
     suppress_health_check=list(HealthCheck),
 )
 @given(st.integers(0, 2**32))
-def test_reports_have_words_for_extreme_results(report: Report, seed: int) -> None:
+def test_reports_have_words_for_extreme_results(report, seed):
     draw = Random(seed).choice
     rows = {name: other(getattr(report, name), draw) for name in ("epsilon", "runs", "findings")}
     text = render(replace(report, **rows))

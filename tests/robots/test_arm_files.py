@@ -1,10 +1,7 @@
 """Arm files: what is read, and how every way of getting one wrong is told."""
 
-from __future__ import annotations
-
 import textwrap
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -62,19 +59,19 @@ viscous = 0.175
 """
 
 
-def load(folder: Path, text: str, name: str = "arm.toml") -> robots.RobotModel:
+def load(folder, text, name="arm.toml"):
     file = folder / name
     file.write_text(text, encoding="utf-8")
     return robots.load(file)
 
 
-def problems(folder: Path, text: str) -> list[str]:
+def problems(folder, text):
     with pytest.raises(InputError) as caught:
         load(folder, text)
     return [str(problem).removeprefix(f"{folder}/") for problem in caught.value.problems]
 
 
-def test_a_chain_is_read_exactly(tmp_path: Path) -> None:
+def test_a_chain_is_read_exactly(tmp_path):
     arm = load(tmp_path, CHAIN)
     assert (arm.name, arm.joints, arm.encoder) == ("arm", ("base", "arm"), (None, 4096))
     assert arm.numbers["arm_mass"].value == Fraction(3, 2)
@@ -85,24 +82,24 @@ def test_a_chain_is_read_exactly(tmp_path: Path) -> None:
     assert arm.gravity_at(sin, cos, Fraction) == [0, -Fraction("1.5") * Fraction("9.81") * Fraction("0.3")]
 
 
-def test_a_printed_model_is_read_exactly(tmp_path: Path) -> None:
+def test_a_printed_model_is_read_exactly(tmp_path):
     arm, built_in = load(tmp_path, PRINTED), robots.load("reyes-kelly2")
     assert (arm.mass, arm.potential) == (built_in.mass, built_in.potential)
 
 
-def test_sines_of_sums_and_powers(tmp_path: Path) -> None:
+def test_sines_of_sums_and_powers(tmp_path):
     """s12 = sin(q1 + q2), and a power of it."""
     arm = load(tmp_path, PRINTED.replace('[1, "b c2"]', '[1, "b s12^2"], [1, "b c12^2"]'))
     assert str(arm.mass[0][1]) == "93/500"
 
 
-def test_gravity_is_not_told_to_be_in_a_potential_that_is_not_there(tmp_path: Path) -> None:
+def test_gravity_is_not_told_to_be_in_a_potential_that_is_not_there(tmp_path):
     told = problems(tmp_path, CHAIN.replace("[[links]]", "[[joint]]"))
     assert any("links: is missing" in one for one in told)
     assert not any("gravity" in one for one in told)
 
 
-def test_ranges_become_parameters(tmp_path: Path) -> None:
+def test_ranges_become_parameters(tmp_path):
     arm = load(tmp_path, CHAIN.replace("mass = 1.5", "mass = { value = 1.5, low = 1, high = 2 }"))
     assert list(arm.parameters) == ["arm_mass"]
     sin, cos = [Fraction(0)] * 2, [Fraction(1)] * 2
@@ -110,13 +107,13 @@ def test_ranges_become_parameters(tmp_path: Path) -> None:
     assert heavy[1][1] == Fraction("0.1") + 2 * Fraction("0.09")
 
 
-def test_a_range_of_friction_is_no_parameter_of_the_inertia(tmp_path: Path) -> None:
+def test_a_range_of_friction_is_no_parameter_of_the_inertia(tmp_path):
     arm = load(tmp_path, CHAIN.replace("viscous = 0.25", "viscous = { value = 0.25, low = 0.2, high = 0.3 }"))
     assert not arm.parameters
     assert arm.viscous[1].bounds == (Fraction("0.2"), Fraction("0.3"))
 
 
-def test_an_assumption_is_told_in_a_sentence(tmp_path: Path) -> None:
+def test_an_assumption_is_told_in_a_sentence(tmp_path):
     assumed = 'viscous = { value = 0.25, assumed = true, low = 0.2, high = 0.3, note = "a guess" }'
     arm = load(tmp_path, CHAIN.replace("viscous = 0.25", assumed))
     assert arm.assumptions == (
@@ -124,7 +121,7 @@ def test_an_assumption_is_told_in_a_sentence(tmp_path: Path) -> None:
     )
 
 
-def test_the_documented_examples_are_arm_files(tmp_path: Path) -> None:
+def test_the_documented_examples_are_arm_files(tmp_path):
     blocks = [block.split("\n\nA ")[0] for block in (armfile.__doc__ or "").split("::\n\n")[1:]]
     number, chain, printed, _ = (textwrap.dedent(block.split("\n\nAn assumed")[0]) for block in blocks)
     assert load(tmp_path, chain).n == 1
@@ -137,151 +134,45 @@ BROKEN = [
     (CHAIN, 'title = "two joints"\n', "", ["arm.toml: title: is missing; add title to this table"]),
     (CHAIN, 'title = "two joints"', "title = 3", ["arm.toml:1: title = 3: must be a non-empty text"]),
     (CHAIN, "mass = 1.5", "mass = 0", ["arm.toml:19: links[2].mass = 0: must be positive"]),
-    (CHAIN, "mass = 1.5", "mass = nan", ["links[2].mass = nan: must be a finite decimal number"]),
-    (CHAIN, "mass = 1.5", "mass = 1e99999999", ["links[2].mass = 1e99999999: must be a finite decimal"]),
-    (CHAIN, "mass = 1.5", 'mass = "1.5"', ['links[2].mass = "1.5": must be a finite decimal number']),
     (CHAIN, "mass = 1.5\n", "", ["links[2].mass: is missing"]),
     (CHAIN, "mass = 1.5", 'mass = { value = 1500, unit = "g" }', ["mass.unit = g: must be kg; convert"]),
     (CHAIN, "mass = 1.5", "mass = { value = 1.5, low = 1 }", ["mass.low = 1: a range needs both ends"]),
     (CHAIN, "mass = 1.5", "mass = { value = 1.5, low = 2, high = 3 }", ["must lie in its range [2, 3]"]),
-    (CHAIN, "mass = 1.5", "mass = { value = 1.5, low = 0, high = 3 }", ["links[2].mass", "must be positive"]),
     (CHAIN, "mass = 1.5", "mass = { value = 1.5, assumed = true }", ["an assumption needs its reason"]),
-    (CHAIN, "mass = 1.5", "mass = { value = 1.5, assumed = 1 }", ["assumed = 1: must be true or false"]),
     (CHAIN, "mass = 1.5", "mass = { low = 1, high = 2 }", ["links[2].mass.value: is missing"]),
-    (CHAIN, "mass = 1.5", "mass = { value = 1.5, colour = 1 }", ["mass.colour = 1: is not a known key here"]),
     (CHAIN, "coulomb = 0.1", "colomb = 0.1", ["arm.toml:22: links[2].colomb", "did you mean coulomb?"]),
-    (
-        CHAIN,
-        "gravity = [0, 0, -9.81]",
-        "gravity = [0, -9.81]",
-        ["gravity = [0,", "must be a list of 3 numbers"],
-    ),
-    (CHAIN, "gravity = [0, 0, -9.81]\n", "", ["gravity: is missing"]),
-    (
-        CHAIN,
-        "axis = [0, 1, 0]",
-        "axis = [0, 1, 1]",
-        ["links[2].axis", "must be a vector of length exactly 1"],
-    ),
-    (CHAIN, "axis = [0, 1, 0]", "axis = [0, 0, 0]", ["must be a vector of length exactly 1"]),
-    (CHAIN, "com = [0.3, 0, 0]", "com = [0.3, 0, inf]", ["links[2].com[3] = inf: must be a finite decimal"]),
     (CHAIN, "com = [0.3, 0, 0]", "com = 0.3", ["links[2].com = 0.3: must be a list of 3 numbers"]),
     (CHAIN, "izz = 0.1 ", "izz = -0.1 ", ["links[2].inertia", "must be positive semidefinite"]),
     (CHAIN, "izz = 0.1 ", "izz = 0.2 ", ["links[2].inertia", "must obey the triangle inequality"]),
-    (CHAIN, ", izz = 0.1 ", " ", ["links[2].inertia.izz: is missing"]),
-    (CHAIN, "izz = 0.1 ", "izz = 0.1, iwz = 0 ", ["links[2].inertia.iwz", "is not a known key"]),
     (CHAIN, "inertia = { ixx = 0.01, iyy = 0.1, izz = 0.1 }", "inertia = 0.1", ["turning in a plane only"]),
-    (
-        CHAIN,
-        "inertia = { ixx = 0.01, iyy = 0.1, izz = 0.1 }",
-        "inertia = [0.01, 0.1, 0.1]",
-        ["arm.toml:20: links[2].inertia = [", "write inertia = { ixx = …, iyy = …, izz = … }"],
-    ),
     (CHAIN, "viscous = 0.25", "viscous = -1", ["links[2].viscous = -1: must be zero or positive"]),
-    (CHAIN, "viscous = 0.25\n", "", ["links[2].viscous: is missing"]),
     (CHAIN, "coulomb = 0.1", "coulomb = -0.1", ["links[2].coulomb = -0.1: must be zero or positive"]),
-    (CHAIN, "torque_limit = 20", "torque_limit = 0", ["torque_limit = 0: must be positive"]),
     (CHAIN, "encoder = 4096", "encoder = 4096.5", ["encoder = 4096.5: must be a whole number"]),
     (CHAIN, 'name = "arm"', 'name = "base"', ["links[2].name = base: is used by another joint"]),
     (CHAIN, 'name = "arm"', 'name = "Arm 2"', ["links[2].name = Arm 2: must be up to 31 small letters"]),
-    (CHAIN, 'name = "arm"\n', "", ["links[2].name: is missing"]),
-    (
-        CHAIN,
-        'name = "arm"',
-        'name = "arm"\ntype = "prismatic"',
-        ["type = prismatic: the paper assumes revolute"],
-    ),
-    (
-        CHAIN,
-        'name = "arm"',
-        'name = "arm"\ntype = "ball"',
-        ["type = ball: only revolute joints are understood"],
-    ),
     (CHAIN, CHAIN[CHAIN.index("[[links]]") :], "", ["links: is missing; describe the arm by [[links]], or"]),
     (CHAIN, CHAIN[CHAIN.index("[[links]]") :], "links = []", ["links = []: must be an array of tables"]),
-    (CHAIN, CHAIN[CHAIN.index("[[links]]") :], "links = 3", ["links = 3: must be an array of tables"]),
     (CHAIN, "encoder = 4096", "[model]", ["model", "does not go together with [[links]]"]),
-    (
-        CHAIN,
-        "mass = 2\ninertia = { ixx = 0.3, iyy = 0.3, izz = 0.2 }",
-        "mass = 2\ninertia = 0",
-        ["plane only"],
-    ),
-    (CHAIN, "mass = 1.5", "mass = ", ["arm.toml:19: TOML: Invalid value"]),
-    (CHAIN, "mass = 1.5", "mass = 1.5\nmass = 1.5", ["arm.toml:20: TOML: Cannot overwrite a value"]),
     (PRINTED, '[1, "b c2"]', '[1, "b c3"]', ["model.M12[2][2]", "'c3' speaks of a joint that this arm of 2"]),
     (PRINTED, '[1, "b c2"]', '[1, "a c2"]', ["'a' is neither a sine, a cosine nor an entry of [numbers]"]),
     (PRINTED, '[1, "b c2"]', '[1, "b*c2"]', ["arm.toml:9: model.M12[2][2] = b*c2: 'b*c2' is no factor"]),
-    (PRINTED, '[1, "b c2"]', '[1, "__import__"]', ["'__import__' is no factor"]),
-    (PRINTED, '[1, "b c2"]', '["1", "b c2"]', ['model.M12[2][1] = "1": must be a finite decimal number']),
     (PRINTED, '[1, "b c2"]', '["b c2"]', ["model.M12[2]", "must be a decimal and a text of factors"]),
     (PRINTED, '[1, "b c2"]', f'[1, "{"c2 " * 13}"]', ["has more than 12 factors"]),
     (PRINTED, '[1, "b c2"]', '[1, "s12121212^3"]', ["adds up more than 16 angles"]),
-    (PRINTED, 'M22 = [[0.102, ""]]\n', "", ["model.M22: is missing"]),
-    (
-        PRINTED,
-        'M22 = [[0.102, ""]]',
-        "M22 = 0.102",
-        ["model.M22 = 0.102: must be a list of at most 1000 terms"],
-    ),
     (PRINTED, 'M22 = [[0.102, ""]]', 'M22 = [[0.102, ""]]\nM21 = []', ["model.M21", "M is symmetric"]),
-    (
-        PRINTED,
-        'M22 = [[0.102, ""]]',
-        'M22 = [[-0.102, ""]]',
-        ["model: makes M not positive definite, e.g. at cos"],
-    ),
     (PRINTED, "b = 0.084", "b = { value = 0.084, low = 0, high = 9 }", ["not positive definite", "b = 9"]),
-    (
-        PRINTED,
-        "b = 0.084",
-        "b = 0.084\ns1 = 2",
-        ["numbers.s1 = 2: must be letters, digits and underscores, and"],
-    ),
-    (
-        PRINTED,
-        "b = 0.084",
-        "b = 0.084\nelbow_viscous = 2",
-        ["numbers.elbow_viscous", "is also the name of a number"],
-    ),
-    (
-        PRINTED,
-        "[model]",
-        "gravity = [0, 0, 1]\n[model]",
-        ["numbers.gravity", "must be a finite decimal number"],
-    ),
-    (
-        PRINTED,
-        "[numbers]",
-        "gravity = [0, 0, -9.81]\n[numbers]",
-        ["gravity", "is already inside the printed potential"],
-    ),
-    (
-        PRINTED,
-        PRINTED[PRINTED.index("[[joints]]") :],
-        "",
-        ["joints: is missing; a printed model needs [[joints]]"],
-    ),
-    (
-        PRINTED,
-        PRINTED[PRINTED.index("[model]") : PRINTED.index("[[joints]]")],
-        "",
-        ["model: is missing; a printed"],
-    ),
     (PRINTED, 'name = "elbow"', 'name = "elbow"\nmass = 3', ["joints[2].mass = 3: is not a known key here"]),
 ]
 
 
-@pytest.mark.parametrize(("text", "old", "new", "expected"), BROKEN)
-def test_a_broken_file_is_told_what_is_wrong(
-    tmp_path: Path, text: str, old: str, new: str, expected: list[str]
-) -> None:
-    assert old in text
-    printed = "\n".join(problems(tmp_path, text.replace(old, new)))
-    assert all(part in printed for part in expected), printed
+def test_a_broken_file_is_told_what_is_wrong(tmp_path):
+    for text, old, new, expected in BROKEN:
+        assert old in text
+        printed = "\n".join(problems(tmp_path, text.replace(old, new)))
+        assert all(part in printed for part in expected), (new, printed)
 
 
-def test_all_problems_at_once(tmp_path: Path) -> None:
+def test_all_problems_at_once(tmp_path):
     broken = (
         CHAIN.replace("mass = 1.5", "mass = -1")
         .replace("mass = 2", "mass = nan")
@@ -290,11 +181,11 @@ def test_all_problems_at_once(tmp_path: Path) -> None:
     assert len(problems(tmp_path, broken)) == 3
 
 
-def test_one_mistake_is_told_once(tmp_path: Path) -> None:
+def test_one_mistake_is_told_once(tmp_path):
     assert len(problems(tmp_path, CHAIN.replace("axis = [0, 1, 0]", "axis = [0, 2, 0]"))) == 1
 
 
-def test_more_joints_than_are_understood(tmp_path: Path) -> None:
+def test_more_joints_than_are_understood(tmp_path):
     head, link = CHAIN.split("[[links]]")[:2]
     links = "".join(f"[[links]]{link}".replace('"base"', f'"j{i}"') for i in range(13))
     assert "has more than 12 joints" in "\n".join(problems(tmp_path, head + links))
@@ -312,14 +203,14 @@ def test_more_joints_than_are_understood(tmp_path: Path) -> None:
         ("arm.toml", b"", "title: is missing"),
     ],
 )
-def test_what_is_no_arm_file_at_all(tmp_path: Path, name: str, content: bytes, rule: str) -> None:
+def test_what_is_no_arm_file_at_all(tmp_path, name, content, rule):
     file = tmp_path / name
     file.write_bytes(content)
     with pytest.raises(InputError, match=rule):
         robots.load(file)
 
 
-def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
+def test_a_missing_file_and_a_folder(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         robots.load(tmp_path / "nothing.toml")
     with pytest.raises(InputError, match="is a folder"):

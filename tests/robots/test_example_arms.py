@@ -1,7 +1,5 @@
 """The example arms end to end: read, gated, and ε₀ of the UR5 certified."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -17,13 +15,13 @@ OTHERS = [("px100", 4), ("px150", 5), ("xarm6", 6), ("iiwa14", 7)]
 """Arms whose files have friction, and none that is assumed."""
 
 
-def run(*arguments: str) -> tuple[int, str]:
+def run(*arguments):
     result = invoke(*arguments)
     return result.exit_code, result.stdout
 
 
 @pytest.mark.parametrize(("name", "n"), ARMS)
-def test_the_friction_is_stated_and_says_so(name: str, n: int) -> None:
+def test_the_friction_is_stated_and_says_so(name, n):
     arm = load(EXAMPLES / f"{name}.toml")
     assert arm.n == n
     assert all(number.assumed and number.value > 0 for number in arm.viscous)
@@ -31,7 +29,7 @@ def test_the_friction_is_stated_and_says_so(name: str, n: int) -> None:
 
 
 @pytest.mark.parametrize(("name", "n"), but([OTHERS[0]], ARMS + OTHERS))
-def test_the_gate_accepts_the_gains(name: str, n: int) -> None:
+def test_the_gate_accepts_the_gains(name, n):
     code, out = run("gate", str(EXAMPLES / f"{name}_gains.toml"))
     assert code == 0
     assert "3 accepted" in out
@@ -39,7 +37,7 @@ def test_the_gate_accepts_the_gains(name: str, n: int) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "n"), [*ARMS, OTHERS[0]])
-def test_the_gains_are_those_that_tune_finds(tmp_path: Path, name: str, n: int) -> None:
+def test_the_gains_are_those_that_tune_finds(tmp_path, name, n):
     """Numbers alone: the path of the arm depends on where the file is written."""
     code, _ = run("tune", str(EXAMPLES / f"{name}.toml"), "--m", "1:3", "--out", str(tmp_path / "gains.toml"))
     assert code == 0
@@ -52,7 +50,7 @@ def test_the_gains_are_those_that_tune_finds(tmp_path: Path, name: str, n: int) 
 
 
 @pytest.mark.slow
-def test_epsilon_of_the_ur5() -> None:
+def test_epsilon_of_the_ur5():
     gains = str(EXAMPLES / "ur5_gains.toml")
     code, out = run("epsilon", gains, "--m", "1", "--starts", "2", "--format", "json")
     (row,) = json.loads(out)["results"]

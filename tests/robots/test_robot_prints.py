@@ -1,16 +1,12 @@
 """C and g as a source prints them, compared with what M and the potential give."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from lyapcheck.answers.robot import build
 from lyapcheck.answers.robot.properties import print_claims
 from lyapcheck.errors import InputError
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import load
 from lyapcheck.verdicts import Exit
 from tests.robots.test_arm_files import CHAIN, PRINTED
 
@@ -27,21 +23,21 @@ g2 = [[1.82466, "s1 c2"], [1.82466, "c1 s2"]]
 """
 
 
-def arm(folder: Path, old: str = "", new: str = "", text: str = PRINTED) -> RobotModel:
+def arm(folder, old="", new="", text=PRINTED):
     file = folder / "arm.toml"
     file.write_text(text + CHRISTOFFEL.replace(old, new) if old else text + CHRISTOFFEL, encoding="utf-8")
     return load(file)
 
 
-def verdicts(model: RobotModel) -> dict[str, str]:
+def verdicts(model):
     return {row.id: row.verdict.value for row in print_claims(model)}
 
 
-def test_the_christoffel_symbols_themselves_meet_every_claim(tmp_path: Path) -> None:
+def test_the_christoffel_symbols_themselves_meet_every_claim(tmp_path):
     assert verdicts(arm(tmp_path)) == {"C torque": "proved", "C rates": "proved", "g": "proved"}
 
 
-def test_reyes_and_kelly_print_the_same_torque_in_another_matrix() -> None:
+def test_reyes_and_kelly_print_the_same_torque_in_another_matrix():
     """C₁₁ = −2b sin(q₂) q̇₂ and C₁₂ = −b sin(q₂) q̇₂: the same C q̇, but Ṁ₁₁ = −2b sin(q₂) q̇₂ ≠ 2 C₁₁."""
     model = load("reyes-kelly2")
     assert verdicts(model) == {"C torque": "proved", "C rates": "refuted", "g": "proved"}
@@ -53,7 +49,7 @@ def test_reyes_and_kelly_print_the_same_torque_in_another_matrix() -> None:
     assert float(witness["left"][0]) == pytest.approx((4 - 2) * 0.084 * np.sin(q2), rel=1e-9)
 
 
-def eval_fraction(text: str) -> float:
+def eval_fraction(text):
     numerator, _, denominator = text.partition("/")
     return int(numerator) / int(denominator or 1)
 
@@ -69,12 +65,12 @@ def eval_fraction(text: str) -> float:
         ('g1 = [[38.46501, "s1"]', 'g1 = [[38.46501, "c1"]', {"g"}),
     ],
 )
-def test_a_slip_in_the_print_is_refuted(tmp_path: Path, old: str, new: str, refuted: set[str]) -> None:
+def test_a_slip_in_the_print_is_refuted(tmp_path, old, new, refuted):
     result = verdicts(arm(tmp_path, old, new))
     assert {name for name, verdict in result.items() if verdict == "refuted"} == refuted
 
 
-def test_a_skew_part_changes_the_matrix_and_not_the_torque(tmp_path: Path) -> None:
+def test_a_skew_part_changes_the_matrix_and_not_the_torque(tmp_path):
     """w2 in C11 traded against w1 in C12."""
     moved = arm(tmp_path, '[-1, "b s2 w1"], [-1, "b s2 w2"]', '[-1, "b s2 w2"]')
     assert verdicts(moved)["C torque"] == "refuted"
@@ -88,7 +84,7 @@ def test_a_skew_part_changes_the_matrix_and_not_the_torque(tmp_path: Path) -> No
     }
 
 
-def test_with_a_range_the_claims_are_about_all_values(tmp_path: Path) -> None:
+def test_with_a_range_the_claims_are_about_all_values(tmp_path):
     wide = PRINTED.replace("b = 0.084", "b = { value = 0.084, low = 0.08, high = 0.09 }")
     assert set(verdicts(arm(tmp_path, text=wide)).values()) == {"proved"}
     fixed_number = arm(tmp_path, '[[1, "b s2 w1"]]', '[[0.084, "s2 w1"]]', text=wide)
@@ -98,7 +94,7 @@ def test_with_a_range_the_claims_are_about_all_values(tmp_path: Path) -> None:
     assert witness["point"]["b"] in ("0.08", "0.09")
 
 
-def test_every_format_shows_them_and_the_exit_code_is_that_of_the_properties() -> None:
+def test_every_format_shows_them_and_the_exit_code_is_that_of_the_properties():
     report = build(load("reyes-kelly2"), 40)
     assert report.exit_code is Exit.PROVED
     for kind in ("text", "markdown", "html"):
@@ -132,14 +128,14 @@ BROKEN = [
 
 
 @pytest.mark.parametrize(("old", "new", "expected"), BROKEN)
-def test_a_broken_print_is_told(tmp_path: Path, old: str, new: str, expected: str) -> None:
+def test_a_broken_print_is_told(tmp_path, old, new, expected):
     assert old in CHRISTOFFEL
     with pytest.raises(InputError) as caught:
         arm(tmp_path, old, new)
     assert expected in str(caught.value)
 
 
-def test_a_print_without_terms_or_beside_links_is_told(tmp_path: Path) -> None:
+def test_a_print_without_terms_or_beside_links_is_told(tmp_path):
     file = tmp_path / "arm.toml"
     for text, rule in (
         (PRINTED + "\n[printed]\n", "has no C11 … and no g1 …"),

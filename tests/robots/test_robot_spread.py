@@ -1,7 +1,5 @@
 """Numbers of an arm within ± a share: what gets a range, and what a certificate over it is about."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from pathlib import Path
 
@@ -22,7 +20,7 @@ GAINS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
 
 
 @pytest.mark.parametrize("name", names())
-def test_numbers_without_a_range_get_one_and_the_others_keep_theirs(name: str) -> None:
+def test_numbers_without_a_range_get_one_and_the_others_keep_theirs(name):
     exact, spread = load(name), load(name, spread=F(1, 20))
     for key, number in spread.parameters.items():
         before = exact.numbers[key]
@@ -36,11 +34,11 @@ def test_numbers_without_a_range_get_one_and_the_others_keep_theirs(name: str) -
     assert spread.fixed().mass == exact.fixed().mass
 
 
-def test_no_spread_is_the_arm_itself() -> None:
+def test_no_spread_is_the_arm_itself():
     assert load("reyes-kelly2", spread=F(0)) is load("reyes-kelly2")
 
 
-def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes() -> None:
+def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes():
     model = load("reyes-kelly2", spread=F(1, 20))
     loop = ControlledArm(GAINS[0], model, ranges=True).loop(F(1, 10))
     free = [low < high for low, high in loop.parameters]
@@ -49,7 +47,7 @@ def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes() -> None:
     }
 
 
-def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
+def test_a_certificate_over_the_spread_is_refused_for_a_wider_one():
     narrow, wide = (
         ControlledArm(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
     )
@@ -60,7 +58,7 @@ def test_a_certificate_over_the_spread_is_refused_for_a_wider_one() -> None:
 
 
 @pytest.mark.slow
-def test_a_wider_spread_certifies_and_refutes_less() -> None:
+def test_a_wider_spread_certifies_and_refutes_less():
     result = [
         epsilon(GAINS[0], load("reyes-kelly2", spread=x), ranges=True, starts=3, max_boxes=1500)
         for x in (F(1, 100), F(1, 10))
@@ -75,14 +73,14 @@ def test_a_wider_spread_certifies_and_refutes_less() -> None:
 
 
 @pytest.mark.parametrize("percent", ["0", "100", "-5", "nan"])
-def test_percentages_out_of_range_are_refused(percent: str) -> None:
+def test_percentages_out_of_range_are_refused(percent):
     gains = str(paper_gain_file("table2_shoulder_elbow"))
     result = invoke("epsilon", gains, f"--spread={percent}")
     assert isinstance(result.exception, InputError)
     assert "above 0 and below 100" in str(result.exception)
 
 
-def test_masses_and_friction_of_urdf_files_are_spread(tmp_path: Path) -> None:
+def test_masses_and_friction_of_urdf_files_are_spread(tmp_path):
     urdf = Path(__file__).parents[2] / "examples" / "ur5.urdf"
     overlay = tmp_path / "arm.toml"
     joint = '[[joints]]\nname = "elbow_joint"\nviscous = 2\n'

@@ -1,34 +1,29 @@
-"""SymPy, CasADi and NumPy forms of a model: all from the same polynomials, and all the same numbers."""
-
-from __future__ import annotations
+"""CasADi and NumPy forms of a model: all from the same polynomials, and all the same numbers."""
 
 import math
 
 import casadi as ca
 import numpy as np
 import pytest
-import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
 from lyapcheck.robots import graph
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.plant import RobotModel
 from tests.helpers.robot_cases import BUILT_IN
-from tests.robots import symbolic
 
 
 @pytest.fixture(params=BUILT_IN)
-def arm(request: pytest.FixtureRequest) -> RobotModel:
+def arm(request):
     return robots.load(request.param)
 
 
-def states(n: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+def states(n, count):
     random = np.random.default_rng(20190301)
     return random.uniform(-np.pi, np.pi, (count, n)), random.normal(0, 3, (count, n))
 
 
-def test_numpy_agrees_with_the_polynomials(arm: RobotModel) -> None:
+def test_numpy_agrees_with_the_polynomials(arm):
     q, x = states(arm.n, 20)
     fast = NumericModel(arm)
     for state, rate, mass, coriolis, gravity in zip(
@@ -42,7 +37,7 @@ def test_numpy_agrees_with_the_polynomials(arm: RobotModel) -> None:
         np.testing.assert_allclose(gravity, arm.gravity_at(sin, cos, float), rtol=1e-13, atol=1e-13)
 
 
-def test_numpy_batches_any_leading_axes(arm: RobotModel) -> None:
+def test_numpy_batches_any_leading_axes(arm):
     q, x = states(arm.n, 24)
     fast, n = NumericModel(arm), arm.n
     grid_q, grid_x = q.reshape(2, 3, 4, n), x.reshape(2, 3, 4, n)
@@ -53,7 +48,7 @@ def test_numpy_batches_any_leading_axes(arm: RobotModel) -> None:
     assert fast.mass(q[:0]).shape == (0, n, n)
 
 
-def test_casadi_agrees_with_numpy(arm: RobotModel) -> None:
+def test_casadi_agrees_with_numpy(arm):
     q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
     outputs = [graph.mass(arm, q), graph.coriolis(arm, q, x), graph.gravity(arm, q), graph.potential(arm, q)]
     function, fast = ca.Function("model", [q, x], outputs), NumericModel(arm)
@@ -65,15 +60,7 @@ def test_casadi_agrees_with_numpy(arm: RobotModel) -> None:
         assert float(potential.item()) == pytest.approx(float(fast.potential(state)), abs=1e-12)
 
 
-def test_casadi_gradient_of_the_potential_is_gravity(arm: RobotModel) -> None:
-    q = ca.SX.sym("q", arm.n)
-    function = ca.Function("slope", [q], [ca.gradient(graph.potential(arm, q), q), graph.gravity(arm, q)])
-    for state in states(arm.n, 5)[0]:
-        slope, gravity = function(state)
-        np.testing.assert_allclose(np.array(slope), np.array(gravity), rtol=1e-12, atol=1e-12)
-
-
-def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm: RobotModel) -> None:
+def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm):
     """(3) by automatic differentiation, apart from the polynomial derivative."""
     q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
     coriolis = graph.coriolis(arm, q, x)
@@ -83,30 +70,21 @@ def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm: RobotM
         np.testing.assert_allclose(np.array(function(state, speed)), 0, atol=1e-12)
 
 
-def test_sympy_and_casadi_take_parameters() -> None:
-    arm, base = robots.load("buap3"), sp.Symbol("J")
-    assert base in symbolic.mass(arm, sp.symbols("q1:4"), {"base_inertia": base})[0, 0].free_symbols
-    symbol = ca.SX.sym("J")
-    function = ca.Function("m11", [symbol], [graph.mass(arm, ca.SX.zeros(3), {"base_inertia": symbol})[0, 0]])
-    assert float(function(1.25)) == pytest.approx(1.25, rel=1e-14)
-
-
-def test_viscous_friction_is_the_same_everywhere(arm: RobotModel) -> None:
+def test_viscous_friction_is_the_same_everywhere(arm):
     expected = np.diag([float(number.value) for number in arm.viscous])
     np.testing.assert_array_equal(np.diag(NumericModel(arm).viscous), expected)
     np.testing.assert_array_equal(np.array(graph.viscous(arm)), expected)
-    assert symbolic.viscous(arm)[0, 0] == sp.Rational(str(arm.viscous[0].value))
 
 
-def test_free_motion_conserves_energy(arm: RobotModel) -> None:
+def test_free_motion_conserves_energy(arm):
     """Without friction and torque ½q̇ᵀMq̇ + U stays what it was; a C with a wrong sign would leak."""
     fast, n = NumericModel(arm), arm.n
 
-    def energy(state: np.ndarray) -> float:
+    def energy(state):
         q, w = state[:n], state[n:]
         return float(w @ fast.mass(q) @ w / 2 + fast.potential(q))
 
-    def motion(_: float, state: np.ndarray) -> np.ndarray:
+    def motion(_, state):
         q, w = state[:n], state[n:]
         return np.concatenate([w, np.linalg.solve(fast.mass(q), -fast.coriolis(q, w) @ w - fast.gravity(q))])
 

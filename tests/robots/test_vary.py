@@ -1,7 +1,5 @@
 """``--vary``: ranges that a user puts on numbers of an arm, on arm files and on URDF files alike."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 from pathlib import Path
 
@@ -24,7 +22,7 @@ from lyapcheck.simulate.task import PAPER_TASK
 UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
 
 
-def varied(name: str, *texts: str):
+def varied(name, *texts):
     return robots.load(name, vary=tuple(map(Vary.parsed, texts)))
 
 
@@ -37,7 +35,7 @@ def varied(name: str, *texts: str):
         ("base_inertia=0.4..0.6", "base_inertia", F("0.4"), F("0.6"), False),
     ],
 )
-def test_what_is_typed_is_read_exactly(text: str, name: str, low: F, high: F, relative: bool) -> None:
+def test_what_is_typed_is_read_exactly(text, name, low, high, relative):
     result = Vary.parsed(text)
     assert (result.name, result.low, result.high, result.relative) == (name, low, high, relative)
     assert Vary.parsed(result.text) == result
@@ -50,19 +48,19 @@ def test_what_is_typed_is_read_exactly(text: str, name: str, low: F, high: F, re
         *("payload=5%..10%", "payload=-1..3"),
     ],
 )
-def test_text_of_another_form_is_refused(text: str) -> None:
+def test_text_of_another_form_is_refused(text):
     with pytest.raises(InputError, match="--vary"):
         Vary.parsed(text)
 
 
-def test_friction_and_numbers_of_an_arm_file_get_ranges() -> None:
+def test_friction_and_numbers_of_an_arm_file_get_ranges():
     model = varied("buap3", "viscous=-30%..+0%", "shoulder_gravity=30..40")
     assert [number.bounds[0] for number in model.viscous] == [F("0.2842"), F("1.6016"), F("0.2842")]
     assert model.parameters["shoulder_gravity"].bounds == (30, 40)
     assert robots.load("buap3").viscous[0].bounds[0] == F("0.406")
 
 
-def test_masses_and_payload_of_a_urdf_arm_move_its_dynamics() -> None:
+def test_masses_and_payload_of_a_urdf_arm_move_its_dynamics():
     """At the ends of the range M is that of the arm with those masses."""
     nominal, model = robots.load(UR5), varied(UR5, "mass=-10%..+10%", "payload=0..3")
     own = nominal.chain.links[-1].mass
@@ -106,7 +104,7 @@ viscous = 0.3
 
 
 @pytest.mark.parametrize("masses", [(), ("elbow_mass=1..3",), ("mass=-50%..50%",)])
-def test_a_payload_of_links_in_an_arm_file_is_carried(masses: tuple[str, ...], tmp_path: Path) -> None:
+def test_a_payload_of_links_in_an_arm_file_is_carried(masses, tmp_path):
     file = tmp_path / "planar.toml"
     file.write_text(PLANAR, encoding="utf-8")
     before, after = varied(str(file), *masses), varied(str(file), "payload=0..10", *masses)
@@ -120,7 +118,7 @@ def test_a_payload_of_links_in_an_arm_file_is_carried(masses: tuple[str, ...], t
 
 
 @pytest.mark.parametrize("text", ["payload=2..2", "mass=20%..20%"])
-def test_a_range_of_one_value_is_that_value(text: str) -> None:
+def test_a_range_of_one_value_is_that_value(text):
     nominal, model = robots.load(UR5), varied(UR5, text)
     assert model.chain is not None
     own = [link.mass for link in nominal.chain.links]
@@ -129,7 +127,7 @@ def test_a_range_of_one_value_is_that_value(text: str) -> None:
 
 
 @pytest.mark.parametrize("texts", [("payload=0..3",), ("mass=-5%..5%",), ("mass=-5%..5%", "payload=0..3")])
-def test_bounds_of_gravity_over_masses_hold_and_are_those_of_the_heaviest(texts: tuple[str, ...]) -> None:
+def test_bounds_of_gravity_over_masses_hold_and_are_those_of_the_heaviest(texts):
     varies = tuple(map(Vary.parsed, texts))
     limits, model = varied_limits(UR5, varies), robots.load(UR5, vary=varies)
     heavy = model.fixed(**{name: number.bounds[1] for name, number in model.parameters.items()})
@@ -140,7 +138,7 @@ def test_bounds_of_gravity_over_masses_hold_and_are_those_of_the_heaviest(texts:
     assert np.all(bounds[1:3] <= 1.2 * worst[1:3])
 
 
-def test_the_corners_are_the_ends_of_all_that_varies() -> None:
+def test_the_corners_are_the_ends_of_all_that_varies():
     varies = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "base_inertia=0.4..0.6")))
     model = robots.load("buap3", vary=varies)
     result = dict(corners(model, varies))
@@ -167,23 +165,23 @@ def test_the_corners_are_the_ends_of_all_that_varies() -> None:
         ("buap3", "Viscos=1..2", "did you mean viscous?"),
     ],
 )
-def test_ranges_that_no_arm_has_are_refused(name: str, text: str, said: str) -> None:
+def test_ranges_that_no_arm_has_are_refused(name, text, said):
     with pytest.raises(InputError, match=said):
         varied(name, text)
 
 
-def test_a_name_has_one_range() -> None:
+def test_a_name_has_one_range():
     with pytest.raises(InputError, match=r"payload: has more than one range; keep one of them"):
         varied(UR5, "payload=0..1", "mass=-5%..5%", "payload=0..2")
 
 
 @pytest.mark.parametrize("order", [1, -1])
-def test_the_range_of_one_number_goes_before_that_of_all_in_any_order(order: int) -> None:
+def test_the_range_of_one_number_goes_before_that_of_all_in_any_order(order):
     model = varied("buap3", *("viscous=-30%..+0%", "base_viscous=0.4..0.5")[::order])
     assert [number.bounds[0] for number in model.viscous] == [F("0.4"), F("1.6016"), F("0.2842")]
 
 
-def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
+def test_the_gate_judges_by_the_worst_and_says_what_it_costs():
     """λmin(B) falls by 30 %, so that k_v = 0.233 breaks (19); stability is proved over the ranges."""
     file = read_gain_file(paper_gain_file())
     limits = varied_limits("buap3", (Vary.parsed("viscous=-30%..+0%"),))
@@ -200,7 +198,7 @@ def test_the_gate_judges_by_the_worst_and_says_what_it_costs() -> None:
 
 
 @pytest.mark.slow
-def test_tuning_counts_the_worst_arm() -> None:
+def test_tuning_counts_the_worst_arm():
     bench = Trials(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
     result = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
     assert result.arms == "the nominal arm and all 2 corners of the ranges"
@@ -220,14 +218,12 @@ def test_tuning_counts_the_worst_arm() -> None:
         (UR5, ("mass=10%..20%", "payload=0..1"), tuple(f"{joint}_mass" for joint in robots.load(UR5).joints)),
     ],
 )
-def test_values_of_the_file_outside_their_range_are_named(
-    name: str, texts: tuple[str, ...], expected: tuple[str, ...]
-) -> None:
+def test_values_of_the_file_outside_their_range_are_named(name, texts, expected):
     assert outside(robots.load(name), varied(name, *texts)) == expected
 
 
 @given(low=st.integers(-99, 300), width=st.integers(0, 300))
-def test_the_arm_of_the_file_is_named_unless_it_is_in_the_ranges(low: int, width: int) -> None:
+def test_the_arm_of_the_file_is_named_unless_it_is_in_the_ranges(low, width):
     named = outside(robots.load("buap3"), varied("buap3", f"viscous={low}%..{low + width}%"))
     assert bool(named) == (not low <= 0 <= low + width)
 
@@ -242,9 +238,7 @@ def test_the_arm_of_the_file_is_named_unless_it_is_in_the_ranges(low: int, width
         ("ur5", ("viscous=-30%..+0%",), "2 of 64 corners of the ranges (numbers of one name move together)"),
     ],
 )
-def test_it_is_said_how_many_corners_of_how_many_are_tried(
-    name: str, texts: tuple[str, ...], said: str
-) -> None:
+def test_it_is_said_how_many_corners_of_how_many_are_tried(name, texts, said):
     varies = tuple(map(Vary.parsed, texts))
     model = robots.load(name, vary=varies)
     text = corners_text(model, varies)

@@ -1,12 +1,7 @@
 """k_c along a chain with a certificate: the power beside C, the bound beside boxes, what must not pass."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction as F
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +15,6 @@ from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.storage import Shown, coriolis_power, hinges
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.arms import coriolis_bounded
 from lyapcheck.claims.bounds import ArmBounds
@@ -39,14 +33,14 @@ UNIT = ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))
 NOWHERE, AHEAD, AXIS = (F(0), F(0), F(0)), (F(1), F(0), F(0)), (F(0), F(0), F(1))
 
 
-def refused(statement: ChainCoriolisBelow, proof: Proof) -> bool:
+def refused(statement, proof):
     try:
         return verify(statement, proof).verdict != "proved"
     except Refused:
         return True
 
 
-def shown_for(name: str, folder: Path) -> tuple[ChainCoriolisBelow, RateBounds]:
+def shown_for(name, folder):
     shown = storage_proof(arm_of(name, folder).chain, "k_c")
     assert isinstance(shown, BoundWithProof)
     assert isinstance(shown.statement, ChainCoriolisBelow)
@@ -55,14 +49,14 @@ def shown_for(name: str, folder: Path) -> tuple[ChainCoriolisBelow, RateBounds]:
 
 
 @pytest.mark.parametrize("name", ["leaning", "ur5"])
-def test_the_power_along_the_links_is_that_of_coriolis_torques(name: str, tmp_path: Path) -> None:
+def test_the_power_along_the_links_is_that_of_coriolis_torques(name, tmp_path):
     arm = arm_of(name, tmp_path)
     q, x, z = np.random.default_rng(1).uniform(-3, 3, (3, arm.n))
     power = coriolis_power(Algebra(float), hinges(arm.chain.links), *(np.sin(q), np.cos(q)), z, x)
     assert power == pytest.approx(z @ NumericModel(arm).coriolis(q, x) @ x, rel=1e-10)
 
 
-def charge(Q: Any, s: Any, t: Any, x: Any, z: Any) -> Any:
+def charge(Q, s, t, x, z):
     """Σ_j (s_j zᵀQ_jz + x_j² xᵀQ_jx/s_j + ½ t_j z_j² + ½ (xᵀQ_jx)²/t_j) of the squares of x and z."""
     total = 0
     for j, (row, share, other) in enumerate(zip(Q, s, t, strict=True), 1):
@@ -73,7 +67,7 @@ def charge(Q: Any, s: Any, t: Any, x: Any, z: Any) -> Any:
 
 @given(st.integers(1, 5), st.randoms(use_true_random=False))
 @settings(max_examples=40, deadline=None)
-def test_what_is_reached_is_twice_the_largest_coefficient(n: int, random: Any) -> None:
+def test_what_is_reached_is_twice_the_largest_coefficient(n, random):
     """The coefficients of z_i² and of x_i² x_k², read off values at units."""
     rows = [[F(random.randint(1, 99), 7) for _ in range(n)] for _ in range(n - 1)]
     s, t = ([F(random.randint(1, 99), 9) for _ in range(n - 1)] for _ in "st")
@@ -91,7 +85,7 @@ def test_what_is_reached_is_twice_the_largest_coefficient(n: int, random: Any) -
 
 @given(st.integers(2, 5), st.integers(0, 10**6))
 @settings(max_examples=60, deadline=None)
-def test_no_slopes_within_the_bounds_exceed_what_they_are_charged(n: int, seed: int) -> None:
+def test_no_slopes_within_the_bounds_exceed_what_they_are_charged(n, seed):
     """zᵀC(q, x)x for slopes ½ ∂M/∂q_j at the border of ± diag(Q_j) that add the most at some x and z."""
     random = np.random.default_rng(seed)
     Q, (x, z) = 10.0 ** random.uniform(-1, 1, (n - 1, n)), random.normal(size=(2, n))
@@ -113,7 +107,7 @@ def test_no_slopes_within_the_bounds_exceed_what_they_are_charged(n: int, seed: 
     assert reached == pytest.approx(crossed - squared)
 
 
-def test_two_joints_lose_less_than_a_half_and_what_shows_less_is_refused(tmp_path: Path) -> None:
+def test_two_joints_lose_less_than_a_half_and_what_shows_less_is_refused(tmp_path):
     arm = arm_of("pelican2", tmp_path)
     statement, proof = shown_for("pelican2", tmp_path)
     exact = arm_constants(arm, 2000, names=["k_c"])[0].enclosure
@@ -126,11 +120,11 @@ def test_two_joints_lose_less_than_a_half_and_what_shows_less_is_refused(tmp_pat
     assert refused(replace(statement, links=(statement.links[0], heavier(statement.links[1]))), proof)
 
 
-def heavier(link: RigidLink) -> RigidLink:
+def heavier(link):
     return replace(link, mass=link.mass * 2)
 
 
-def test_three_joints_with_skew_axes(tmp_path: Path) -> None:
+def test_three_joints_with_skew_axes(tmp_path):
     arm = arm_of("leaning", tmp_path)
     statement, proof = shown_for("leaning", tmp_path)
     exact = arm_constants(arm, 1000, names=["k_c"])[0].enclosure
@@ -141,7 +135,7 @@ def test_three_joints_with_skew_axes(tmp_path: Path) -> None:
         assert refused(wide, changed)
 
 
-def of_other_numbers(proof: RateBounds) -> Iterator[RateBounds]:
+def of_other_numbers(proof):
     """Of each joint bounds a little too small, or of one sign alone; shares that are none; too few of all."""
     for k, bound in enumerate(proof.rates):
         for prices in (
@@ -167,12 +161,12 @@ def of_other_numbers(proof: RateBounds) -> Iterator[RateBounds]:
             yield replace(proof, **{name: shares})
 
 
-def with_bound(proof: RateBounds, k: int, bound: Any) -> RateBounds:
+def with_bound(proof, k, bound):
     return replace(proof, rates=(*proof.rates[:k], bound, *proof.rates[k + 1 :]))
 
 
 @pytest.mark.parametrize("joints", [2, 5])
-def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints: int, tmp_path: Path) -> None:
+def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints, tmp_path):
     """Joints about one axis, on which all bodies have their centres of mass."""
     links = (arm_of("pelican2", tmp_path).chain.links * 3)[:joints]
     chain = Chain(tuple(replace(link, origin=NOWHERE, com=NOWHERE) for link in links), NOWHERE)
@@ -181,7 +175,7 @@ def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints: int, 
     assert shown.bound < F(1, 500)
 
 
-def test_a_last_body_without_mass_changes_little(tmp_path: Path) -> None:
+def test_a_last_body_without_mass_changes_little(tmp_path):
     links = arm_of("pelican2", tmp_path).chain.links
     last = replace(links[1], mass=F(0), com=NOWHERE, inertia=(NOWHERE,) * 3)
     bounds = [storage_proof(Chain(chain, NOWHERE), "k_c") for chain in (links, (*links, last))]
@@ -189,37 +183,17 @@ def test_a_last_body_without_mass_changes_little(tmp_path: Path) -> None:
     assert first <= second <= first * F(1001, 1000)
 
 
-def test_one_joint_has_no_coriolis_torque(tmp_path: Path) -> None:
-    links = arm_of("pelican2", tmp_path).chain.links[:1]
-    shown = storage_proof(Chain(links, NOWHERE), "k_c")
-    assert shown is not None
-    assert shown.bound == 0
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "most"), [("px100", F(16, 10)), ("ur5", F(16, 10)), ("panda", F(2))])
-def test_the_certificate_of_published_arms_is_above_what_is_reached_and_within_twice(
-    name: str, most: F
-) -> None:
+def test_the_certificate_of_published_arms_is_above_what_is_reached_and_within_twice(name, most):
     arm = load(str(ROOT / "examples" / f"{name}.toml"))
     shown = storage_proof(arm.chain, "k_c")
     assert shown is not None
     assert extreme(arm, "k_c").value <= shown.bound <= most * extreme(arm, "k_c").value
 
 
-def test_zero_is_refuted_of_two_joints_at_a_posture_with_one_vector(tmp_path: Path) -> None:
-    links = arm_of("pelican2", tmp_path).chain.links
-    at = PostureWitness((F(0), F(1)), (), (F(1), F(1)))
-    assert verify(ChainCoriolisBelow(links, F(0)), at).verdict == "refuted"
-    assert refused(ChainCoriolisBelow(links, F(1)), at)
-    with pytest.raises(Refused, match="y none"):
-        verify(ChainCoriolisBelow(links, F(0)), replace(at, y=(F(1), F(1))))
-    with pytest.raises(Refused):
-        verify(ChainCoriolisBelow(links, F(-1)), at)
-
-
 @pytest.mark.parametrize("size", [F(1, 10), F(1), F(10)])
-def test_the_bound_that_a_posture_refutes(size: F) -> None:
+def test_the_bound_that_a_posture_refutes(size):
     """Two bodies at distance 1: C(q, x)x = sin q₂ (−2x₁x₂ − x₂², x₁²) has length √2 at x = (−1, 1)."""
     nothing = (NOWHERE,) * 3
     links = tuple(RigidLink(AXIS, origin, F(1), AHEAD, nothing, UNIT) for origin in (NOWHERE, AHEAD))
@@ -230,33 +204,7 @@ def test_the_bound_that_a_posture_refutes(size: F) -> None:
         verify(ChainCoriolisBelow(links, reached * F(101, 100)), at)
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"mass": F(-1)},
-        {"axis": (F(0), F(0), F(2))},
-        {"turn": ((F(1), F(1), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
-        {"turn": ((F(1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(-1)))},
-        {"inertia": ((F(-1), F(0), F(0)), (F(0), F(1), F(0)), (F(0), F(0), F(1)))},
-    ],
-)
-def test_links_that_are_none(change: dict[str, Any]) -> None:
-    first, second = (RigidLink(AXIS, AHEAD, F(1), AHEAD, UNIT, UNIT) for _ in range(2))
-    at = PostureWitness((F(0), F(1)), (), (F(1), F(1)))
-    with pytest.raises(Refused, match="must have a unit axis, a rotation"):
-        verify(ChainCoriolisBelow((first, replace(second, **change)), F(0)), at)
-
-
-@pytest.mark.parametrize("times", [F(1), F(101, 100), F(2), F(100)])
-def test_any_larger_bound_is_proved(times: F, tmp_path: Path) -> None:
-    statement, _ = shown_for("pelican2", tmp_path)
-    larger = replace(statement, high=statement.high * times)
-    result = propose(larger)
-    assert result.proof is not None
-    assert verify(larger, result.proof).verdict == "proved"
-
-
-def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path: Path) -> None:
+def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path):
     arm = arm_of("pelican2", tmp_path)
     smaller = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c").value * F(9, 10))
     result = propose(smaller)
@@ -265,7 +213,7 @@ def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path: Path) -> No
     assert verify(smaller, result.proof).verdict == "refuted"
 
 
-def test_between_what_is_reached_and_what_is_shown_a_bound_is_open(tmp_path: Path) -> None:
+def test_between_what_is_reached_and_what_is_shown_a_bound_is_open(tmp_path):
     arm = arm_of("pelican2", tmp_path)
     between = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c").value * F(11, 10))
     result = propose(between)
@@ -273,7 +221,7 @@ def test_between_what_is_reached_and_what_is_shown_a_bound_is_open(tmp_path: Pat
     assert "take a larger one" in result.reason
 
 
-def test_boxes_show_norms_of_the_symbols_and_nothing_less() -> None:
+def test_boxes_show_norms_of_the_symbols_and_nothing_less():
     """k_c is 0.1381 here, and what boxes can show a twelfth more."""
     mass = ArmBounds(load("reyes-kelly2")).mass
     assert verify(CoriolisBelow(mass, (), F(15, 100)), Bisection()).verdict == "proved"
@@ -281,7 +229,7 @@ def test_boxes_show_norms_of_the_symbols_and_nothing_less() -> None:
 
 
 @pytest.mark.slow
-def test_property_26_of_many_joints_has_the_bound_of_the_constant() -> None:
+def test_property_26_of_many_joints_has_the_bound_of_the_constant():
     arm = load(str(ROOT / "examples" / "px100.toml"))
     statement = coriolis_bounded(arm)
     (constant,) = arm_constants(arm, names=["k_c"])

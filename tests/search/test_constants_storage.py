@@ -1,10 +1,7 @@
 """Storage forms along a chain: bounds of λmin(M), λmax(M) and ‖g‖ for all angles."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction as F
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,13 +19,12 @@ from lyapcheck.check.kinds.chain import (
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.loop.storage import hinges, invariant_form
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.chain import extreme
 from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import but
@@ -67,7 +63,7 @@ inertia = { ixx = 0.004, iyy = 0.005, izz = 0.006 }
 """
 
 
-def arm_of(name: str, folder: Path) -> RobotModel:
+def arm_of(name, folder):
     if name == "leaning":
         file = folder / "leaning.toml"
         file.write_text(LEANING, encoding="utf-8")
@@ -77,7 +73,7 @@ def arm_of(name: str, folder: Path) -> RobotModel:
     return load(name)
 
 
-def walked(arm: RobotModel, q: np.ndarray, x: np.ndarray) -> tuple[float, float]:
+def walked(arm, q, x):
     """q̇ᵀMq̇ and q̇ᵀg, link by link in the frames of the hinges."""
     free, twist = np.array([float(g) for g in arm.chain.fall]), np.zeros(6)
     energy = power = 0.0
@@ -95,7 +91,7 @@ def walked(arm: RobotModel, q: np.ndarray, x: np.ndarray) -> tuple[float, float]
 
 
 @pytest.mark.parametrize("name", but(["leaning", "pelican2"], ["leaning", "pelican2", "ur5", "panda"]))
-def test_the_frames_of_the_hinges_carry_the_same_arm(name: str, tmp_path: Path) -> None:
+def test_the_frames_of_the_hinges_carry_the_same_arm(name, tmp_path):
     arm = arm_of(name, tmp_path)
     model, rng = NumericModel(arm), np.random.default_rng(1)
     for _ in range(5):
@@ -106,7 +102,7 @@ def test_the_frames_of_the_hinges_carry_the_same_arm(name: str, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("vectors", [1, 2, 3])
-def test_turning_forms_are_all_that_turns_leave_alone(vectors: int) -> None:
+def test_turning_forms_are_all_that_turns_leave_alone(vectors):
     """They span the kernel of P ↦ KᵀP + PK on symmetric matrices, K being the rate of turning."""
     n = 3 * vectors
     rate = np.kron(np.eye(vectors), np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]]))
@@ -119,7 +115,7 @@ def test_turning_forms_are_all_that_turns_leave_alone(vectors: int) -> None:
 
 
 @pytest.mark.parametrize("name", but(["leaning", "pelican2"], ["leaning", "pelican2", "ur5", "panda"]))
-def test_no_state_lies_outside_and_some_come_close(name: str, tmp_path: Path) -> None:
+def test_no_state_lies_outside_and_some_come_close(name, tmp_path):
     arm = arm_of(name, tmp_path)
     names = ["lambda_min", "lambda_max", "k_g", *(f"k_g{i + 1}" for i in range(arm.n))]
     result = {name: storage_proof(arm.chain, name).bound for name in names}
@@ -138,7 +134,7 @@ def test_no_state_lies_outside_and_some_come_close(name: str, tmp_path: Path) ->
         assert abs(result[key] - inside) <= F(1, 100) * inside
 
 
-def test_one_joint_has_its_moment_and_its_weight(tmp_path: Path) -> None:
+def test_one_joint_has_its_moment_and_its_weight(tmp_path):
     """I + m l² and m g l."""
     file = tmp_path / "one.toml"
     link = "mass = 2\nviscous = 1\naxis = [0, 1, 0]\norigin = [0, 0, 0]\ncom = [0.5, 0, 0]\ninertia = 0.1"
@@ -153,7 +149,7 @@ def test_one_joint_has_its_moment_and_its_weight(tmp_path: Path) -> None:
 # What must not be accepted -----
 
 
-def refused(statement: Statement, proof: Proof) -> bool:
+def refused(statement, proof):
     try:
         return verify(statement, proof).verdict != "proved"
     except Refused:
@@ -164,7 +160,7 @@ NAMES = ("lambda_min", "lambda_max", "k_g")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_sharper_bound_does_not_hold(name: str, tmp_path: Path) -> None:
+def test_a_sharper_bound_does_not_hold(name, tmp_path):
     shown = storage_proof(arm_of("ur5", tmp_path).chain, name)
     assert not refused(shown.statement, shown.proof)
     sharper = shown.bound * (F(101, 100) if name == "lambda_min" else F(99, 100))
@@ -172,7 +168,7 @@ def test_a_sharper_bound_does_not_hold(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_forms_of_other_joints_or_another_arm_do_not_hold(name: str, tmp_path: Path) -> None:
+def test_forms_of_other_joints_or_another_arm_do_not_hold(name, tmp_path):
     shown = storage_proof(arm_of("ur5", tmp_path).chain, name)
     forms = shown.proof.forms
     for wrong in ((*forms[1:], forms[0]), tuple((F(0),) * len(row) for row in forms), forms[1:], ()):
@@ -185,7 +181,7 @@ def test_forms_of_other_joints_or_another_arm_do_not_hold(name: str, tmp_path: P
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name: str, tmp_path: Path) -> None:
+def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name, tmp_path):
     arm = arm_of("leaning", tmp_path)
     shown, inner = storage_proof(arm.chain, name), extreme(arm, name)
     witness = PostureWitness(inner.q, (), inner.x)
@@ -196,7 +192,7 @@ def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name: str, tmp_pat
 
 
 @pytest.mark.parametrize("name", [*NAMES, "k_c"])
-def test_of_an_arm_the_size_of_a_finger_extremes_are_in_proportion(name: str, tmp_path: Path) -> None:
+def test_of_an_arm_the_size_of_a_finger_extremes_are_in_proportion(name, tmp_path):
     """Lengths a sixteenth and masses a hundred-and-twenty-eighth: inertias 2⁻¹⁵, torques of gravity 2⁻¹¹."""
     arm, long, heavy = arm_of("leaning", tmp_path), F(1, 16), F(1, 128)
     assert arm.chain is not None
@@ -217,7 +213,7 @@ def test_of_an_arm_the_size_of_a_finger_extremes_are_in_proportion(name: str, tm
     )
 
 
-def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
+def test_joints_without_torque_are_shown_exactly(tmp_path):
     arm = arm_of("ur5", tmp_path)
     result = storage_proof(arm.chain, "k_g5", still=True)
     assert result.bound == 0
@@ -228,7 +224,7 @@ def test_joints_without_torque_are_shown_exactly(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_properties_of_seven_skew_joints_are_decided(tmp_path: Path) -> None:
+def test_properties_of_seven_skew_joints_are_decided(tmp_path):
     """The bounds of M, C and g by forms along the links, as polynomials are too long; 2.7 and 2.8 too."""
     file = tmp_path / "skew.urdf"
     file.write_text(generic(7))
@@ -237,7 +233,7 @@ def test_properties_of_seven_skew_joints_are_decided(tmp_path: Path) -> None:
     assert [name for name in ids if result[name].verdict is not Verdict.PROVED] == []
 
 
-def test_M_of_links_with_moments_is_positive_definite(tmp_path: Path) -> None:
+def test_M_of_links_with_moments_is_positive_definite(tmp_path):
     chain = arm_of("ur5", tmp_path).chain
     assert verify(ChainAbove(chain.links, F(0)), OwnMoments()).grade == "exact"
     assert refused(ChainAbove(chain.links, F(1, 1000)), OwnMoments())
@@ -246,7 +242,7 @@ def test_M_of_links_with_moments_is_positive_definite(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("identity", IDENTITIES)
-def test_identities_hold_of_every_chain_and_of_nothing_else(identity: str, tmp_path: Path) -> None:
+def test_identities_hold_of_every_chain_and_of_nothing_else(identity, tmp_path):
     links = arm_of("leaning", tmp_path).chain.links
     result = verify(ChainIdentity(links, identity), ByDefinition())
     assert (result.verdict, result.grade) == ("proved", "exact")
@@ -267,14 +263,14 @@ def test_identities_hold_of_every_chain_and_of_nothing_else(identity: str, tmp_p
         {"com": (F(1, 10**401), F(0), F(0))},
     ],
 )
-def test_what_is_no_link_is_no_statement(changes: dict[str, object], tmp_path: Path) -> None:
+def test_what_is_no_link_is_no_statement(changes, tmp_path):
     links = arm_of("leaning", tmp_path).chain.links
     wrong = (replace(links[0], **changes), *links[1:])  # type: ignore[arg-type]
     with pytest.raises(Refused):
         ChainBelow(wrong, F(10**9)).require_well_formed()
 
 
-def test_forms_that_turns_change_would_prove_something_false(tmp_path: Path) -> None:
+def test_forms_that_turns_change_would_prove_something_false(tmp_path):
     """ω_x² is no form of the list: a chain of it would bound M at q = 0 only."""
     coefficients = [F(k, 7) for k in range(1, 8)]
     form = doubles(invariant_form(coefficients, 2))

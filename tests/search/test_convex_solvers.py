@@ -1,7 +1,5 @@
 """The one place where a convex solver is asked: however it ends, something is said."""
 
-from __future__ import annotations
-
 import clarabel
 import cvxpy as cp
 import numpy as np

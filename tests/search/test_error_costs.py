@@ -1,7 +1,5 @@
 """What entries of U and Q_j cost, and the bounds that are chosen by it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -20,18 +18,18 @@ F = Fraction
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def controlled(name: str, m: int) -> ControlledArm:
+def controlled(name, m):
     gains = next(item for item in read_gain_file(EXAMPLES / f"{name}_gains.toml").gains if item.m == m)
     return ControlledArm(gains, load_robot(str(EXAMPLES / f"{name}.toml")))
 
 
-def with_prices(prices: list[list[Fraction]]) -> LinkBounds:
+def with_prices(prices):
     """Bounds that nothing shows: U, then Q_2, Q_3, …"""
     inertia, *rates = (Shown(tuple(row), ()) for row in prices)
     return LinkBounds((), inertia, tuple(rates), tuple(rates), "", "")
 
 
-def test_costs_are_the_slopes_of_the_smallest_eigenvalue() -> None:
+def test_costs_are_the_slopes_of_the_smallest_eigenvalue():
     arm = controlled("px100", 2)
     loop, n = arm.loop(F(4)), arm.n
     random = np.random.default_rng(3)
@@ -39,7 +37,7 @@ def test_costs_are_the_slopes_of_the_smallest_eigenvalue() -> None:
     prices = [[F(int(random.integers(5, 40)), 1000) * x for x in b] for _ in range(n)]
     errors = np.abs(random.normal(size=(1, n)))
 
-    def smallest(row: int, column: int, change: Fraction) -> float:
+    def smallest(row, column, change):
         moved = [list(line) for line in prices]
         moved[row][column] += change * b[column]
         return float(smallest_at(ErrorBoxes(loop, with_prices(moved)), errors)[0])
@@ -53,7 +51,7 @@ def test_costs_are_the_slopes_of_the_smallest_eigenvalue() -> None:
 
 
 @pytest.mark.slow
-def test_bounds_that_are_fitted_allow_more_on_five_joints_of_the_ur5(tmp_path: Path) -> None:
+def test_bounds_that_are_fitted_allow_more_on_five_joints_of_the_ur5(tmp_path):
     text = (EXAMPLES / "ur5.urdf").read_text(encoding="utf-8")
     five, _, _ = text.partition('<joint name="wrist_3_joint"')
     (tmp_path / "ur5.urdf").write_text(f"{five}</robot>\n", encoding="utf-8")

@@ -1,7 +1,5 @@
 """Sampled and optimised worst states: they agree with the balls, and they reach what is known by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 
@@ -10,24 +8,23 @@ import pytest
 
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.control.gains import GainSet
-from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import RisingState, falsify
 from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, size, spread
-from lyapcheck.search.worst_states import expressions, fast_states, finite_states, level_states
+from lyapcheck.search.worst_states import fast_states, finite_states, level_states
 from tests.helpers.shares import one_in
 
 F = Fraction
 FEW = {"starts": 6, "samples": 2000}
 
 
-def gains(m: int | None, kp: str, kv: str, **other: str) -> GainSet:
+def gains(m, kp, kv, **other):
     return GainSet("set", m, tuple(map(F, kp.split())), tuple(map(F, kv.split())), **other)
 
 
-def two_joints(m: int) -> ControlledArm:
+def two_joints(m):
     return ControlledArm(gains(m, "60 5", "0.233 0.233"), load("reyes-kelly2"))
 
 
@@ -42,12 +39,12 @@ SETTINGS = [
 ]
 
 
-def exact_state(states: States, k: int) -> State:
+def exact_state(states, k):
     return State(*(tuple(F(float(x)) for x in part[k]) for part in (states.q, states.e, states.w)))
 
 
 @pytest.mark.parametrize("controlled", SETTINGS)
-def test_quadratic_in_eps0_agrees_with_the_balls(controlled: ControlledArm) -> None:
+def test_quadratic_in_eps0_agrees_with_the_balls(controlled):
     states = sample(controlled, 40, 1)
     for eps0 in (0.0, 0.3, 2.0):
         result = quadratic(controlled, states).at(eps0)
@@ -58,56 +55,15 @@ def test_quadratic_in_eps0_agrees_with_the_balls(controlled: ControlledArm) -> N
 
 
 @pytest.mark.parametrize("controlled", SETTINGS)
-def test_graph_agrees_with_numpy(controlled: ControlledArm) -> None:
-    import casadi as ca
-
-    x = expressions(controlled)
-    call = ca.Function("a", [x.q, x.e, x.w], [x.a0, x.a1, x.a2])
-    states = sample(controlled, 50, 2)
-    result = quadratic(controlled, states)
-    for k in range(50):
-        values = [float(v) for v in call(states.q[k], states.e[k], states.w[k])]
-        # fast states cancel, so each coefficient is compared on the scale of what it is a sum of
-        scale = size(controlled, 1.0, states.take(np.array([k])))[0] * 10
-        expected = (result.a0[k], result.a1[k], result.a2[k])
-        assert np.allclose(values, expected, rtol=1e-9, atol=1e-11 * scale)
-
-
-@pytest.mark.parametrize("controlled", SETTINGS)
-def test_fast_states_approach_their_limit(controlled: ControlledArm) -> None:
+def test_fast_states_approach_their_limit(controlled):
     states = sample(controlled, 200, 3)
     limit, directions = fastest_directions(controlled, states.q, states.e)
     reached = quadratic(controlled, States(states.q, states.e, directions * 1e9)).reciprocal()
     assert np.all(np.abs(reached - np.maximum(limit, 0))[limit > 1e-3] < 1e-5 * limit[limit > 1e-3] + 1e-5)
 
 
-def test_samples_repeat_with_their_seed() -> None:
-    first, again, other = (sample(two_joints(1), 100, seed) for seed in (1, 1, 2))
-    assert all(np.array_equal(getattr(first, part), getattr(again, part)) for part in "qew")
-    assert not np.array_equal(first.q, other.q)
-
-
-def test_reciprocal_is_where_the_rate_changes_sign() -> None:
-    controlled = two_joints(2)
-    result = quadratic(controlled, sample(controlled, 3000, 4))
-    failing = result.reciprocal() > 1e-3
-    eps0 = 1 / np.where(failing, result.reciprocal(), 1.0)
-    rates = -result.a0 + eps0 * (result.a1 + eps0 * result.a2)
-    scale = result.a0 + np.abs(eps0 * result.a1) + np.abs(eps0**2 * result.a2)
-    assert failing.sum() > 100
-    assert np.all(np.abs(rates)[failing] < 1e-9 * scale[failing])
-
-
 @pytest.mark.slow
-def test_one_joint_by_hand() -> None:
-    """M = ¼ kg·m², b = ½, m = 1: the worst state is fast at e = 0, where ε₀ = b/M = 2."""
-    witness = falsify(SETTINGS[3], **FEW)
-    assert witness is not None
-    assert 2 < witness.eps0 < 2 * (1 + F(1, 10**4))
-
-
-@pytest.mark.slow
-def test_two_joints_at_zero_error_by_hand() -> None:
+def test_two_joints_at_zero_error_by_hand():
     """m = 1: 1/ε₀ = λmax(B^(−½)M(0)B^(−½)), because M is largest with the arm stretched."""
     scale = np.diag(1 / np.sqrt([2.288, 0.175]))
     largest = np.linalg.eigvalsh(scale @ np.array([[2.519, 0.186], [0.186, 0.102]]) @ scale)[-1]
@@ -118,7 +74,7 @@ def test_two_joints_at_zero_error_by_hand() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("controlled", one_in(4, SETTINGS))
-def test_witness_replays_and_a_tampered_one_does_not(controlled: ControlledArm) -> None:
+def test_witness_replays_and_a_tampered_one_does_not(controlled):
     witness = falsify(controlled, **FEW)
     assert witness is not None
     replay = controlled.arm, controlled.controller, witness.eps0
@@ -132,7 +88,7 @@ def test_witness_replays_and_a_tampered_one_does_not(controlled: ControlledArm) 
 
 
 @pytest.mark.parametrize("m", [1, 2, 3])
-def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
+def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m):
     controlled = two_joints(m)
     states = sample(controlled, 2000, 5)
     speed, directions = fastest_directions(controlled, states.q, states.e)
@@ -150,24 +106,19 @@ def test_optimised_states_are_at_least_as_bad_as_sampled_ones(m: int) -> None:
 
 
 @pytest.mark.slow
-def test_falsify_repeats_itself() -> None:
+def test_falsify_repeats_itself():
     first, again = (falsify(two_joints(3), **FEW) for _ in range(2))
     assert isinstance(first, RisingState)
     assert first == again
 
 
 @pytest.mark.slow
-def test_other_valleys_are_found() -> None:
+def test_other_valleys_are_found():
     """m = 3: the worst state has both joints at the peak of h', the best sampled ones have only one there."""
     witness = falsify(two_joints(3))
     assert witness is not None
     assert float(witness.eps0) == pytest.approx(0.6362, rel=1e-4)
     assert all(abs(x) > F(7, 10) for x in witness.state.e)
-
-
-def test_wrong_number_of_joints_is_an_input_error() -> None:
-    with pytest.raises(InputError, match="3 joints"):
-        ControlledArm(gains(1, "28 60 5", "0.2 0.2 0.2"), load("reyes-kelly2"))
 
 
 @pytest.mark.parametrize(
@@ -179,12 +130,5 @@ def test_wrong_number_of_joints_is_an_input_error() -> None:
         ("0.00100000001", 3, "0.00101"),
     ],
 )
-def test_significant_up(value: str, digits: int, expected: str) -> None:
+def test_significant_up(value, digits, expected):
     assert significant_up(F(value), digits) == F(expected)
-
-
-@pytest.mark.slow
-def test_ball_of_the_witness_is_narrow() -> None:
-    witness = falsify(two_joints(2), **FEW)
-    assert witness is not None
-    assert witness.rate.width < F(1, 10**40)

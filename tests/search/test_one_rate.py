@@ -1,7 +1,5 @@
 """Before the search for failing states goes on, two ways to dV/dt are held against each other."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
@@ -15,16 +13,16 @@ from lyapcheck.search.worst_states import Disagreement, require_one_rate
 
 
 @pytest.mark.parametrize(("file", "arm"), [("table2", "buap3"), ("table2_pd", "buap3")])
-def test_terms_of_15_are_what_casadi_gets_from_V(file: str, arm: str) -> None:
+def test_terms_of_15_are_what_casadi_gets_from_V(file, arm):
     controlled = ControlledArm(read_gain_file(paper_gain_file(file)).gains[0], load(arm))
     require_one_rate(controlled, sample.sample(controlled, 200, 1))
 
 
-def test_a_wrong_term_stops_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_term_stops_the_search(monkeypatch):
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[0]
     controlled, right = ControlledArm(gains, load("reyes-kelly2")), worst_states.quadratic
 
-    def wrong(*asked: object) -> sample.Quadratic:
+    def wrong(*asked):
         known = right(*asked)  # type: ignore[arg-type]
         return replace(known, a1=known.a1 * 1.01)
 

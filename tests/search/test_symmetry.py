@@ -1,7 +1,5 @@
 """Sign symmetries: what they leave unchanged, and the errors that they let the search skip."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
@@ -10,7 +8,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.control.gains import GainSet
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import load
@@ -24,17 +21,17 @@ EXPECTED = {"pendulum1": (0,), "reyes-kelly2": (0,), "pelican2": (0,)}
 """One joint: M is constant. Two joints: M depends on cos q₂ and M₁₂ ≠ 0, so both signs change together."""
 
 
-def controlled(name: str, m: int = 2) -> ControlledArm:
+def controlled(name, m=2):
     model = load(name)
     gains = GainSet("some", m, (F(40), F(30), F(20))[: model.n], (F(3, 10), F(1, 5), F(1, 10))[: model.n])
     return ControlledArm(gains, model)
 
 
-def loop(name: str) -> ClosedLoop:
+def loop(name):
     return controlled(name).loop(F(1, 10))
 
 
-def seen_symmetries(name: str) -> list[Array]:
+def seen_symmetries(name):
     """All σ for which M(σq) = Σ M(q) Σ at random angles, in doubles."""
     model, generator = NumericModel(load(name)), np.random.default_rng(3)
     q = generator.uniform(-np.pi, np.pi, (50, model.n))
@@ -47,21 +44,21 @@ def seen_symmetries(name: str) -> list[Array]:
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_every_error_has_an_image_with_the_one_sided_signs(name: str) -> None:
+def test_every_error_has_an_image_with_the_one_sided_signs(name):
     symmetries, sided = seen_symmetries(name), list(loop(name).one_sided)
     for signs in product((1.0, -1.0, 0.0), repeat=load(name).n):
         assert any(np.all((np.array(signs) * s)[sided] >= 0) for s in symmetries)
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_as_many_errors_are_halved_as_there_are_independent_symmetries(name: str) -> None:
+def test_as_many_errors_are_halved_as_there_are_independent_symmetries(name):
     assert 2 ** len(loop(name).one_sided) == len(seen_symmetries(name))
     assert loop(name).one_sided == EXPECTED.get(name, loop(name).one_sided)
 
 
 @pytest.mark.parametrize("m", [1, 3])
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_V_and_its_rate_keep_their_values(name: str, m: int) -> None:
+def test_V_and_its_rate_keep_their_values(name, m):
     case = controlled(name, m)
     V = LyapunovNumeric(case.model, case.family, list(case.kp), list(case.kv), 0.3)
     generator = np.random.default_rng(m)
@@ -71,7 +68,7 @@ def test_V_and_its_rate_keep_their_values(name: str, m: int) -> None:
         np.testing.assert_allclose(V.rate(s * q, s * e, s * w), V.rate(q, e, w), rtol=1e-9, atol=1e-9)
 
 
-def test_other_signs_do_change_the_rate() -> None:
+def test_other_signs_do_change_the_rate():
     """The test above would be empty if every change of signs passed it."""
     case = controlled("reyes-kelly2")
     V = LyapunovNumeric(case.model, case.family, list(case.kp), list(case.kv), 0.3)
@@ -82,7 +79,7 @@ def test_other_signs_do_change_the_rate() -> None:
     assert np.max(np.abs(V.rate(s * q, s * e, s * w) - V.rate(q, e, w))) > 0.1
 
 
-def test_a_sine_in_the_inertia_breaks_the_symmetry() -> None:
+def test_a_sine_in_the_inertia_breaks_the_symmetry():
     """M₁₁ with sin q₂: the mirror image is another arm, and nothing may be skipped."""
     case = loop("reyes-kelly2")
     assert case.one_sided == (0,)

@@ -1,7 +1,5 @@
 """Many runs at once: the same motions as one at a time, by two engines, whatever their company."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from fractions import Fraction
 
@@ -30,50 +28,32 @@ ENGINE = "numpy" if compiler() is None else "compiled"
 SHOULDER_AND_ELBOW = GainSet("two", 2, TABLE2[1].kp[1:], TABLE2[1].kv[1:])
 
 
-def gains(n: int, m: int | None = 2, family: str = "hyperbolic", kp: int = 10, kv: int = 2) -> GainSet:
+def gains(n, m=2, family="hyperbolic", kp=10, kv=2):
     return GainSet("set", m, (Fraction(kp),) * n, (Fraction(kv),) * n, family)
 
 
-def starts(n: int, count: int, size: float = 2.0) -> np.ndarray:
+def starts(n, count, size=2.0):
     return np.random.default_rng(11).uniform(-size, size, (count, n))
 
 
 @pytest.fixture
-def no_compiler(monkeypatch) -> None:
+def no_compiler(monkeypatch):
     monkeypatch.setenv(OFF, "1")
 
 
-def torques(gain_set: GainSet, model, q: np.ndarray, e: np.ndarray, w: np.ndarray) -> np.ndarray:
+def torques(gain_set, model, q, e, w):
     """τ of (6) at states (N, n)."""
     made = gains_for(gain_set, model.n)
     return made.family.h(e) * made.kp - made.family.h(w) * made.kv + NumericModel(model).gravity(q)
 
 
-def assert_same(one: Runs, other: Runs) -> None:
+def assert_same(one, other):
     for entry in fields(Runs):
         a, b = getattr(one, entry.name), getattr(other, entry.name)
         if isinstance(a, np.ndarray):
             assert np.array_equal(a, b, equal_nan=a.dtype.kind == "f"), entry.name
         else:
             assert a == b, entry.name
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
-def test_the_papers_runs_are_those_of_the_single_simulation(gain_set):
-    model, task = robots.load("buap3"), PAPER_TASK
-    single = simulate(gain_set, model, task.q_d, T=task.T)
-    many = simulate_many(gain_set, model, task.q_d, task.q0, task.T, points=2001, motions=True)
-    assert many.engine == ENGINE
-    for name in ("q", "w", "V"):
-        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=0, atol=1e-8)
-    np.testing.assert_allclose(many.L2[0], single.L2, rtol=1e-7)
-    for name in ("overshoot", "peak_torque"):
-        np.testing.assert_allclose(getattr(many, name)[0], getattr(single, name), rtol=1e-8)
-    np.testing.assert_allclose(many.settling[0], single.settling, rtol=1e-4)  # straight between points there
-    np.testing.assert_allclose(many.final_error[0], single.indices.final_error, rtol=0, atol=1e-7)
-    assert many.energy_balance[0] < 1e-9
-    assert many.complete.all()
 
 
 COSTLY = [(3, "hyperbolic"), (None, "tanh")]
@@ -95,17 +75,6 @@ def test_every_family_moves_as_it_does_alone(m, family):
     np.testing.assert_allclose(many.settling[0], single.settling, rtol=1e-2)
 
 
-@pytest.mark.parametrize("kv", [1, 5])
-def test_linear_pd_on_the_pendulum_is_the_damped_oscillator(kv):
-    """M ë + (k_v + b) ė + k_p e = 0 with M = 1/4, b = 1/2, solved by hand."""
-    model, first = robots.load("pendulum1"), np.linspace(-3, 3, 40)[:, None]
-    runs = simulate_many(gains(1, None, "linear", kv=kv), model, [1.0], first, 3.0, motions=True)
-    roots = np.roots([0.25, kv + 0.5, 10.0]).astype(complex)
-    weights = np.linalg.solve(np.array([[1, 1], roots]), np.array([1.0, 0.0]))
-    shape = np.real(np.exp(np.outer(runs.t, roots)) @ weights)
-    np.testing.assert_allclose(runs.q[:, :, 0], 1.0 - (1.0 - first) * shape, rtol=0, atol=1e-8)
-
-
 @pytest.mark.slow
 def test_extremes_lie_between_samples_and_are_those_of_a_much_finer_sampling():
     """With two samples a run: peaks, overshoots and settling times of 20,001 samples, 0.1 ms apart."""
@@ -124,9 +93,9 @@ def test_extremes_lie_between_samples_and_are_those_of_a_much_finer_sampling():
     np.testing.assert_allclose(many.overshoot[2], single.overshoot, rtol=1e-8, atol=1e-9)
 
 
-@pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
+@pytest.mark.parametrize("gain_set", one_in(2, TABLE2), ids=lambda g: g.name)
 def test_a_tighter_run_changes_nothing_above_the_promised_accuracy(gain_set):
-    model, first = robots.load("buap3"), starts(3, 60)
+    model, first = robots.load("buap3"), starts(3, 20)
     runs, finer = (
         simulate_many(gain_set, model, PAPER_TASK.q_d, first, motions=True, tolerance=tolerance)
         for tolerance in (batch_module.TOLERANCE, batch_module.TOLERANCE / 20)
@@ -150,7 +119,7 @@ def test_the_error_falls_with_the_eighth_power_of_the_step():
 def test_both_engines_find_the_same_motions(request):
     model, first = robots.load("buap3"), starts(3, 9)
 
-    def run() -> Runs:
+    def run():
         return simulate_many(TABLE2[:3] * 3, model, PAPER_TASK.q_d, first, 0.4, motions=True)
 
     runs = run()
@@ -160,15 +129,6 @@ def test_both_engines_find_the_same_motions(request):
     for name in ("q", "w", "V", "L2", "peak_torque", "settling", "overshoot"):
         np.testing.assert_allclose(getattr(runs, name), getattr(by_numpy, name), rtol=1e-8, atol=1e-8)
     np.testing.assert_allclose(runs.steps, by_numpy.steps, atol=12)
-
-
-@pytest.mark.slow
-def test_large_members_run_beside_small_ones():
-    model = robots.load("pendulum1")
-    mixed = [gains(1, 200), gains(1, 2)]
-    runs = simulate_many(mixed, model, [0.5], starts(1, 2), 0.5)
-    assert runs.engine == ENGINE
-    assert runs.complete.all()
 
 
 def test_a_run_does_not_depend_on_its_company(monkeypatch):
@@ -247,14 +207,6 @@ def test_a_run_that_fails_is_marked_and_stops_no_other(engine, request):
     assert np.all(runs.L2[[0, 2]] < 1e-6)
 
 
-def test_at_the_goal_nothing_moves():
-    runs = simulate_many(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, PAPER_TASK.q_d, 2.0, motions=True)
-    assert np.array_equal(runs.q[0], np.tile(PAPER_TASK.q_d, (501, 1)))
-    assert runs.L2[0] == 0
-    assert np.array_equal(runs.settling[0], np.zeros(3))
-    assert np.isnan(runs.overshoot[0]).all()
-
-
 @pytest.mark.parametrize(
     ("change", "key"),
     [
@@ -283,7 +235,7 @@ def test_what_an_arm_cannot_be_given_is_refused(change, key):
 
 
 def test_progress_rises_to_the_end():
-    printed: list[float] = []
+    printed = []
     model = robots.load("pendulum1")
     sets = [gains(1, 1 + k % 3) for k in range(9)]
     simulate_many(sets, model, [0.5], [0.0], 0.1, on_progress=lambda done, _: printed.append(done))

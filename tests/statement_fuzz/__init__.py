@@ -3,5 +3,4 @@
 - ``generators``: one module a kind; some statements are true, false or undefined by construction;
 - ``oracle``: what a statement means, in an arithmetic that shares no code with lyapcheck;
 - ``judge``: a verdict against both; ``run`` and ``__main__``: many statements, by seed and index;
-- ``known_faults``: statements that were once accepted though false or undefined.
 """

@@ -1,7 +1,5 @@
 """Plans: what they ask, in which order, and what is wrong with them."""
 
-from __future__ import annotations
-
 import re
 import tracemalloc
 from itertools import islice
@@ -18,8 +16,8 @@ GRID = "[grid]\nm = [1]\nkp = [20]\nkv = [0.1]\n"
 
 
 @pytest.fixture
-def plan(tmp_path: Path):
-    def read(text: str):
+def plan(tmp_path):
+    def read(text):
         path = tmp_path / "plan.toml"
         path.write_text(text, encoding="utf-8")
         return read_plan(path)
@@ -27,7 +25,7 @@ def plan(tmp_path: Path):
     return read
 
 
-def test_a_grid_is_asked_row_by_row(plan) -> None:
+def test_a_grid_is_asked_row_by_row(plan):
     text = (
         HEAD.replace('["gate"]', '["gate", "robot", "epsilon"]') + 'variations = [[], ["viscous=-5%..+5%"]]\n'
     )
@@ -43,7 +41,7 @@ def test_a_grid_is_asked_row_by_row(plan) -> None:
     assert len({one.digest for one in asked}) == read.count
 
 
-def test_the_same_question_has_the_same_digest_whatever_it_is_called(plan) -> None:
+def test_the_same_question_has_the_same_digest_whatever_it_is_called(plan):
     sets = '[[gains]]\nname = "{}"\nm = 1\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
     one, other = (next(plan(HEAD + sets.format(name)).questions()) for name in "ab")
     assert one.digest == other.digest
@@ -51,7 +49,7 @@ def test_the_same_question_has_the_same_digest_whatever_it_is_called(plan) -> No
     assert next(more.questions()).digest != one.digest
 
 
-def test_the_example_is_a_plan() -> None:
+def test_the_example_is_a_plan():
     assert read_plan(EXAMPLE).count == 60
 
 
@@ -81,13 +79,13 @@ def test_the_example_is_a_plan() -> None:
         (HEAD + "more = 1\n" + GRID, "is not a known key here"),
     ],
 )
-def test_what_is_wrong_is_said(plan, text: str, words: str) -> None:
+def test_what_is_wrong_is_said(plan, text, words):
     with pytest.raises(InputError, match=re.escape(words)):
         plan(text)
 
 
 @pytest.mark.slow
-def test_a_long_plan_is_never_in_memory(plan) -> None:
+def test_a_long_plan_is_never_in_memory(plan):
     read = plan(HEAD + GRID.replace("[1]", "[1, 2, 3]").replace("[0.1]", "{from = 1, to = 9000, step = 0.1}"))
     assert read.count > 100_000
     tracemalloc.start()

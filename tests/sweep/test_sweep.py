@@ -1,7 +1,5 @@
 """Sweeps: the same bytes whoever answers, whatever is killed, and every verdict that of the command."""
 
-from __future__ import annotations
-
 import errno
 import json
 import os
@@ -10,8 +8,6 @@ import subprocess
 import sys
 import time
 from fractions import Fraction
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -59,21 +55,21 @@ only = ["7a", "16.6"]
 
 
 @pytest.fixture
-def plan(tmp_path: Path) -> Path:
+def plan(tmp_path):
     path = tmp_path / "plan.toml"
     path.write_text(PLAN, encoding="utf-8")
     return path
 
 
-def contents(folder: Path) -> dict[str, bytes]:
+def contents(folder):
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def rows_of(folder: Path) -> list[dict[str, Any]]:
+def rows_of(folder):
     return [json.loads(line) for line in (folder / "rows.jsonl").read_text(encoding="utf-8").splitlines()]
 
 
-def test_rows_come_in_order_with_the_verdicts_of_the_gate(plan: Path, tmp_path: Path) -> None:
+def test_rows_come_in_order_with_the_verdicts_of_the_gate(plan, tmp_path):
     rows = list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "out"))
     assert rows == rows_of(tmp_path / "out")
     assert [row["index"] for row in rows] == list(range(16))
@@ -85,7 +81,7 @@ def test_rows_come_in_order_with_the_verdicts_of_the_gate(plan: Path, tmp_path: 
     assert all((row["margin"] > 0) == (row["verdict"] == "accepted") for row in rows)
 
 
-def test_every_row_names_certificates_that_the_checker_accepts(plan: Path, tmp_path: Path) -> None:
+def test_every_row_names_certificates_that_the_checker_accepts(plan, tmp_path):
     rows = list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "out"))
     place = tmp_path / "out" / "certificates"
     named = {digest for row in rows for digest in row["certificates"]}
@@ -101,7 +97,7 @@ def test_every_row_names_certificates_that_the_checker_accepts(plan: Path, tmp_p
 
 
 @pytest.mark.slow
-def test_the_command_leaves_rows_maps_and_a_page(plan: Path, tmp_path: Path) -> None:
+def test_the_command_leaves_rows_maps_and_a_page(plan, tmp_path):
     out = tmp_path / "out"
     done = command("sweep", plan, "--out", out, "--jobs", 1)
     assert done.returncode == 1  # some are rejected
@@ -126,9 +122,7 @@ def test_the_command_leaves_rows_maps_and_a_page(plan: Path, tmp_path: Path) -> 
     assert contents(out) == left
 
 
-def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(
-    plan: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(plan, tmp_path, monkeypatch):
     list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "whole"))
     whole = contents(tmp_path / "whole")
     broken = tmp_path / "broken"
@@ -141,7 +135,7 @@ def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(
     some[0].write_bytes(some[0].read_bytes()[:-5])  # altered, and to be written again
     with monkeypatch.context() as patch:
 
-        def no_room(path: Path, content: bytes) -> None:
+        def no_room(path, content):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
         patch.setattr(folders, "_write", no_room)
@@ -152,10 +146,10 @@ def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(
     assert contents(broken) == whole
 
 
-def test_what_cannot_be_asked_is_a_row_and_not_the_end(plan: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_cannot_be_asked_is_a_row_and_not_the_end(plan, monkeypatch):
     from lyapcheck.answers.sweep.asks import gate as asks
 
-    def fragile(question: Any, result: Any, data: Any) -> Any:
+    def fragile(question, result, data):
         if question.index == 3:
             raise ValueError("a fault in lyapcheck")
         return own(question, result, data)
@@ -171,7 +165,7 @@ def test_what_cannot_be_asked_is_a_row_and_not_the_end(plan: Path, monkeypatch: 
     assert SweepAnswer("plan", tally).exit_code == 4
 
 
-def test_what_is_kept_is_not_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_kept_is_not_asked_again(tmp_path, monkeypatch):
     monkeypatch.delenv(store.OFF)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     path = tmp_path / "plan.toml"
@@ -183,7 +177,7 @@ def test_what_is_kept_is_not_asked_again(tmp_path: Path, monkeypatch: pytest.Mon
     assert next(rows)["verdict"] == "proved"
     del rows  # broken off
 
-    def never(*gains: Any, **budget: Any) -> None:
+    def never(*gains, **budget):
         raise AssertionError("it was searched for again")
 
     monkeypatch.setattr(kept, "four", never)
@@ -194,7 +188,7 @@ def test_what_is_kept_is_not_asked_again(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 @pytest.mark.slow
-def test_every_question_is_answered_as_by_its_command(tmp_path: Path) -> None:
+def test_every_question_is_answered_as_by_its_command(tmp_path):
     path = tmp_path / "plan.toml"
     path.write_text(PENDULUM, encoding="utf-8")
     gains = tmp_path / "gains.toml"
@@ -251,7 +245,7 @@ def ask(question, known, options):
 
 
 @pytest.mark.slow
-def test_a_question_that_kills_its_worker_takes_no_other_with_it(tmp_path: Path) -> None:
+def test_a_question_that_kills_its_worker_takes_no_other_with_it(tmp_path):
     (tmp_path / "answers" / "sweep" / "asks").mkdir(parents=True)
     (tmp_path / "answers" / "sweep" / "asks" / "killer.py").write_text(KILLER, encoding="utf-8")
     path = tmp_path / "plan.toml"
@@ -275,7 +269,7 @@ def test_a_question_that_kills_its_worker_takes_no_other_with_it(tmp_path: Path)
 
 
 @pytest.mark.slow
-def test_two_workers_and_a_kill_change_no_byte(tmp_path: Path) -> None:
+def test_two_workers_and_a_kill_change_no_byte(tmp_path):
     """kill -9 of all of it in the middle, then --resume on two workers; beside one that was left alone."""
     path = tmp_path / "plan.toml"
     path.write_text(PLAN.replace("step = 0.05", "step = 0.0005"), encoding="utf-8")
@@ -292,16 +286,16 @@ def test_two_workers_and_a_kill_change_no_byte(tmp_path: Path) -> None:
     assert contents(out) == contents(tmp_path / "alone")
 
 
-def program(*words: object) -> list[str]:
+def program(*words):
     return [sys.executable, "-m", "lyapcheck", *map(str, words)]
 
 
-def rows_after(words: list[object], out: Path, **variables: str) -> list[dict[str, Any]]:
+def rows_after(words, out, **variables):
     subprocess.run(program(*words), env={**os.environ, **variables}, capture_output=True, check=False)
     return rows_of(out)
 
 
-def test_over_a_variation_the_gate_answers_as_with_vary(plan: Path, tmp_path: Path) -> None:
+def test_over_a_variation_the_gate_answers_as_with_vary(plan, tmp_path):
     command("sweep", plan, "--out", tmp_path / "out")
     rows = rows_of(tmp_path / "out")
     ranges = (Vary.parsed("viscous=-30%..+0%"),)
@@ -322,7 +316,7 @@ def test_over_a_variation_the_gate_answers_as_with_vary(plan: Path, tmp_path: Pa
             assert Fraction(str(row["margin"])) <= least + Fraction(1, 10**9)
 
 
-def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path: Path) -> None:
+def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path):
     path = tmp_path / "plan.toml"
     path.write_text(
         'robots = ["reyes-kelly2"]\nvariations = [[], ["viscous=-5%..+5%"], ["viscous=+5%..+5%"]]\n'

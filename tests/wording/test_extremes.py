@@ -1,13 +1,9 @@
 """Words for extreme results: every answer in every format, with numbers and names that nobody expects."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
 import re
-from collections.abc import Callable
-from pathlib import Path
 from random import Random
 from xml.etree import ElementTree
 
@@ -60,19 +56,18 @@ SLOW = {
     "recheck": "recheck proofs --format csv",
     "ranges": "robot buap3 --max-boxes 20",
 }
-TWELVE = ("gate twelve.toml", "tune twelve.urdf --m 1", f"simulate twelve.toml {SHORT}")
 NO_NUMBER = re.compile(r"(?<![\w/.])[+-]?(?:nan|NaN|inf|Infinity)(?![\w(])|\bNone\b")
 
 
-def refuse(text: str) -> None:
+def refuse(text):
     raise ValueError(f"{text} is no JSON")
 
 
-def strict(text: str) -> None:
+def strict(text):
     json.loads(text, parse_constant=refuse)
 
 
-CHECKS: dict[str, Callable[[str], object]] = {
+CHECKS = {
     "json": strict,
     "sarif": strict,
     "junit": ElementTree.fromstring,
@@ -81,16 +76,16 @@ CHECKS: dict[str, Callable[[str], object]] = {
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("extremes")
     for name, text in {"g.toml": GAINS, "plan.toml": PLAN, "sine.toml": SINE}.items():
         (place / name).write_text(text)
     return place
 
 
-def answer_of(words: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Answer:
+def answer_of(words, folder, monkeypatch):
     """What a command finds."""
-    answers: list[Answer] = []
+    answers = []
     monkeypatch.chdir(folder)
     written = Answer.written
     if words.startswith("recheck"):
@@ -102,7 +97,7 @@ def answer_of(words: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Answ
     return answers[-1]
 
 
-def hold(answer: Answer) -> None:
+def hold(answer):
     """Written in every format, without a word for what is no number."""
     for form in JudgedFormat:
         text = answer.written(form)
@@ -111,7 +106,7 @@ def hold(answer: Answer) -> None:
         CHECKS.get(form, str)(text)
 
 
-def drawn(answer: Answer, examples: int, most: int) -> None:
+def drawn(answer, examples, most):
     @settings(
         max_examples=examples,
         deadline=None,
@@ -121,22 +116,20 @@ def drawn(answer: Answer, examples: int, most: int) -> None:
         suppress_health_check=list(HealthCheck),
     )
     @given(st.integers(0, 2**32))
-    def with_other_results(seed: int) -> None:
+    def with_other_results(seed):
         hold(redrawn(answer, Random(seed).choice, most))
 
     with_other_results()
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_answers_have_words_for_extreme_results(
-    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_answers_have_words_for_extreme_results(name, folder, monkeypatch):
     drawn(answer_of(QUICK[name], folder, monkeypatch), 6, 3)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK | SLOW)
-def test_answers_have_words_for_many_more(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_answers_have_words_for_many_more(name, folder, monkeypatch):
     """Up to 300 results, of one and of three joints."""
     drawn(answer_of((QUICK | SLOW)[name], folder, monkeypatch), 40, 300)
 
@@ -145,7 +138,7 @@ def test_answers_have_words_for_many_more(name: str, folder: Path, monkeypatch: 
 @pytest.mark.parametrize(
     "words", ["gate twelve.toml", "tune twelve.urdf --m 1", f"simulate twelve.toml {SHORT}"]
 )
-def test_twelve_joints_have_words(words: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_twelve_joints_have_words(words, folder, monkeypatch):
     (folder / "twelve.urdf").write_text(generic(12))
     gains = f'[[gains]]\nname = "a"\nm = 1\nkp = {[0.1] * 12}\nkv = {[0.01] * 12}\n'
     (folder / "twelve.toml").write_text('robot = "twelve.urdf"\n' + gains)
@@ -154,10 +147,8 @@ def test_twelve_joints_have_words(words: str, folder: Path, monkeypatch: pytest.
 
 
 @pytest.mark.parametrize("fault", ["document", "data"])
-def test_a_fault_in_the_wording_costs_no_data(
-    fault: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def broken(answer: Answer) -> None:
+def test_a_fault_in_the_wording_costs_no_data(fault, folder, monkeypatch):
+    def broken(answer):
         raise ZeroDivisionError(answer.schema)
 
     monkeypatch.chdir(folder)

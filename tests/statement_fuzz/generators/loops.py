@@ -40,7 +40,6 @@ SCRIPTS = (
 OPERATIONS = {
     *["add", "apply", "diag", "div", "dot", "mat", "mul", "neg", "num", "pow", "scale", "sum", "var", "vec"]
 }
-FRICTION = ("none", "any", "positive")
 NAMED = ("var", "vec", "mat", "diag")
 FACTORS = ("-1", "0", "2", "1/2", "10", "1/10")
 
