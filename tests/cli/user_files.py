@@ -4,13 +4,12 @@ What is printed, as JSON, is how each command ended. The memory of this process 
 reads without end fails here. Each command reads a missing file first: what it imports is no growth.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource
 import shutil
 import sys
+import threading
 from pathlib import Path
 
 from tests.helpers.command import lyapcheck
@@ -49,7 +48,7 @@ ENDINGS = (".toml", ".urdf", ".csv", ".py", ".json")
 HUGE = 110_000_000
 
 
-def put(kind: str, folder: Path) -> None:
+def put(kind, folder):
     """``bad`` with each ending, of one kind."""
     for ending in ENDINGS:
         path = folder / f"bad{ending}"
@@ -71,10 +70,11 @@ def put(kind: str, folder: Path) -> None:
             path.symlink_to("/proc/self/mem")  # a regular file that not even root reads from its start
 
 
-def main(folder: Path) -> None:
+def main(folder):
     """Run all commands on all kinds in a folder, and print a list of what came of it."""
     for name, text in (("gains", GAINS), ("recorded", RECORDED), ("overlay", OVERLAY)):
         (folder / f"{name}.toml").write_text(text, encoding="utf-8")
+    threading.stack_size(1 << 18)  # those of timers that are cancelled and not yet gone are no growth either
     result = []
     with one_process():
         for kind in KINDS:
