@@ -59,7 +59,7 @@ def test_a_reader_that_goes_away_gets_no_traceback() -> None:
 def test_an_interrupted_gate_says_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def interrupt(path: str) -> GainFile:
+    def interrupt(*_: object, **__: object) -> GainFile:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("lyapcheck.control.gains.read_gain_file", interrupt)

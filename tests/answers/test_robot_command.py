@@ -325,7 +325,7 @@ def test_each_row_says_for_which_arms_it_is_proved(
     ("arguments", "rule"),
     [
         (("nobody",), "neither a built-in arm nor a file"),
-        (("buap3", "--tip", "x"), "buap3 is no URDF file"),
+        (("buap3", "--tip", "x"), "buap3 is built in, and has no links"),
         (("no.urdf",), "cannot be read"),
         (
             (str(ARMS / "ur5.urdf"), "--tip", "tool"),

@@ -135,7 +135,6 @@ BAD = [
     (["--csv", "/no/such/directory/run.csv"], "--csv"),
     (["--csv", "/"], "--csv"),
     (["--plot", "/no/such/directory"], "--plot"),
-    (["--robot", "pelican2"], "--target"),
     (["--robot", "pelican2", "--target", "10,20"], "gains"),
     (["--experiment", "--time", "0.001"], "T"),
 ]
