@@ -14,7 +14,7 @@ from tests.helpers.command import invoke
 from tests.helpers.urdf_texts import TWO
 
 GAINS = 'robot = "two.urdf"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.1]\n'
-TAKING = "robot tune gate epsilon bounds simulate check derive table report init".split()
+TAKING = [
     "robot",
     "tune",
     "gate",
@@ -26,7 +26,7 @@ TAKING = "robot tune gate epsilon bounds simulate check derive table report init
     "table",
     "report",
     "init",
-)
+]
 
 
 @pytest.fixture(autouse=True)
