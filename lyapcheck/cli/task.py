@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -30,6 +31,8 @@ MAX_BOXES = 100_000
 Made = TypeVar("Made")
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""
+SMALL, TURN = 2.0, 360.0
+"""Degrees; goals below or beyond look like radians or a slip."""
 SPREAD = 45.0
 """Degrees."""
 BAND = 1.0
@@ -289,4 +292,8 @@ def _by_options(make: Callable[[], Made]) -> Callable[[], Made]:
 def _goal(target: str | None, model: RobotModel) -> tuple[float, ...]:
     """What was asked for, or the published goal for an arm of three joints, 45° for each joint of others."""
     default = "45,45,90" if model.n == 3 else ",".join(["45"] * model.n)
-    return parse_angles("--target", default if target is None else target, model.joints)
+    goal = parse_angles("--target", default if target is None else target, model.joints)
+    farthest = math.degrees(max(map(abs, goal)))
+    if 0 < farthest < SMALL or farthest >= TURN:
+        print(f"note: --target is in degrees, and goes {farthest:.4g}° at most", file=sys.stderr)
+    return goal

@@ -19,7 +19,7 @@ table of ixx, iyy, izz and, where they are not zero, ixy, ixz, iyz::
 
     [[links]]                           # one for each joint with the link that it moves, base first
     name = "pivot"
-    axis = [0, 1, 0]                    # of length exactly 1
+    axis = [0, 1, 0]                    # of a rational length, as [3, 4, 0] is
     origin = [0, 0, 0]                  # of the joint, from the joint before (or the base)
     mass = 23.902                       # kg
     com = [0, 0, -0.091]                # centre of mass, from the joint

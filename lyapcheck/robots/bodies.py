@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice, product
+from math import isqrt
 
 from flint import fmpq, fmpq_mat
 
@@ -73,10 +74,13 @@ def _read_axis(fields: ArmFields) -> tuple[Number, ...] | None:
     axis = fields.vector("axis", "")
     if axis is None:
         return None
-    if any(x.ranged for x in axis) or sum(x.value**2 for x in axis) != 1:
-        fields.fail("axis", "must be a vector of length exactly 1", "write [0, 0, 1], or [0.6, 0.8, 0]")
+    square = sum((x.value**2 for x in axis), Fraction(0))
+    length = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    if any(x.ranged for x in axis) or length**2 != square or not length:
+        rule = "must be a vector whose length is a rational number other than 0"
+        fields.fail("axis", rule, "write [0, 0, 1], or [3, 4, 0]; a URDF file may have any")
         return None
-    return axis
+    return tuple(replace(x, value=x.value / length) for x in axis)
 
 
 def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:

@@ -215,7 +215,7 @@ def test_gains_for_ranges_are_gains_for_their_members(arm, at):
 CORRECTED = {
     "bounds, --delta": ("bounds", "--delta", "0"),
     "bounds, --friction": ("bounds", "--friction", "0.1,0.1,0.1"),
-    "bounds, --target": ("bounds",),
+    "bounds, --target": ("bounds", "--target", "45,45,45,45,45"),
     "epsilon, --m": ("epsilon", "--m", "7"),
 }
 

@@ -20,7 +20,8 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.robots.numeric import NumericModel
-from tests.helpers.urdf_texts import generic
+from tests.helpers.urdf_texts import TWO, generic
+from tests.robots.test_urdf_kinds import WORDS
 
 STATES = 50
 TOLERANCE = 1e-12
@@ -76,6 +77,29 @@ def test_built_in_arms(name: str) -> None:
     other = pin.buildModelFromXML(as_urdf(data))
     other.gravity.linear = np.array([value(x) for x in data["gravity"]])
     compare(robots.load(name), other)
+
+
+@pytest.mark.parametrize(
+    "quaternion", ["0 0 0 1", "1 2 -3 0.5", "0.7071 0 0 0.7071", "-3 0 0 1e-3", "0 -1 0 0"]
+)
+@pytest.mark.parametrize("origin", ['<origin xyz="0.1 0 0" rpy="0 0 0"/>', '<origin xyz="0.3 0 0"/>'])
+def test_quaternions_of_urdf_1_1(tmp_path: Path, origin: str, quaternion: str) -> None:
+    xyz = origin.split('"')[1]
+    text = TWO.replace('<robot name="two">', '<robot name="two" version="1.1">')
+    text = text.replace(origin, f'<origin xyz="{xyz}" quat_xyzw="{quaternion}"/>', 1)
+    (tmp_path / "arm.urdf").write_text(text)
+    compare(robots.load(tmp_path / "arm.urdf"), pin.buildModelFromXML(text))
+
+
+@pytest.mark.parametrize(("old", "new", "what"), [row for row in WORDS if not row[2].startswith("refused")])
+def test_what_is_idle_or_told_is_so_for_pinocchio(tmp_path: Path, old: str, new: str, what: str) -> None:
+    """Of every word that is not read: M and g are those of Pinocchio, where it reads such a file."""
+    (tmp_path / "arm.urdf").write_text(TWO.replace(old, new, 1))
+    try:
+        other = pin.buildModelFromXML((tmp_path / "arm.urdf").read_text())
+    except ValueError:  # a continuous joint without effort or velocity, for one
+        return
+    compare(robots.load(tmp_path / "arm.urdf"), other)
 
 
 @pytest.mark.parametrize("seed", range(100))

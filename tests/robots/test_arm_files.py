@@ -141,6 +141,12 @@ BROKEN = [
     (CHAIN, "mass = 1.5", "mass = { value = 1.5, assumed = true }", ["an assumption needs its reason"]),
     (CHAIN, "mass = 1.5", "mass = { low = 1, high = 2 }", ["links[2].mass.value: is missing"]),
     (CHAIN, "coulomb = 0.1", "colomb = 0.1", ["arm.toml:22: links[2].colomb", "did you mean coulomb?"]),
+    (
+        CHAIN,
+        "axis = [0, 1, 0]",
+        "axis = [0, 1, 1]",
+        ["links[2].axis", "must be a vector whose length is a rational number"],
+    ),
     (CHAIN, "com = [0.3, 0, 0]", "com = 0.3", ["links[2].com = 0.3: must be a list of 3 numbers"]),
     (CHAIN, "izz = 0.1 ", "izz = -0.1 ", ["links[2].inertia", "must be positive semidefinite"]),
     (CHAIN, "izz = 0.1 ", "izz = 0.2 ", ["links[2].inertia", "must obey the triangle inequality"]),
@@ -181,8 +187,16 @@ def test_all_problems_at_once(tmp_path):
     assert len(problems(tmp_path, broken)) == 3
 
 
-def test_one_mistake_is_told_once(tmp_path):
-    assert len(problems(tmp_path, CHAIN.replace("axis = [0, 1, 0]", "axis = [0, 2, 0]"))) == 1
+def test_one_mistake_is_told_once(tmp_path: Path) -> None:
+    assert len(problems(tmp_path, CHAIN.replace("axis = [0, 1, 0]", "axis = [0, 2, 1]"))) == 1
+
+
+def test_an_axis_may_have_any_rational_length(tmp_path: Path) -> None:
+    arms = []
+    for axis in ("[0, 1, 0]", "[0, 2.5, 0]"):
+        (tmp_path / "arm.toml").write_text(CHAIN.replace("axis = [0, 1, 0]", f"axis = {axis}"))
+        arms.append(robots.load(tmp_path / "arm.toml"))
+    assert arms[0].mass == arms[1].mass
 
 
 def test_more_joints_than_are_understood(tmp_path):

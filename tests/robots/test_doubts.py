@@ -8,6 +8,7 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.cli.main import run
 from tests.helpers.urdf_texts import TWO
 
 SAME = TWO.replace('damping="0.5" friction="0.1"', 'damping="0.25"').replace(
@@ -64,3 +65,15 @@ def test_doubts_stand_in_the_notes_of_the_gate_and_change_no_verdict(tmp_path: P
         answer = gate(tmp_path / "g.toml")
         verdicts.append((answer[0].verdict, "as in templates" in " ".join(str(answer).split())))
     assert verdicts == [("accepted", True), ("accepted", False)]
+
+
+@pytest.mark.parametrize(("target", "told"), [("0.78,0.78", True), ("45,45", False), ("400,0", True)])
+def test_a_target_in_radians_is_told(
+    tmp_path: Path, target: str, told: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "two.urdf").write_text(TWO)
+    (tmp_path / "g.toml").write_text(
+        'robot = "two.urdf"\n[[gains]]\nname = "a"\nm = 1\nkp = [2, 1]\nkv = [1, 1]\n'
+    )
+    run(["bounds", str(tmp_path / "g.toml"), "--target", target, "--time", "1"])
+    assert ("--target is in degrees" in capsys.readouterr().err) == told

@@ -34,7 +34,7 @@ gravity = [0, 0, -9.81]         # m/s², in the base frame
 
 [[links]]                       # one for each joint with the link that it moves, base first
 name = "shoulder"
-axis = [0, 1, 0]                # of length exactly 1
+axis = [0, 1, 0]                # of a rational length, as [3, 4, 0] is
 origin = [0, 0, 0]              # of the joint, from the joint before (or the base), m
 mass = 6                        # kg
 com = [0, 0, -0.1]              # centre of mass, from the joint, m

@@ -55,8 +55,8 @@ def parse_xml(data: bytes, shown: str) -> Element:
     declared = _DECLARED.match(text)
     encoding = declared[1].decode() if declared else "UTF-8"
     try:
-        if encoding.upper() in ("UTF-8", "UTF8") and not text.startswith((b"\xff\xfe", b"\xfe\xff")):
-            text.decode("utf-8")
+        if encoding.upper() in ("UTF-8", "UTF8"):
+            text.decode("utf-16" if text.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8")
         return _Builder(shown, text, skipped).run()
     except UnicodeDecodeError:
         repair = "save it as UTF-8, or declare its encoding in <?xml … ?>"

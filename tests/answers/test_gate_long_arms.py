@@ -1,0 +1,63 @@
+"""Arms whose M(q) is too long to be written out: right angles of four digits on seven joints."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from lyapcheck import robots
+from lyapcheck.answers.gate import gate
+from lyapcheck.control.gravity import computed_bounds
+from lyapcheck.robots.numeric import NumericModel
+from tests.helpers.command import invoke
+
+LINK = """\
+<link name="l{i}"><inertial><origin xyz="0.0{i} 0.02 0.05"/><mass value="{m}"/>
+<inertia ixx="0.012" iyy="0.012" izz="0.007" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="j{i}" type="revolute"><parent link="l{before}"/><child link="l{i}"/>
+<origin xyz="0.01 0.12 0.09" rpy="{turn} 0 0"/><axis xyz="0 0 1"/>
+<limit effort="60" velocity="2"/><dynamics damping="0.1{i}" friction="0.2"/></joint>
+"""
+
+
+def arm(folder: Path, first: str) -> str:
+    turns = [first] + ["1.5708", "-1.5708"] * 3
+    links = (LINK.format(i=i, before=i - 1, m=3 - 0.3 * i, turn=turn) for i, turn in enumerate(turns, 1))
+    (folder / "arm.urdf").write_text(f'<robot name="a"><link name="l0"/>{"".join(links)}</robot>')
+    gains = ", ".join(["0.5"] * 7)
+    text = f'robot = "arm.urdf"\n[[gains]]\nname = "g"\nm = 1\nkp = [{gains}]\nkv = [{gains}]\n'
+    (folder / "g.toml").write_text(text)
+    return str(folder / "arm.urdf")
+
+
+@pytest.mark.parametrize(("first", "most"), [("0", 0), ("3.1416", 1e-3), ("0.5", 60)])
+def test_gravity_about_a_nearly_vertical_first_axis_is_what_it_is(
+    tmp_path: Path, first: str, most: float
+) -> None:
+    import numpy as np
+
+    model = robots.load(arm(tmp_path, first))
+    bounds = computed_bounds(model)
+    q = np.random.default_rng(1).uniform(-3, 3, (2000, 7))
+    reached = np.abs(NumericModel(model).gravity(q)).max(axis=0)
+    assert all(own <= float(bound) for own, bound in zip(reached, bounds, strict=True))
+    assert bounds[0] <= Fraction(most)
+
+
+def test_such_an_arm_is_proved_stable_and_told_how_it_swings(tmp_path: Path) -> None:
+    arm(tmp_path, "0")
+    (result,) = answer = gate(tmp_path / "g.toml", None, ["10p", "lasalle"])
+    assert result.verdict == "accepted"
+    assert "estimated damping ratio, at the posture of most inertia: j1 0." in " ".join(str(answer).split())
+    proofs = str(tmp_path / "proofs")
+    command = ("gate", str(tmp_path / "g.toml"), "--condition", "lasalle", "--certificates", proofs)
+    assert invoke(*command).exit_code == invoke("recheck", proofs).exit_code == 0
+
+
+def test_what_needs_m_written_out_says_so(tmp_path: Path) -> None:
+    arm(tmp_path, "0")
+    (result,) = gate(tmp_path / "g.toml", None, ["scalar"])
+    assert result.verdict == "undecided"
+    assert "too long to be written out; --condition lasalle" in str(result.failures[0].reason)
