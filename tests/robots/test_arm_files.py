@@ -187,11 +187,11 @@ def test_all_problems_at_once(tmp_path):
     assert len(problems(tmp_path, broken)) == 3
 
 
-def test_one_mistake_is_told_once(tmp_path: Path) -> None:
+def test_one_mistake_is_told_once(tmp_path):
     assert len(problems(tmp_path, CHAIN.replace("axis = [0, 1, 0]", "axis = [0, 2, 1]"))) == 1
 
 
-def test_an_axis_may_have_any_rational_length(tmp_path: Path) -> None:
+def test_an_axis_may_have_any_rational_length(tmp_path):
     arms = []
     for axis in ("[0, 1, 0]", "[0, 2.5, 0]"):
         (tmp_path / "arm.toml").write_text(CHAIN.replace("axis = [0, 1, 0]", f"axis = {axis}"))
