@@ -8,7 +8,7 @@ from fractions import Fraction
 from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import HarmonicSizes
-from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
+from lyapcheck.check.kinds.sampled import MOST_DELAY, MOST_TAPS, SampledStable, ShortPeriod
 from lyapcheck.check.loop.chain import lever_bound, pulls
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.statement import Proof
@@ -41,31 +41,30 @@ class SampledLoop:
     angles: str = "unwrapped"
 
     def __post_init__(self) -> None:
-        for name, value, fits, rule in (
-            ("period", self.period, self.period > 0, "must be positive; give seconds"),
-            ("longest", self.longest, self.stretch >= 1, "is below the period; give the longest interval"),
-            ("delay", self.delay, self.delay in range(1001), "must be whole samples to 1000; round it up"),
-            (
-                "filter",
-                self.filter,
-                isinstance(self.filter, tuple) and 1 <= len(self.filter) <= 1000,
-                "must be 1 to 1000 weights of differences; cut one off that never ends",
+        taps = isinstance(self.filter, tuple) and 1 <= len(self.filter) <= MOST_TAPS
+        rules = {
+            "period": (self.period > 0, "must be positive; give seconds"),
+            "longest": (self.stretch >= 1, "is below the period; give the longest interval"),
+            "delay": (
+                self.delay in range(MOST_DELAY + 1),
+                f"must be whole samples to {MOST_DELAY}; round it up",
             ),
-            (
-                "velocity",
-                self.velocity,
+            "filter": (
+                taps,
+                f"must be 1 to {MOST_TAPS} weights of differences; cut one off that never ends",
+            ),
+            "velocity": (
                 self.velocity == "difference",
                 'needs the inertia and is not covered; take velocity = "difference"',
             ),
-            (
-                "angles",
-                self.angles,
+            "angles": (
                 self.angles == "unwrapped",
                 "jump by a turn and are not covered; add the turns, as |Δq| < π in a sample",
             ),
-        ):
+        }
+        for name, (fits, rule) in rules.items():
             if not fits:
-                raise ValueError(f"{name} = {value} {rule}")
+                raise ValueError(f"{name} = {getattr(self, name)} {rule}")
 
     @property
     def stretch(self) -> Fraction:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from lyapcheck.check.kinds.sampled import SampledStable
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Bullets, Paragraph, Section, Table
 from lyapcheck.promise import all_say
 from lyapcheck.report.claim_row import ClaimRow
@@ -26,7 +28,11 @@ def sampled_word(report: Report) -> tuple[str, bool] | None:
     rows = sampled_rows(report, members=True)
     shown = [row for row in rows if row.verdict is Verdict.PROVED]
     left = [row for row in rows if row not in shown]
-    stable = all_say((row.promise for row in shown), "stable at 2.5 ms")
+    asked = [row.promise.asked for row in shown if row.promise is not None]
+    periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
+    stable = all_say(
+        (row.promise for row in shown), f"stable{' and'.join(sorted(periods))} under suppositions"
+    )
     parts = [f"{_members(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
     return ("; ".join(parts), not left) if rows else None
 

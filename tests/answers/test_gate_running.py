@@ -216,6 +216,15 @@ def test_friction_counts_to_what_is_asked(tmp_path: Path) -> None:
         assert only(judged(file, LoopEntry(unknown_payload=Fraction(1))), "holds")[0].verdict == verdict
 
 
+def test_what_pulls_at_no_joint_is_held(tmp_path: Path) -> None:
+    file, arm = pendulum(tmp_path, 1, "1"), tmp_path / "arm.toml"
+    arm.write_text(arm.read_text().replace("[0, 0, -10]", "[0, -10, 0]"))
+    result = judged(file, LoopEntry(unknown_payload=Fraction(5)), ("10i", "holds"))
+    (check,) = only(result, "holds")
+    assert isinstance(check, HoldsCheck)
+    assert (check.error, result.verdict) == (0, "accepted")
+
+
 def test_a_printed_model_has_no_place_for_a_payload(tmp_path: Path) -> None:
     file = tmp_path / "gains.toml"
     file.write_text('robot = "reyes-kelly2"\n[[gains]]\nname = "a"\nm = 1\nkp = [9, 9]\nkv = [0.1, 0.1]\n')

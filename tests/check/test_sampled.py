@@ -14,13 +14,18 @@ import pytest
 from mpmath import mp, mpf
 
 from lyapcheck import asked
+from lyapcheck.check.kinds.all_of import AllOf, EveryPart
+from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
+from lyapcheck.check.kinds.inertia import Bisection, MassAbove
 from lyapcheck.check.kinds.sampled import SampledStable
+from lyapcheck.check.refusal import Refused
+from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.sampled import SampledLoop, judged_sampled, largest_period, sampled_proof
 from lyapcheck.robots import load
 from tests import oracle
-from tests.arena.sampled import PRINTED
+from tests.arena.sampled import BOTH, NOTHING, ONE, PRINTED, SHOWN, TWO
 from tests.oracle.numbers import supremum
 
 GAINS = {1: ((28, 60, 5), "0.233"), 2: ((27, 50, 5), "0.223"), 3: ((25, 50, 5), "0.223")}
@@ -215,3 +220,17 @@ def test_a_loop_that_it_does_not_speak_of_is_refused_with_what_to_do(
 ) -> None:
     with pytest.raises(ValueError, match=words):
         SampledLoop(**({"period": F(1, 1000)} | loop))
+
+
+def test_a_conjunction_is_about_one_arm_whichever_way_it_is_given() -> None:
+    heavy = tuple(replace(link, mass=link.mass * 2) for link in TWO.links)
+    chain = ChainAbove(TWO.links, F(0)), OwnMoments()
+    for one, shown, (part, own) in (
+        (TWO, BOTH, chain),
+        (ONE, SHOWN, (MassAbove(ONE.mass, ONE.parameters, F(0)), Bisection())),
+        (PRINTED, NOTHING, chain),
+    ):
+        both = AllOf((("arm", part), ("loop", one)))
+        assert verify(both, EveryPart((own, shown))).verdict == "proved"
+    with pytest.raises(Refused, match="another M"):
+        AllOf((("arm", chain[0]), ("loop", replace(TWO, links=heavy)))).require_well_formed()

@@ -188,10 +188,10 @@ def judged_sets(
         if record is not None or set(RUNNING) & set(names):
             from lyapcheck.answers.running import running_checks
 
-            viscous_min = gain_file.bounds.viscous_min
+            viscous_min, within = gain_file.bounds.viscous_min, checks if gamma == "true" else ()
             checks = (
                 *checks,
-                *running_checks(gains, limits, record, viscous_min, names, checks, more or not explained),
+                *running_checks(gains, limits, record, viscous_min, names, within, more or not explained),
             )
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in names) and not broken
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS

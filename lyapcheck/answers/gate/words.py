@@ -30,7 +30,7 @@ RULES = {
     "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
     "with or without friction (Khalil 2002, corollary 4.2)",
     SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
-    "whatever the inertia; values are periods",
+    "whatever the inertia; values are periods; joints are revolute, readings exact and unwrapped",
     HOLDS: "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
 }

@@ -98,7 +98,7 @@ def holds_checks(
     record: LoopRecord | None,
     dry: Sequence[Fraction] | None = None,
 ) -> tuple[Check, ...]:
-    """The check of each joint on which something unknown may act; one without a joint where none can be made.
+    """The check of each joint that something unknown may move, of all if it moves none; or why there is none.
 
     Args:
         gains: the controller.
@@ -121,8 +121,8 @@ def holds_checks(
     except TooManyTerms as error:
         return (Check(HOLDS, reason=str(error)),)
     friction = dry_friction(model) if dry is None else dry
-    checks = (_check(gains, model, record, (i, friction[i]), parts) for i in range(model.n))
-    return tuple(check for check in checks if check is not None)
+    moved = [i for i in range(model.n) if any(part.bounds[i] for part in parts)] or range(model.n)
+    return tuple(_check(gains, model, record, (i, friction[i]), parts) for i in moved)
 
 
 @dataclass(frozen=True)
@@ -156,11 +156,9 @@ def payload_alone(model: RobotModel, payload: Fraction) -> RobotModel:
 
 def _check(
     gains: GainSet, model: RobotModel, record: LoopRecord, joint: tuple[int, Fraction], parts: Sequence[_Part]
-) -> HoldsCheck | None:
+) -> HoldsCheck:
     i, friction = joint
     most = sum((part.share * part.bounds[i] for part in parts), Fraction(0))
-    if not most:
-        return None
     kp = Fraction(gains.kp[i])
     total = most + friction
     known = HoldsCheck(

@@ -27,12 +27,15 @@ def arm_of(statement: Any) -> Iterator[tuple[str, object]]:
     """Which arm a statement is about, as data by name.
 
     g is only what has an entry for each of two or more joints: one torque, and a Hessian, are called so too.
+    Nothing is said by fields that a statement calls ``unused``, as it gives its arm in another way.
     """
     if isinstance(statement, AllOf):
         for _, part in statement.parts:
             yield from arm_of(part)
         return
     for field in fields(statement):
+        if field.name in getattr(statement, "unused", ()):
+            continue
         value, fact = getattr(statement, field.name), ARM.get(field.name)
         if field.name in ("everywhere", "arm"):
             yield from arm_of(value)

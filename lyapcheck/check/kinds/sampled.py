@@ -117,6 +117,14 @@ class SampledStable(Total):
         return len(self.kp)
 
     @property
+    def unused(self) -> set[str]:
+        """Fields of the ways in which the arm is not given."""
+        used = (
+            {"links", "fall"} if self.links else {"mass", "potential", "parameters"} if self.mass else set()
+        )
+        return {"links", "fall", "mass", "potential", "parameters"} - used
+
+    @property
     def mass_positive(self) -> Statement | None:
         """M(q) ≻ 0, where M is given: without it the statement is about no arm."""
         if self.links:
