@@ -30,10 +30,9 @@ def sampled_word(report: Report) -> tuple[str, bool] | None:
     left = [row for row in rows if row not in shown]
     asked = [row.promise.asked for row in shown if row.promise is not None]
     periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
-    stable = all_say(
-        (row.promise for row in shown), f"stable{' and'.join(sorted(periods))} under suppositions"
-    )
-    parts = [f"{_members(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
+    promises, end = [row.promise for row in shown], f"{' and'.join(sorted(periods))} under suppositions"
+    parts = [all_say(promises, f"{_members(shown)}: stable{end}")] if shown else []
+    parts += [f"{_members(left)}: open"] if left else []
     return ("; ".join(parts), not left) if rows else None
 
 
