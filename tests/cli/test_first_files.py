@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import gate, robots
-from lyapcheck.answers.tune.response.trial import Wishes, tried
+from lyapcheck.answers.tune.response.trial import Trials, Wishes, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError
@@ -42,8 +42,8 @@ def test_the_gains_of_init_are_gains_that_tune_would_recommend(monkeypatch, tmp_
     assert (result.verdict, result.deciding) == ("accepted", ("10p", "scalar"))
     assert "--overshoot 5 --settle 2.5 --rest-error 3" in (tmp_path / "gains.toml").read_text()
     arm, asked = robots.load(tmp_path / "arm.toml"), Wishes(overshoot=5, settle=2.5, rest_error=3)
-    motions = [task_for(2, np.radians(goal), None, None, 5.0) for goal in ((45, 45), (-30, 90), (90, 0))]
-    trial = tried(result.gains, [arm], motions, asked, exact=True)
+    motions = tuple(task_for(2, np.radians(goal), None, None, 5.0) for goal in ((45, 45), (-30, 90), (90, 0)))
+    trial = tried(result.gains, [arm], Trials(asked, motions), exact=True)
     assert trial.kept
     assert trial.worst(asked) <= 1
 

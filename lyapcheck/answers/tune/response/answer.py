@@ -131,7 +131,9 @@ class BenchTuning(Answer):
         record = record_of(self.loop, NOTHING, self.model.loop)
         if record is None or record.period is None:
             return f"{motions} of (11) at an infinite rate, {without}"
-        return f"{motions} at {time_text(record.period)}, {record.how}, {without}"
+        count = max((one.trial.as_run for one in self.own), default=0)
+        runs = f"{count} run{'' if count == 1 else 's'} at {time_text(record.period)}, {record.how}"
+        return f"{motions}, {runs}, {without}"
 
     @property
     def good(self) -> list[Candidate]:
