@@ -31,7 +31,6 @@ from lyapcheck.output.digits import NONE, shown
 from lyapcheck.output.document import Block, Bullets, Section
 from lyapcheck.output.fields import Field
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.printed import printed_for
 from lyapcheck.simulate.results import BAND, SETTLING_BAND
 from lyapcheck.simulate.run import Run
@@ -135,9 +134,7 @@ class SetPointRuns(Simulation[Run]):
         """How the loop was sampled, and how far from the goal the runs end."""
         loops = dict.fromkeys(one.loop for one in self.results)
         sampled = [one for one in self.results if one.loop is not None and one.complete]
-        ways = "".join(
-            f", {'as on the bench' if loop == Bench() else _loop_text(loop)}" for loop in loops if loop
-        )
+        ways = "".join(f", {_loop_text(loop)}" for loop in loops if loop)
         ends = [(float(abs(x)), i) for one in sampled for i, x in enumerate(one.indices.final_error)]
         angle, i = max(ends, default=(0.0, 0))
         if angle <= math.degrees(BAND):
