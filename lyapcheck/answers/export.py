@@ -12,13 +12,14 @@ from typing import Any
 from lyapcheck import asked, store
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
+from lyapcheck.answers.running.sampled import periods_text
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.control.sampled import SampledLoop, judged_sampled, largest_period
-from lyapcheck.control.sampling import LoopRecord, time_text
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
 from lyapcheck.export.rounding import Unbounded
@@ -123,8 +124,8 @@ class Exported:
             return f"as run: stability is open; {self.reason}"
         loop, question = self.controller.loop, self.certificate.statement
         what = "stable at the goal" if question.conclusion == "goal" else "comes to rest"
-        words = f"as run ({loop.text}): {what} for every period up to {time_text(question.period)}"
-        words += ", while no motor saturates"
+        run = loop.text if self._covered else loop.how
+        words = f"as run ({run}): {what} {periods_text(question)}, while no motor saturates"
         return self.sampled.says(words) + ("" if self._covered else "; at the period asked for it is open")
 
     @property

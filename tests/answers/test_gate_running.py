@@ -90,6 +90,15 @@ def test_what_the_largest_period_depends_on(tmp_path: Path) -> None:
     assert most(delay=0, filter=(Fraction(1, 2), Fraction(1, 2))) == base
 
 
+def test_what_is_said_of_periods_holds_at_each(tmp_path: Path) -> None:
+    """Intervals of 2.8 ms beside 0.1 ms are 28 T: a multiple of T is shown, and of exact readings."""
+    loop = {"longest": Fraction(28, 10_000), "encoder": 4}
+    for period, how in ((T, "2.5 ms, no interval above 2.8 ms, no"), (Fraction(2, 1000), "no")):
+        (said,) = sampled(paper(tmp_path, 1), period=period, delay=0, **loop).sentences(False)
+        assert said.startswith(f"as run ({how} delay, velocity by differences): it is stable with exact readings")
+        assert f", no interval above {float(loop['longest'] / period):g} times it" in said
+
+
 REFUSED = [
     ({"velocity": "measured"}, "measured"),
     ({"lowpass": Fraction(50)}, "lowpass"),

@@ -82,13 +82,20 @@ class SampledCheck(Check):
         """What is shown and what is refuted of the periods, unless a rejection was told."""
         said = []
         if self.up_to is not None and self.most is not None:
-            words = f"as run ({self.record.text if self.named else self.record.how}): "
+            covered = self.named and self.record.period is not None and self.record.period <= self.most
+            words = f"as run ({self.record.text if covered else self.record.how}): "
             end = "" if self.counts else ", while no motor saturates, which nothing shows"
-            end = f"for every period up to {time_text(self.most)}{end}"
+            end = periods_text(self._asked) + end
             said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
         if self.refuted is not None and not (told and self.verdict == REJECTED):
             said.append(unstable_text(self.refuted, self.rests))
         return said
+
+
+def periods_text(shown: SampledStable) -> str:
+    """For which periods: (S) bounds the intervals of each by a multiple of that period, not by one time."""
+    apart = f", no interval above {decimal_text(shown.stretch)} times it" if shown.stretch > 1 else ""
+    return f"with exact readings for every period up to {time_text(shown.period)}{apart}"
 
 
 def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
