@@ -194,7 +194,7 @@ LOOP = {
     "filter": ("TAPS", "Taps of a filter of the velocity, the newest first: 0.5,0.5."),
     "lowpass": ("HZ", "Cut-off of a first-order filter of the velocity."),
     "encoder": ("BITS", 'Of every joint: "17 bits", or counts a turn.'),
-    "unknown_payload": ("KG", "The most at the tip that the controller does not know."),
+    "unknown_payload": ("KG", "The most at the centre of mass of the last link, unknown to the controller."),
     "gravity_error": ("PERCENT", "How wrong the gravity that the controller knows may be."),
 }
 """Options of the loop with what they take; each is a key of ``[loop]``."""

@@ -7,7 +7,7 @@ delay = 1                     # optional: whole samples from reading to torque, 
 velocity = "difference"       # or "measured"
 filter = [0.5, 0.5]           # optional: taps of a filter of the velocity; or lowpass = 50, in Hz
 encoder = "17 bits"           # optional: of every joint; or its counts a turn
-unknown_payload = 2           # optional: kg at the tip that the controller does not know
+unknown_payload = 2           # optional: kg at the last link that the controller does not know
 gravity_error = 5             # optional: % by which the controller's g(q) may be wrong
 """
 

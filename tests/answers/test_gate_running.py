@@ -95,7 +95,9 @@ def test_what_is_said_of_periods_holds_at_each(tmp_path: Path) -> None:
     loop = {"longest": Fraction(28, 10_000), "encoder": 4}
     for period, how in ((T, "2.5 ms, no interval above 2.8 ms, no"), (Fraction(2, 1000), "no")):
         (said,) = sampled(paper(tmp_path, 1), period=period, delay=0, **loop).sentences(False)
-        assert said.startswith(f"as run ({how} delay, velocity by differences): it is stable with exact readings")
+        assert said.startswith(
+            f"as run ({how} delay, velocity by differences): it is stable with exact readings"
+        )
         assert f", no interval above {float(loop['longest'] / period):g} times it" in said
 
 
