@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -266,3 +267,76 @@ def test_without_a_record_one_sentence_says_what_is_supposed(tmp_path: Path) -> 
     file = str(paper(tmp_path, 1))
     assert "infinite rate" in invoke("gate", file).stdout
     assert "infinite rate" not in invoke("gate", file, "--rate", "400").stdout
+
+
+BY_PROOF = {
+    "buap3": ("[19.063, 44.342, 5.331]", "[8.170, 19.004, 1.757]"),
+    "reyes-kelly2": ("[41.089, 5.618]", "[17.610, 2.112]"),
+}
+MS = LoopEntry(period=Fraction(1, 1000))
+DRY = re.compile(r"\[joints\.coulomb\]\n(?:\w.*\n)*")
+RANGE = re.compile(r"^(?:assumed|low|high|note) = .*\n", re.MULTILINE)
+
+
+def by_proof(folder: Path, name: str, *removed: re.Pattern[str]) -> Path:
+    """Gains with k_v above the friction, and the arm's file without what is removed."""
+    text = (Path(robots.__file__).parent / "arms" / f"{name}.toml").read_text()
+    for pattern in removed:
+        text = pattern.sub("", text)
+    (folder / "arm.toml").write_text(text)
+    kp, kv = BY_PROOF[name]
+    file = folder / "gains.toml"
+    file.write_text(f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = {kp}\nkv = {kv}\n')
+    return file
+
+
+@pytest.mark.parametrize("name", list(BY_PROOF))
+def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    file, made = by_proof(tmp_path, name, DRY, RANGE), tmp_path / "made"
+    untried = judged(file, MS, ("sampled",))
+    assert untried.verdict == "undecided"
+    assert "--within" in only(untried, "sampled")[0].reason
+    words = ("gate", str(file), "--rate", "1000", "--within", "90", "--condition", "sampled")
+    done = invoke(*words, "--certificates", str(made))
+    assert (done.exit_code, done.stdout[0]) == (0, "!")
+    assert "sampled at exactly 1 ms, from rest within 90° only" in done.stdout.splitlines()[0]
+    (kept,) = made.glob("*sampled*.json")
+    asked = json.loads(kept.read_text())["statement"]
+    told = [asked[key] for key in ("kind", "period", "within", "delay")]
+    assert told == ["SampledFromRest", "1/1000", "90", 1]
+    assert invoke("recheck", str(kept)).exit_code == 0
+    assert left_over(words, monkeypatch) == []
+
+
+def test_from_rest_it_counts_only_where_no_motor_saturates(tmp_path: Path) -> None:
+    file = by_proof(tmp_path, "reyes-kelly2", DRY)
+    file.write_text(file.read_text() + "[bounds]\ntorque = [150, 9]\n")
+    result = judged(file, MS, ("sampled",), within=Fraction(90))
+    (check,) = only(result, "sampled")
+    assert isinstance(check, SampledCheck)
+    assert check.from_rest is not None
+    assert (check.verdict, result.verdict) == ("undecided", "undecided")
+    assert "no motor saturates" in check.reason
+    assert "which nothing shows" in check.sentences(told=False)[0]
+
+
+NOT_FROM_REST = [
+    ("buap3", {}, "over all ranges"),
+    ("reyes-kelly2", {}, "without dry friction"),
+    ("reyes-kelly2", {"period": Fraction(8, 1000)}, "(P) finds no proof"),
+    ("reyes-kelly2", {"longest": Fraction(2, 1000)}, "constant intervals"),
+    ("reyes-kelly2", {"filter": (Fraction(1, 2), Fraction(1, 2))}, "without a filter"),
+    ("reyes-kelly2", {"gravity_error": Fraction(1, 20)}, "knows g(q)"),
+    ("reyes-kelly2", {"delay": 7}, "delays to 6"),
+]
+
+
+@pytest.mark.parametrize(("name", "loop", "reason"), NOT_FROM_REST)
+def test_from_rest_what_is_not_shown_is_undecided(
+    tmp_path: Path, name: str, loop: dict[str, Any], reason: str
+) -> None:
+    file = by_proof(tmp_path, name, *(() if not loop else (DRY,)))
+    entry = LoopEntry(**({"period": Fraction(1, 1000)} | loop))
+    (check,) = only(judged(file, entry, ("sampled",), within=Fraction(90)), "sampled")
+    assert check.verdict == "undecided"
+    assert reason in check.reason

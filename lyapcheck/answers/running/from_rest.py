@@ -1,0 +1,90 @@
+"""Whether gains bring an arm to each goal from rest, at exactly one period: (P), where (S) does not show it.
+
+(P) is an energy that falls along the loop, found by a convex program. It speaks of an arm without dry
+friction whose gravity the controller knows, from starts at rest within so many degrees of the goal.
+
+References: ``lyapcheck.check.kinds.sampled_from_rest``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.asked import sampled_from_rest, viscous_of
+from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY
+from lyapcheck.control.judgement import judged_statement
+from lyapcheck.control.sampled import SampledLoop
+from lyapcheck.control.sampling import ONE
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.libraries import PACKAGES, installed, repair
+from lyapcheck.promise import Promise, promised
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.robots import RobotModel
+
+UNTRIED = "gate --within 90 looks for a proof from rest within 90° at exactly this period"
+TANH = (("tanh", None), ("hyperbolic", 1))
+SEARCHES = ("numpy", "scipy", "cvxpy", "clarabel")
+
+
+def shown_from_rest(
+    gains: GainSet,
+    arm: RobotModel | None,
+    record: LoopRecord,
+    viscous_min: Fraction | None,
+    within: Fraction | None,
+) -> tuple[Promise | None, str]:
+    """That these gains bring the arm, but for its dry friction, to each goal at the period of the record.
+
+    Args:
+        gains: the controller.
+        arm: with all of its ranges.
+        record: how a computer runs it; it has a period.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        within: of each |e_i| at the start, degrees; ``None``: it is not looked for.
+
+    Returns:
+        The promise, or ``None`` and why there is none.
+
+    Soundness: that of ``lyapcheck.check.verify``.
+    """
+    unfit = _unfit(gains, arm, record, within)
+    if within is None or unfit or arm is None or record.period is None:
+        return None, unfit if within is not None else "" if unfit else UNTRIED
+    lacking = next((one for one in SEARCHES if not installed(one)), None)
+    if lacking is not None:
+        return None, f"(P) takes {PACKAGES[lacking]}, which is not installed; {repair(lacking)}"
+    from lyapcheck.search.sampled_energy import falling_energy
+
+    loop = SampledLoop(record.period, record.longest, record.delay)
+    try:
+        asked = sampled_from_rest(gains, loop, arm, within)
+    except TooManyTerms:
+        return None, "M(q) of these links is too long to be written out, which (P) asks for"
+    asked = replace(asked, viscous=viscous_of(arm, viscous_min))
+    proof = falling_energy(asked)
+    if proof is None:
+        over = ", over all ranges of the arm" if any(low < high for low, high in asked.viscous) else ""
+        return None, f"(P) finds no proof from rest within {decimal_text(within)}°{over}"
+    return promised(asked, judged_statement(asked, [proof]))
+
+
+def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord, within: Fraction | None) -> str:
+    """Why (P) does not speak of this loop; empty where it does."""
+    rules = {
+        "asks for the arm itself: name one with robot = …": arm is not None,
+        f"speaks of arms to {FEW_JOINTS} joints": arm is None or arm.n <= FEW_JOINTS,
+        "speaks of h = tanh, m = 1": (gains.family, gains.m) in TANH,
+        "speaks of velocities by one difference, without a filter": record.filter == ONE
+        and record.velocity == "difference",
+        "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
+        f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
+        "supposes that the controller knows g(q)": record.knows_gravity,
+        f"speaks of starts to {FARTHEST}° from the goal": within is None or 0 < within <= FARTHEST,
+    }
+    return next((f"(P) {rule}" for rule, fits in rules.items() if not fits), "")
