@@ -430,7 +430,9 @@ def test_every_format_holds_the_gains(form):
 
 
 def test_the_first_line_says_whether_there_are_gains():
-    assert str(tune("buap3", [1])).startswith("✓ buap3: the largest gains within (10p) and (19)\n")
+    damped = tune("buap3", [1], Targets.of(damping="0.11"))
+    assert str(damped).startswith("✓ buap3: the largest gains within (10p) and (19)\n")
+    assert str(tune("buap3", [1])).startswith("! buap3: the largest gains within (10p) and (19); estimated")
     assert str(tune("pelican2", [1, 3])).startswith("? pelican2: its limits are not known")
     assert "for m = 1, 3\n" in str(tune("pelican2", [1, 3]))
     refused = tune("buap3", [2], Targets.of(kv_min=100)).document()

@@ -45,6 +45,11 @@ MOST_TAPS = 1000
 GOAL, REST = "goal", "rest"
 
 
+def late_text(delay: int) -> str:
+    """When a torque goes out after its reading."""
+    return f"{delay} samples late" if delay > 1 else "1 sample late" if delay else "at once"
+
+
 @dataclass(frozen=True)
 class SampledStable(Total):
     """For each T in (0, ``period``], s, and all intervals between readings of at most ``stretch``·T.
@@ -157,7 +162,7 @@ class SampledStable(Total):
     @property
     def granted(self) -> tuple[str, ...]:
         arm = "M(q) ≻ 0, C by Christoffel symbols and B diagonal"
-        goal, late = self.conclusion == GOAL, f"{self.delay} samples later" if self.delay else "at once"
+        goal, late = self.conclusion == GOAL, late_text(self.delay)
         beside = "and no friction beside B acts" if goal else "and other friction only brakes"
         known = "is that of the arm" if goal else "need not be that of the arm"
         premise = f"|g_i(q)| ≤ k_gi with k_g = {list_text(self.k_g)} N·m at all postures; no g is given"
@@ -184,7 +189,7 @@ class SampledStable(Total):
         )
         return (
             f"for every T ≤ {number_text(self.period)} s {what} with torques (6) held between readings up to "
-            f"{self._longest} apart, {self.delay} samples late, q̇ from differences/T weighted "
+            f"{self._longest} apart, {late_text(self.delay)}, q̇ from differences/T weighted "
             f"{list_text(self.taps)}: h = {function}, K_p = {diagonal_text(self.kp)}, "
             f"K_v = {diagonal_text(self.kv)}, b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
         )

@@ -20,6 +20,7 @@ from lyapcheck.check.kinds.inertia import (
     variable_names,
     written_out,
 )
+from lyapcheck.check.kinds.sampled import late_text
 from lyapcheck.check.kinds.stable_arm import hessian
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.loop.inertia import inertia_of
@@ -77,11 +78,10 @@ class SampledFromRest(Total):
 
     @property
     def granted(self) -> tuple[str, ...]:
-        late = f"{self.delay} readings later" if self.delay else "at once"
         return (
             "M(q), B and the potential are those of the robot; its C is by Christoffel symbols",
             "no friction beside B acts, and (6) knows g(q) exactly",
-            f"a torque goes out {late}, is held until the next and applied as it is: no motor saturates",
+            f"a torque goes out {late_text(self.delay)}, is held until the next, and no motor saturates",
             "readings are the angles, exact and unwrapped, at intervals of exactly T; q_d is constant",
             "before the start the arm stood where it starts, the controller running",
         )
@@ -91,7 +91,7 @@ class SampledFromRest(Total):
         energy = [f"U = {polynomial_text(self.potential, variable_names(n, len(self.parameters)))}"]
         function = self.family if self.m is None else f"{self.family}_{self.m}"
         return (
-            f"at intervals of T = {number_text(self.period)} s, {self.delay} samples late, q̇ by backward "
+            f"at intervals of T = {number_text(self.period)} s, {late_text(self.delay)}, q̇ by backward "
             f"differences: from every start at rest with |e_i| ≤ {number_text(self.within)}° the torque (6) "
             f"brings every arm to q_d: h = {function}, K_p = {diagonal_text(self.kp)}, "
             f"K_v = {diagonal_text(self.kv)}, B = diag({ranges}), {mass_text(self.mass, self.parameters)}, "

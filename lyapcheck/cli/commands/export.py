@@ -49,7 +49,7 @@ def run(
 
     Examples:
       lyapcheck export gains.toml --out controller --rate 1000
-      lyapcheck export gains.toml --out controller --rate 400 --filter 0.5,0.5 --wrapped
+      lyapcheck export gains.toml --out arm --rate 400 --filter 0.5,0.5 --wrapped
     """
     from lyapcheck.cli.show import open_folder, show, write_whole
     from lyapcheck.cli.values import gains_on_arm, require_joints

@@ -326,7 +326,7 @@ def run(
 
     Examples:
       lyapcheck simulate gains.toml --experiment --plot figures/
-      lyapcheck simulate gains.toml --rate 1000 --delay 1 --encoder "17 bits" --unknown-payload 2
+      lyapcheck simulate gains.toml --rate 1000 --delay 1 --unknown-payload 2
       lyapcheck simulate gains.toml --target 30,-45,60 --csv run.csv
       lyapcheck simulate gains.toml --runs 1000 --spread 90
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%

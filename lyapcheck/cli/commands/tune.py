@@ -278,7 +278,7 @@ def run(
     Examples:
       lyapcheck tune buap3 --m 1:5
       lyapcheck tune buap3 --overshoot 5 --settle 1.5 --rest-error 22 --m 1
-      lyapcheck tune arm.toml --overshoot 10 --settle 2 --runs 16 --spread 60 --rate 1000
+      lyapcheck tune arm.toml --overshoot 10 --settle 2 --runs 16 --rate 1000
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
     from lyapcheck.answers.tune.gain_file import gain_file_text
