@@ -1,8 +1,5 @@
 """Whether gains bring an arm to each goal from rest, at exactly one period: (P), where (S) does not show it.
 
-(P) is an energy that falls along the loop, found by a convex program. It speaks of an arm without dry
-friction whose gravity the controller knows, from starts at rest within so many degrees of the goal.
-
 References: ``lyapcheck.check.kinds.sampled_from_rest``.
 """
 
@@ -36,41 +33,31 @@ def shown_from_rest(
     gains: GainSet,
     arm: RobotModel | None,
     record: LoopRecord,
-    viscous_min: Fraction | None,
+    least: Fraction | None,
     within: Fraction | None,
 ) -> tuple[Promise | None, str]:
-    """That these gains bring the arm, but for its dry friction, to each goal at the period of the record.
+    """That these gains bring the arm, in its ranges, to each goal at exactly the period; or why not.
 
-    Args:
-        gains: the controller.
-        arm: with all of its ranges.
-        record: how a computer runs it; it has a period.
-        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
-        within: of each |e_i| at the start, degrees; ``None``: it is not looked for.
-
-    Returns:
-        The promise, or ``None`` and why there is none.
+    Its dry friction is left out; ``low``, N·m·s/rad, replaces its λmin(B). Starts are at rest with
+    each |e_i| ≤ ``within``, degrees; without it nothing is looked for.
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
     unfit = _unfit(gains, arm, record, within)
     if within is None or unfit or arm is None or record.period is None:
         return None, unfit if within is not None else "" if unfit else UNTRIED
-    lacking = next((one for one in SEARCHES if not installed(one)), None)
-    if lacking is not None:
+    if lacking := next((one for one in SEARCHES if not installed(one)), ""):
         return None, f"(P) takes {PACKAGES[lacking]}, which is not installed; {repair(lacking)}"
     from lyapcheck.search.sampled_energy import falling_energy
 
-    loop = SampledLoop(record.period, record.longest, record.delay)
     try:
-        asked = sampled_from_rest(gains, loop, arm, within)
+        asked = sampled_from_rest(gains, SampledLoop(record.period, delay=record.delay), arm, within)
     except TooManyTerms:
         return None, "M(q) of these links is too long to be written out, which (P) asks for"
-    asked = replace(asked, viscous=viscous_of(arm, viscous_min))
+    asked = replace(asked, viscous=viscous_of(arm, low))
     proof = falling_energy(asked)
     if proof is None:
-        over = ", over all ranges of the arm" if any(low < high for low, high in asked.viscous) else ""
-        return None, f"(P) finds no proof from rest within {decimal_text(within)}°{over}"
+        return None, f"(P) finds no proof from rest within {decimal_text(within)}° over the ranges of the arm"
     return promised(asked, judged_statement(asked, [proof]))
 
 
@@ -80,8 +67,7 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord, within: F
         "asks for the arm itself: name one with robot = …": arm is not None,
         f"speaks of arms to {FEW_JOINTS} joints": arm is None or arm.n <= FEW_JOINTS,
         "speaks of h = tanh, m = 1": (gains.family, gains.m) in TANH,
-        "speaks of velocities by one difference, without a filter": record.filter == ONE
-        and record.velocity == "difference",
+        "speaks of differences without a filter": (record.velocity, record.filter) == ("difference", ONE),
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
         "supposes that the controller knows g(q)": record.knows_gravity,

@@ -5,7 +5,7 @@
     (R)  motions near one goal grow from sample to sample     refutes it at one T
 
 These ends are no bracket: (S) serves whatever the inertia, (R) sees h'(0). (S) and (P) suppose that no motor
-saturates, and so count together with (10i) or (10p) only. Where dry friction or unknown gravity acts it
+saturates, and so count together with (10i) or (10p) only. Where dry friction or unknown gravity acts (S)
 shows that the arm comes to rest, not that this is the goal.
 
 References: (6), (11) of reyes2019family.
@@ -76,13 +76,7 @@ class SampledCheck(Check):
     @property
     def narrow(self) -> str:
         """From where and at which period it is accepted, where not from everywhere at each shorter one."""
-        return self._from_where if self.from_rest is not None and self.from_rest is self.promise else ""
-
-    @property
-    def _from_where(self) -> str:
-        assert self.from_rest is not None
-        asked: SampledFromRest = self.from_rest.asked  # type: ignore[assignment]
-        return f"at exactly {time_text(asked.period)}, from rest within {decimal_text(asked.within)}°"
+        return "" if self.from_rest is None or self.promise is None else from_where(self.from_rest)
 
     @property
     def most(self) -> Fraction | None:
@@ -97,20 +91,24 @@ class SampledCheck(Check):
 
     def sentences(self, told: bool) -> list[str]:
         """What is shown and what is refuted of the periods, unless a rejection was told."""
-        said = []
+        said, inside = [], "" if self.counts else ", while no motor saturates, which nothing shows"
         if self.up_to is not None and self.most is not None:
             words = f"as run ({self.record.text if self.named else self.record.how}): "
-            end = "" if self.counts else ", while no motor saturates, which nothing shows"
-            end = f"for every period up to {time_text(self.most)}{end}"
+            end = f"for every period up to {time_text(self.most)}{inside}"
             said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
         if self.from_rest is not None:
             without = ", without the dry friction of the arm" if self.rests else ""
-            end = "" if self.counts else ", while no motor saturates, which nothing shows"
-            words = f"as run ({self.record.how}): proved {self._from_where}, to come to the goal"
-            said.append(self.from_rest.says(f"{words}{without}{end}"))
+            words = f"as run ({self.record.how}): proved {from_where(self.from_rest)}, to come to the goal"
+            said.append(self.from_rest.says(f"{words}{without}{inside}"))
         if self.refuted is not None and not (told and self.verdict == REJECTED):
             said.append(unstable_text(self.refuted, self.rests))
         return said
+
+
+def from_where(promise: Promise) -> str:
+    """The period and the starts of a promise by (P)."""
+    asked: SampledFromRest = promise.asked  # type: ignore[assignment]
+    return f"at exactly {time_text(asked.period)}, from rest within {decimal_text(asked.within)}°"
 
 
 def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
