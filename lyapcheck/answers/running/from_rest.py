@@ -30,11 +30,7 @@ SEARCHES = ("numpy", "scipy", "cvxpy", "clarabel")
 
 
 def shown_from_rest(
-    gains: GainSet,
-    arm: RobotModel | None,
-    record: LoopRecord,
-    least: Fraction | None,
-    within: Fraction | None,
+    gains: GainSet, arm: RobotModel | None, record: LoopRecord, low: Fraction | None, within: Fraction | None
 ) -> tuple[Promise | None, str]:
     """That these gains bring the arm, in its ranges, to each goal at exactly the period; or why not.
 
