@@ -286,7 +286,10 @@ def by_proof(folder: Path, name: str, removed: str) -> Path:
     return file
 
 
-@pytest.mark.parametrize("name", list(BY_PROOF))
+SLOW = pytest.param("buap3", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("name", [SLOW, "reyes-kelly2"])
 def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     file, made = by_proof(tmp_path, name, f"{DRY}|{RANGE}"), tmp_path / "made"
     assert "--within" in sampled(file, period=MS).reason
@@ -303,7 +306,7 @@ def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch:
 
 
 NOT_FROM_REST = [
-    ("buap3", "$^", {}, "no proof from rest within 90° over the ranges"),
+    pytest.param("buap3", "$^", {}, "no proof from rest within 90° over", marks=pytest.mark.slow),
     ("reyes-kelly2", "$^", {}, "without dry friction"),
     ("reyes-kelly2", r"torque_limit = 1.*\n|" + DRY, {}, "no motor saturates"),
     ("reyes-kelly2", DRY, {"period": 8 * MS}, "no proof"),
