@@ -33,7 +33,7 @@ class LoopRecord:
         filter: the taps f_j, the newest first.
         lowpass: cut-off of a first-order filter of the velocity in place of the taps, Hz.
         encoder: counts a turn of every joint; ``None`` for those of the arm.
-        unknown_payload: the most at the centre of mass of the last link that the controller does not know, kg.
+        unknown_payload: the most at the centre of mass of the last link, unknown to the controller, kg.
         gravity_error: the largest share of the g_i(q) of the arm file, which the controller uses, by which
             that of the real arm may differ.
     """
