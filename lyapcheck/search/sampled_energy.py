@@ -35,6 +35,8 @@ def falling_energy(statement: SampledFromRest) -> FallingEnergy | None:
     friction = np.array(statement.viscous, dtype=float)
     weight = kv + friction[:, 1]
     least = _least(statement, kv + 0.02 * friction[:, 1] + 1e-3 * kp)
+    if not least.min() > 0:
+        return None
     arm = arm_bounds(statement, tuple(map(_fraction, least)))
     angle = math.radians(float(statement.within))
     speed = SPEED * math.sqrt(2 * STIFFEST * kp.sum() * math.log(math.cosh(angle)) / (1 - SHARE))
@@ -62,6 +64,8 @@ def _least(statement: SampledFromRest, wanted: Array) -> Array:
     root = np.sqrt(wanted)
     sizes = np.linalg.eigvalsh(mass / np.outer(root, root))[:, 0]
     u, t = cp.Variable(len(wanted)), sizes.min()
+    if not t > 0:  # M is not positive definite somewhere
+        return np.zeros(len(wanted))
     scale = np.sqrt(np.diag(mass.max(axis=0)))
     some = [m / np.outer(scale, scale) for m in mass[np.argsort(sizes)[:WORST]]]
     rules = [m - cp.diag(cp.multiply(u, 1 / scale**2)) >> 0 for m in some] + [u >= 0.85 * t * wanted]

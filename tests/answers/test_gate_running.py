@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -266,3 +267,61 @@ def test_without_a_record_one_sentence_says_what_is_supposed(tmp_path: Path) -> 
     file = str(paper(tmp_path, 1))
     assert "infinite rate" in invoke("gate", file).stdout
     assert "infinite rate" not in invoke("gate", file, "--rate", "400").stdout
+
+
+BY_PROOF = {
+    "buap3": ("[19.063, 44.342, 5.331]", "[8.170, 19.004, 1.757]"),
+    "reyes-kelly2": ("[41.089, 5.618]", "[17.610, 2.112]"),
+}
+MS, DRY = Fraction(1, 1000), r"\[joints\.coulomb\]\n(?:\w.*\n)*"
+RANGE = r"\n(?:assumed|low|high|note) = .*"
+
+
+def by_proof(folder: Path, name: str, removed: str) -> Path:
+    """Gains with k_v above the friction, and the arm's file without what is removed."""
+    text = (Path(robots.__file__).parent / "arms" / f"{name}.toml").read_text()
+    (folder / "arm.toml").write_text(re.sub(removed, "", text))
+    file, (kp, kv) = folder / "gains.toml", BY_PROOF[name]
+    file.write_text(f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = {kp}\nkv = {kv}\n')
+    return file
+
+
+SLOW = pytest.param("buap3", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("name", [SLOW, "reyes-kelly2"])
+def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    file, made = by_proof(tmp_path, name, f"{DRY}|{RANGE}"), tmp_path / "made"
+    assert "--within" in sampled(file, period=MS).reason
+    words = ("gate", str(file), "--rate", "1000", "--within", "90", "--condition", "sampled")
+    done = invoke(*words, "--certificates", str(made))
+    assert (done.exit_code, done.stdout[0]) == (0, "!")
+    assert "sampled at exactly 1 ms, from rest within 90° only" in done.stdout.splitlines()[0]
+    (kept,) = made.glob("*sampled*.json")
+    asked = json.loads(kept.read_text())["statement"]
+    told = [asked[key] for key in ("kind", "period", "within", "delay")]
+    assert told == ["SampledFromRest", "1/1000", "90", 1]
+    assert invoke("recheck", str(kept)).exit_code == 0
+    assert left_over(words, monkeypatch) == []
+
+
+NOT_FROM_REST = [
+    pytest.param("buap3", "$^", {}, "no proof from rest within 90° over", marks=pytest.mark.slow),
+    ("reyes-kelly2", "$^", {}, "without dry friction"),
+    ("reyes-kelly2", r"torque_limit = 1.*\n|" + DRY, {}, "no motor saturates"),
+    ("reyes-kelly2", DRY, {"period": 8 * MS}, "no proof"),
+    ("reyes-kelly2", DRY, {"longest": 2 * MS}, "constant intervals"),
+    ("reyes-kelly2", DRY, {"filter": (Fraction(1, 2), Fraction(1, 2))}, "without a filter"),
+    ("reyes-kelly2", DRY, {"gravity_error": Fraction(1, 20)}, "knows g(q)"),
+    ("reyes-kelly2", DRY, {"delay": 7}, "delays to 6"),
+]
+
+
+@pytest.mark.parametrize(("name", "removed", "loop", "reason"), NOT_FROM_REST)
+def test_from_rest_what_is_not_shown_is_undecided(
+    tmp_path: Path, name: str, removed: str, loop: dict[str, Any], reason: str
+) -> None:
+    file, loop = by_proof(tmp_path, name, removed), {"period": MS} | loop
+    result = judged(file, LoopEntry(**loop), ("sampled",), within=Fraction(90))
+    assert result.verdict == "undecided"
+    assert reason in only(result, "sampled")[0].reason

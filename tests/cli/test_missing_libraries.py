@@ -18,6 +18,7 @@ ALONE = {
     "gate one.toml --vary mass=-5%..+5% --format sarif": 1,
     f"gate {TABLE2} --rate 1000 --condition 10i --condition sampled --certificates run": 3,
     "recheck run": 0,
+    f"gate {TABLE2} --rate 1000 --within 90 --condition 10i --condition sampled": 3,
     "gate one.toml --rate 2 --condition sampled": 3,
     "gate one.toml --unknown-payload 1 --condition holds": 1,
     "table --m 1:3 --certificates proved": 0,

@@ -305,3 +305,9 @@ def test_no_planted_fault_is_accepted():
     for why, asked_about, changed in faults(statement, proof):
         with pytest.raises(Refused):
             print(why, verify(asked_about, changed))
+
+
+def test_where_the_inertia_is_not_positive_there_is_nothing_to_find():
+    asked = question("reyes-kelly2")
+    (_, cross), (_, own) = asked.mass
+    assert falling_energy(replace(asked, mass=((own, cross), (cross, own)))) is None

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
@@ -27,6 +28,7 @@ def gate(
     arms: dict[str, ArmLimits] | None = None,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
+    within: Fraction | None = None,
 ) -> GateAnswer:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
@@ -39,6 +41,7 @@ def gate(
         arms: arms that need not be read again, by name, for many files on one arm; those read now are added.
         on_progress: receives the share done of the certificates that are asked for, and which is looked for.
         loop: how a computer runs the gains, before what their file and that of the arm say of it.
+        within: look, where no period is shown, for a proof from rest within so many degrees at the one asked.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
@@ -54,8 +57,6 @@ def gate(
         >>> [result.verdict for result in gate(paper_gain_file("table2"))]
         ['accepted', 'rejected', 'rejected']
     """
-    return GateAnswer(
-        judged_sets(
-            gain_file_of(gain_file), robot, deciding, gamma, strict, arms, on_progress=on_progress, loop=loop
-        )
-    )
+    file = gain_file_of(gain_file)
+    more: dict[str, Any] = {"on_progress": on_progress, "loop": loop, "within": within}
+    return GateAnswer(judged_sets(file, robot, deciding, gamma, strict, arms, **more))

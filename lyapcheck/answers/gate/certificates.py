@@ -118,7 +118,8 @@ def _certificate(result: GateResult, check: Check) -> Certificate | None:
     if outcome is None or outcome.proof is None:
         return None
     parts = [result.name, check.id, *([] if check.joint is None else [joint_name(result, check)])]
-    says = f"{result.name}, {joint_name(result, check)}: {RULES[check.id]}"
+    narrow = check.narrow if isinstance(check, SampledCheck) else ""
+    says = f"{result.name}, {joint_name(result, check)}: {narrow or RULES[check.id]}"
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
     return Certificate(about, outcome.statement, outcome.shown, outcome.grade, outcome.proof)
 
@@ -146,9 +147,10 @@ def running_certificates(result: GateResult) -> Iterator[Certificate]:
 def _of_periods(result: GateResult) -> Iterator[Certificate]:
     """What is said of other periods than that of the record, which is undecided."""
     for check in result.checks:
-        if isinstance(check, SampledCheck) and check.judgement is None:
-            shown = None if check.up_to is None else check.up_to.shown
-            for name, one in (("shown", shown), ("unstable", check.refuted)):
+        if isinstance(check, SampledCheck) and (check.judgement is None or check.narrow):
+            promises = (("shown", check.up_to), ("from-rest", None if check.narrow else check.from_rest))
+            known = [(name, None if one is None else one.shown) for name, one in promises]
+            for name, one in (*known, ("unstable", check.refuted)):
                 if isinstance(one, JudgedStatement) and one.proof is not None:
                     says = f"{result.name}: what is {name} of its periods"
                     about = About(f"{result.name}.sampled.{name}", says, result.m, result.limits.n, PROOF)

@@ -166,6 +166,7 @@ def judged_sets(
     explained: int = MOST_EXPLAINED,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
+    within: Fraction | None = None,
 ) -> list[GateResult]:
     """The results of a file, in its order; more than whether they pass of the first so many.
 
@@ -189,16 +190,16 @@ def judged_sets(
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        more = len(results) < explained
+        more = within is not None or len(results) < explained  # what (P) shows is not said in one word
         undamped = _undamped(gains)
         checks = (*broken, *undamped, *conditions[key].all(gains, names), *certificates)
         if not undamped and (record is not None or set(RUNNING) & set(names)):
             from lyapcheck.answers.running import running_checks
 
-            viscous_min, within = gain_file.bounds.viscous_min, checks if gamma == "true" else ()
+            least, others = gain_file.bounds.viscous_min, checks if gamma == "true" else ()
             checks = (
                 *checks,
-                *running_checks(gains, limits, record, viscous_min, names, within, more or not explained),
+                *running_checks(gains, limits, record, least, names, others, more or not explained, within),
             )
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)

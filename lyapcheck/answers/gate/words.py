@@ -30,7 +30,8 @@ RULES = {
     "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
     "with or without friction (Khalil 2002, corollary 4.2)",
     SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
-    "whatever the inertia; values are periods; joints are revolute, readings exact and unwrapped",
+    "whatever the inertia, or with --within by an energy that falls; values are periods; joints are "
+    "revolute, readings exact and unwrapped",
     HOLDS: "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
     DAMPED: "k_v > 0, which the theory asks for: without it a joint has only its own friction to damp it",
     GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
@@ -87,6 +88,8 @@ def limit_text(check: Check) -> str:
     """The limit to six digits, all correct; ``none`` where there is no limit."""
     if check.id == GRAVITY:
         return ""
+    if isinstance(check, SampledCheck) and check.narrow:
+        return check.narrow
     if check.id == SAMPLED:
         return "none" if check.limit is None else f"{at_least(1000 * check.limit.lower)} ms"
     if check.id == DAMPED:
@@ -114,14 +117,14 @@ def _decimals(lower: tuple[int, int], upper: tuple[int, int], digits: int) -> tu
 def largest_text(check: Check) -> str:
     """The largest value that passes, with as many decimal places as the user wrote, or ``none``."""
     largest = check.largest_admissible
-    if check.id not in (*_SUBJECTS, SAMPLED):
+    if check.id not in (*_SUBJECTS, SAMPLED) or (isinstance(check, SampledCheck) and check.narrow):
         return ""
     return "none" if largest is None else largest.text
 
 
 def largest_shown(check: Check) -> str:
     """The same with its unit where that is not the one of a gain: of a period, of a payload."""
-    if isinstance(check, SampledCheck) and check.most is not None:
+    if isinstance(check, SampledCheck) and check.most is not None and not check.narrow:
         return time_text(check.most)
     if isinstance(check, HoldsCheck) and check.payload is not None:
         return f"{decimal_text(check.payload)} kg"
@@ -156,9 +159,9 @@ def significant_text(numerator: int, denominator: int, digits: int) -> str:
 
 
 def advice(result: GateResult, check: Check) -> str:
-    """What is wrong and what to change, in one sentence; empty for an accepted check."""
+    """What is wrong and what to change, in one sentence; of an accepted check its narrow scope."""
     if check.verdict == ACCEPTED:
-        return ""
+        return check.narrow if isinstance(check, SampledCheck) else ""
     return f"({check.id}) {joint_name(result, check)}: {_broken(result, check)}"
 
 

@@ -49,6 +49,7 @@ def running_checks(
     deciding: Sequence[str] = (),
     others: Sequence[Check] = (),
     searched: bool = True,
+    within: Fraction | None = None,
 ) -> tuple[Check, ...]:
     """The one place where an arm, gains and a record become statements that are judged.
 
@@ -60,12 +61,13 @@ def running_checks(
         deciding: conditions that must hold, whether the record speaks of them or not.
         others: the checks of (10i) and (10p), of which one has to pass for `sampled` to count.
         searched: whether to look for a refutation of what is not shown.
+        within: degrees from the goal within which it is to be shown from rest.
     """
     checks: list[Check] = []
     if SAMPLED in deciding or (record is not None and record.period is not None):
         kept = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
         inside = any(each and all(each) for each in kept)
-        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched))
+        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, within))
     if HOLDS in deciding or (record is not None and not record.knows_gravity):
         checks += holds_checks(gains, limits.model, record)
     return tuple(checks)
@@ -100,6 +102,7 @@ def running_sentences(
 
 
 def open_as_run(checks: Sequence[Check]) -> str:
-    """Which of these is not decided, for a headline; empty where none is."""
+    """Which of these is not decided, or for some starts only, for a headline; empty where none is."""
+    narrow = [f"{one.id} {one.narrow} only" for one in checks if isinstance(one, SampledCheck) and one.narrow]
     open_ = dict.fromkeys(check.id for check in checks if check.id in (SAMPLED, HOLDS) and check.reason)
-    return f"open: {', '.join(open_)}" if open_ else ""
+    return "; ".join([*narrow, *([f"open: {', '.join(open_)}"] if open_ else [])])

@@ -1,10 +1,11 @@
 """Whether gains are stable as a computer runs them, for which periods this is shown, and for which refuted.
 
     (S)  b_i > r L k_vi Σ|f_j| + (½ + d) r T (ρ k_pi + Γ_i)   shows it for each T up to a largest one
+    (P)  an energy falls from rest within so many degrees     shows it at one T, where it is asked for
     (R)  motions near one goal grow from sample to sample     refutes it at one T
 
-These ends are no bracket: (S) serves whatever the inertia, (R) sees h'(0). (S) supposes that no motor
-saturates, and so counts together with (10i) or (10p) only. Where dry friction or unknown gravity acts it
+These ends are no bracket: (S) serves whatever the inertia, (R) sees h'(0). (S) and (P) suppose that no motor
+saturates, and so count together with (10i) or (10p) only. Where dry friction or unknown gravity acts (S)
 shows that the arm comes to rest, not that this is the goal.
 
 References: (6), (11) of reyes2019family.
@@ -16,6 +17,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.running.from_rest import shown_from_rest
 from lyapcheck.asked import sampled, viscous_of
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import REJECTED, Check
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lyapcheck.check.kinds.sampled import SampledStable
+    from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
@@ -39,7 +42,8 @@ if TYPE_CHECKING:
 SAMPLED = "sampled"
 NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off where they are small"
-SATURATES = "(S) supposes that no motor saturates: it counts together with (10i) or (10p) only"
+SATURATES = "({}) supposes that no motor saturates: it counts together with (10i) or (10p) only"
+DRY = "(P) speaks of an arm without dry friction"
 UNSAID = LoopRecord()
 DIGITS = 9
 """Of the largest period in data."""
@@ -58,6 +62,7 @@ class SampledCheck(Check):
         rests: whether it is shown that the arm comes to rest, not that it does so at the goal.
         named: whether the period of the record is one that somebody asked about.
         counts: whether (10i) or (10p) holds.
+        from_rest: that the arm, but for its dry friction, comes to each goal from rest at exactly the period.
     """
 
     record: LoopRecord = UNSAID
@@ -66,6 +71,12 @@ class SampledCheck(Check):
     rests: bool = False
     named: bool = True
     counts: bool = True
+    from_rest: Promise | None = None
+
+    @property
+    def narrow(self) -> str:
+        """From where and at which period it is accepted, where not from everywhere at each shorter one."""
+        return "" if self.from_rest is None or self.promise is None else from_where(self.from_rest)
 
     @property
     def most(self) -> Fraction | None:
@@ -80,15 +91,24 @@ class SampledCheck(Check):
 
     def sentences(self, told: bool) -> list[str]:
         """What is shown and what is refuted of the periods, unless a rejection was told."""
-        said = []
+        said, inside = [], "" if self.counts else ", while no motor saturates, which nothing shows"
         if self.up_to is not None and self.most is not None:
             words = f"as run ({self.record.text if self.named else self.record.how}): "
-            end = "" if self.counts else ", while no motor saturates, which nothing shows"
-            end = f"for every period up to {time_text(self.most)}{end}"
+            end = f"for every period up to {time_text(self.most)}{inside}"
             said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
+        if self.from_rest is not None:
+            without = ", without the dry friction of the arm" if self.rests else ""
+            words = f"as run ({self.record.how}): proved {from_where(self.from_rest)}, to come to the goal"
+            said.append(self.from_rest.says(f"{words}{without}{inside}"))
         if self.refuted is not None and not (told and self.verdict == REJECTED):
             said.append(unstable_text(self.refuted, self.rests))
         return said
+
+
+def from_where(promise: Promise) -> str:
+    """The period and the starts of a promise by (P)."""
+    asked: SampledFromRest = promise.asked  # type: ignore[assignment]
+    return f"at exactly {time_text(asked.period)}, from rest within {decimal_text(asked.within)}°"
 
 
 def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
@@ -111,6 +131,7 @@ def sampled_check(
     viscous_min: Fraction | None,
     inside: bool,
     searched: bool = True,
+    within: Fraction | None = None,
 ) -> Check:
     """Are these gains stable, run in this way?
 
@@ -121,6 +142,7 @@ def sampled_check(
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
         inside: whether (10i) or (10p) is accepted, so that no motor saturates.
         searched: whether to look for a refutation where nothing is shown.
+        within: where that finds none, show it from rest within so many degrees at exactly this period.
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
@@ -142,12 +164,20 @@ def sampled_check(
             promise, _ = promised(asked, shown)
             if promise is not None and inside:
                 return replace(known, judgement=shown, promise=promise)
-            return replace(known, reason=SATURATES)
+            return replace(known, reason=SATURATES.format("S"))
         why = why_not or f"(S) shows no period above {time_text(most[0])}"
     refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
     if refuted is not None and not known.rests and _period(refuted) <= asked.period:
         return replace(known, judgement=refuted, refuted=refuted)
-    return replace(known, refuted=refuted, reason="; ".join(filter(None, (why, missing))))
+    promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, within)
+    known = replace(known, refuted=refuted, from_rest=promise)
+    if promise is not None and known.counts and not known.rests:
+        known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]
+        known = replace(known, joint=None, limit=None, largest_admissible=None)
+        why = missing = ""
+    elif promise is not None:
+        lacks = DRY if known.rests else SATURATES.format("P")
+    return replace(known, reason="; ".join(filter(None, (why, missing, lacks))))
 
 
 def question(

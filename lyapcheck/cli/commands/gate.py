@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,6 +38,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--strict", action="store_true", help=about)
     add_vary(parser)
     add_loop(parser)
+    about = "Where no period is shown, prove it from rest within so many degrees, at exactly the one asked."
+    parser.add_number("--within", float, about, least=0.001, most=3600)
     add_certificates(parser, "Write the certificate of each check there")
     add_format(parser)
 
@@ -48,6 +51,7 @@ def run(
     gamma: str,
     strict: bool,
     vary: list[str] | None,
+    within: float | None,
     certificates: Path | None,
     format: str,  # noqa: A002
     **loop: str | None,
@@ -63,6 +67,7 @@ def run(
       lyapcheck gate config/*.toml --format junit > gate.xml
       lyapcheck gate gains.toml --condition 10p --condition scalar
       lyapcheck gate gains.toml --rate 1000 --unknown-payload 2
+      lyapcheck gate gains.toml --rate 1000 --within 90
     """
     import gc
 
@@ -85,6 +90,7 @@ def run(
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
     ranges, run = varies(vary), loop_of(loop)
+    angle = None if within is None else Fraction(repr(within))
     with patient("gate") as advance:
         for done, file in enumerate(files):
             try:
@@ -94,7 +100,7 @@ def run(
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)
                 advanced = part(advance, done / len(files), (done + 1) / len(files))
-                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced, run))
+                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced, run, angle))
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)

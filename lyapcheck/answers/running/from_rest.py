@@ -1,0 +1,72 @@
+"""Whether gains bring an arm to each goal from rest, at exactly one period: (P), where (S) does not show it.
+
+References: ``lyapcheck.check.kinds.sampled_from_rest``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.asked import sampled_from_rest, viscous_of
+from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY
+from lyapcheck.control.judgement import judged_statement
+from lyapcheck.control.sampled import SampledLoop
+from lyapcheck.control.sampling import ONE
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.libraries import PACKAGES, installed, repair
+from lyapcheck.promise import Promise, promised
+from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.robots import RobotModel
+
+UNTRIED = "gate --within 90 looks for a proof from rest within 90° at exactly this period"
+TANH = (("tanh", None), ("hyperbolic", 1))
+SEARCHES = ("numpy", "scipy", "cvxpy", "clarabel")
+
+
+def shown_from_rest(
+    gains: GainSet, arm: RobotModel | None, record: LoopRecord, low: Fraction | None, within: Fraction | None
+) -> tuple[Promise | None, str]:
+    """That these gains bring the arm, in its ranges, to each goal at exactly the period; or why not.
+
+    Its dry friction is left out; ``low``, N·m·s/rad, replaces its λmin(B). Starts are at rest with
+    each |e_i| ≤ ``within``, degrees; without it nothing is looked for.
+
+    Soundness: that of ``lyapcheck.check.verify``.
+    """
+    unfit = _unfit(gains, arm, record, within)
+    if within is None or unfit or arm is None or record.period is None:
+        return None, unfit if within is not None else "" if unfit else UNTRIED
+    if lacking := next((one for one in SEARCHES if not installed(one)), ""):
+        return None, f"(P) takes {PACKAGES[lacking]}, which is not installed; {repair(lacking)}"
+    from lyapcheck.search.sampled_energy import falling_energy
+
+    try:
+        asked = sampled_from_rest(gains, SampledLoop(record.period, delay=record.delay), arm, within)
+    except TooManyTerms:
+        return None, "M(q) of these links is too long to be written out, which (P) asks for"
+    asked = replace(asked, viscous=viscous_of(arm, low))
+    proof = falling_energy(asked)
+    if proof is None:
+        return None, f"(P) finds no proof from rest within {decimal_text(within)}° over the ranges of the arm"
+    return promised(asked, judged_statement(asked, [proof]))
+
+
+def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord, within: Fraction | None) -> str:
+    """Why (P) does not speak of this loop; empty where it does."""
+    rules = {
+        "asks for the arm itself: name one with robot = …": arm is not None,
+        f"speaks of arms to {FEW_JOINTS} joints": arm is None or arm.n <= FEW_JOINTS,
+        "speaks of h = tanh, m = 1": (gains.family, gains.m) in TANH,
+        "speaks of differences without a filter": (record.velocity, record.filter) == ("difference", ONE),
+        "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
+        f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
+        "supposes that the controller knows g(q)": record.knows_gravity,
+        f"speaks of starts to {FARTHEST}° from the goal": within is None or 0 < within <= FARTHEST,
+    }
+    return next((f"(P) {rule}" for rule, fits in rules.items() if not fits), "")
