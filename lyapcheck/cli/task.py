@@ -259,8 +259,6 @@ def check_places(csv: str | None, plot: Path | None) -> None:
     """
     if csv is not None and csv != "-":
         require_writable("--csv", Path(csv))
-    if plot is not None and not plot.is_dir():
-        raise argument_error("--plot", plot, "is not a directory", "create it or name another one")
     if plot is not None:
         open_folder("--plot", plot)
 

@@ -118,7 +118,7 @@ BAD = [
     ("simulate TABLE2 --experiment --time 0.001", ["T = 0.001"]),
     ("simulate TABLE2 --robot pelican2 --target 10,20", ["gains"]),
     ("simulate TABLE2 --csv none/run.csv", ["--csv = none/run.csv: there is no directory none"]),
-    ("simulate TABLE2 --plot none", ["--plot = none: is not a directory"]),
+    ("simulate TABLE2 --plot TABLE2", ["--plot = TABLE2: cannot be made (File exists)"]),
     ("simulate TABLE2 --robot pelican2", ["tau_m1: has gains for 3 joints, but the arm has 2"]),
     ("tune", ["the following arguments are required: ROBOT"]),
     ("tune nobody", ["robot = nobody: is neither"]),

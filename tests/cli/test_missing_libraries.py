@@ -38,7 +38,7 @@ MORE = {
 LACKING = {
     "epsilon one.toml": "numpy",
     "tune buap3": "cvxpy",
-    "table --m 1 --plot drawn": "matplotlib",
+    "table --m 1 --plot drawn": "numpy",
 }
 ALSO = {
     "--completion bash": "shtab",
