@@ -43,6 +43,7 @@ SAMPLED = "sampled"
 NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off where they are small"
 SATURATES = "({}) supposes that no motor saturates: it counts together with (10i) or (10p) only"
+STEPS = "({}) speaks of exact readings: leave encoder out of the loop, and simulate with it"
 DRY = "(P) speaks of an arm without dry friction"
 UNSAID = LoopRecord()
 DIGITS = 9
@@ -169,21 +170,21 @@ def sampled_check(
         known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to, largest_admissible=fits)
         if up_to is not None and asked.period <= most[0]:
             promise, _ = promised(asked, shown)
-            if promise is not None and inside:
+            if promise is not None and inside and record.encoder is None:
                 return replace(known, judgement=shown, promise=promise)
-            return replace(known, reason=SATURATES.format("S"))
+            return replace(known, reason=(SATURATES if record.encoder is None else STEPS).format("S"))
         why = why_not or f"(S) shows no period above {time_text(most[0])}"
     refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
     if refuted is not None and not known.rests and _period(refuted) <= asked.period:
         return replace(known, judgement=refuted, refuted=refuted)
     promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, within)
     known = replace(known, refuted=refuted, from_rest=promise)
-    if promise is not None and known.counts and not known.rests:
+    if promise is not None and known.counts and not known.rests and record.encoder is None:
         known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]
         known = replace(known, joint=None, limit=None, largest_admissible=None)
         why = missing = ""
     elif promise is not None:
-        lacks = DRY if known.rests else SATURATES.format("P")
+        lacks = DRY if known.rests else (SATURATES if record.encoder is None else STEPS).format("P")
     return replace(known, reason="; ".join(filter(None, (why, missing, lacks))))
 
 
