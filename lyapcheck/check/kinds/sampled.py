@@ -196,7 +196,8 @@ class SampledStable(Total):
 
     def _arm_text(self) -> str:
         if self.links:
-            return f"the arm {ChainGravityBelow(self.links, self.fall, (1,), Fraction(0)).over}"
+            arm = ChainGravityBelow(self.links, self.fall, (1,), Fraction(0)).over
+            return f"the arm with free fall {list_text(self.fall)}, {arm}"
         if not self.mass:
             return f"any serial revolute arm with |g_i(q)| ≤ {list_text(self.k_g)}"
         names = variable_names(self.n, len(self.parameters))
