@@ -10,7 +10,6 @@ import pytest
 
 from lyapcheck import store
 from lyapcheck.compiled import compiler as compiler_module
-from lyapcheck.compiled import compiler as library_module
 from lyapcheck.compiled.compiler import OFF, compile_library, compiler
 from lyapcheck.compiled.loop import compiled
 
@@ -38,7 +37,7 @@ def compilations(monkeypatch):
         seen.append(source)
         return compile_library(source, path, command)
 
-    monkeypatch.setattr(library_module, "compile_library", counted)
+    monkeypatch.setattr(compiler_module, "compile_library", counted)
     return seen
 
 
@@ -170,5 +169,5 @@ def test_without_any_place_for_temporary_files_nothing_is_compiled(cache, monkey
     def refused(*args, **kwargs):
         raise FileNotFoundError("no usable temporary directory")
 
-    monkeypatch.setattr(library_module.tempfile, "TemporaryDirectory", refused)
+    monkeypatch.setattr(compiler_module, "temporary_folder", refused)
     assert library(SOURCE) is None
