@@ -1,4 +1,7 @@
-"""``python -m tests.promises.record``: tests of promises with 200 draws each, and what they ask."""
+"""``python -m tests.promises.record [FILE…]``: tests of promises with 200 draws each, and what they ask.
+
+With files or names of tests, only their rows are written anew.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +36,8 @@ class Outcomes:
 def main():
     """Run the tests; write the record where all have passed."""
     outcomes = Outcomes()
-    words = [str(FOLDER), "-q", "-p", "no:randomly", "--hypothesis-profile", "promises", *sys.argv[1:]]
+    chosen = sys.argv[1:] or [str(FOLDER)]
+    words = [*chosen, "-q", "-p", "no:randomly", "--hypothesis-profile", "promises"]
     code = int(pytest.main(words, plugins=[outcomes]))
     if code == 0:
         RECORD.write_text(record(outcomes.failed), encoding="utf-8")
@@ -46,12 +50,21 @@ def record(failed):
     from tests.promises.draws import ASKED
 
     codes = (Exit.PROVED, Exit.REFUTED, Exit.USAGE, Exit.UNDECIDED)
-    lines = ["| test | command | runs | 0 | 1 | 2 | 3 |", "|---|---|---|---|---|---|---|"]
+    rows: dict[str, list[str]] = {}
+    if len(sys.argv) > 1 and RECORD.exists():
+        kept = [
+            line for line in RECORD.read_text(encoding="utf-8").splitlines() if line.startswith("| test_")
+        ]
+        for line in kept:
+            rows.setdefault(line.split(" | ")[0].removeprefix("| "), []).append(line)
+    for test in {test for test, _, _ in ASKED}:
+        rows[test] = []
     for test, command in sorted({(test, command) for test, command, _ in ASKED}):
         counts = [ASKED[test, command, int(code)] for code in codes]
-        lines.append(f"| {test} | {command} | {sum(counts)} | {' | '.join(map(str, counts))} |")
-    lines += ["", f"{len(failed)} tests, {sum(failed.values())} failed."]
-    return HEAD + "\n".join(lines) + "\n"
+        rows[test].append(f"| {test} | {command} | {sum(counts)} | {' | '.join(map(str, counts))} |")
+    lines = ["| test | command | runs | 0 | 1 | 2 | 3 |", "|---|---|---|---|---|---|---|"]
+    lines += [line for test in sorted(rows) for line in rows[test]]
+    return HEAD + "\n".join([*lines, "", f"{len(rows)} tests, {sum(failed.values())} failed."]) + "\n"
 
 
 if __name__ == "__main__":
