@@ -60,6 +60,7 @@ BAD = [
     ("table --digit 3 --asymptotic", ["did you mean --digits?", "did you mean --asymptotics?"]),
     ("table --asymptotics=yes", ["--asymptotics: ignored explicit argument 'yes'"]),
     ("gate", ["lyapcheck gate: arguments: the following arguments are required: FILE...;"]),
+    ("gate TABLE2 --rate 1e-30", ["--rate = 1e-30: must be between 1e-15 and 1e15 in size"]),
     ("export TABLE2 --rate 0", ["--rate = 0: must be positive; correct the sign or the value"]),
     ("gate none.toml", ["none.toml: file: cannot be read"]),
     ("gate none.toml nil.toml", ["none.toml: file: cannot be read", "nil.toml: file: cannot be read"]),
