@@ -299,7 +299,11 @@ def _accepted(
     step = loop.transition(goal[None], float(period))[0]
     degrees = tuple(Fraction(round(float(x) * TENTHS), TENTHS) for x in goal)
     for share in SHARES:
-        if (data := growth(step, statement.n, share)) is not None:
+        try:
+            data = growth(step, statement.n, share)
+        except (np.linalg.LinAlgError, ValueError, ArithmeticError):
+            continue  # doubles are too coarse for this loop: nothing is shown of it
+        if data is not None:
             proof = GrowingMotion(period, degrees, loop.parameters, *data, loop.inertia)
             if refutes(statement, proof):
                 return proof
