@@ -183,6 +183,8 @@ def prepare(installed, folder, page):
         (folder / match["path"]).write_text(match["text"], encoding="utf-8")
     if page.name == "README.md":
         made("init")
+    elif page.name == "export.md":
+        made("tune", "buap3", "--m", "1", "--out", "gains.toml")
     elif page.name == "tutorial.md":
         (folder / "gains.toml").write_text(block("tutorial.md", "robot"), encoding="utf-8")
     elif page.name == "commands.md":
