@@ -173,7 +173,11 @@ def _shown(value: object) -> str:
     try:
         exact = float(value) if isinstance(value, Fraction) else value  # of an option, read before
         text = printable(exact if isinstance(exact, str) else repr(exact))
-    except (ValueError, OverflowError, RecursionError):  # an integer of thousands of digits, lists a hundred deep
+    except (
+        ValueError,
+        OverflowError,
+        RecursionError,
+    ):  # an integer of thousands of digits, lists a hundred deep
         return "…"
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'"{value}"'  # the quotes are what is wrong with it

@@ -300,7 +300,8 @@ def _accepted(
     degrees = tuple(Fraction(round(float(x) * TENTHS), TENTHS) for x in goal)
     for share in SHARES:
         try:
-            data = growth(step, statement.n, share)
+            with np.errstate(divide="raise", over="raise", invalid="raise"):
+                data = growth(step, statement.n, share)
         except (np.linalg.LinAlgError, ValueError, ArithmeticError):
             continue  # doubles are too coarse for this loop: nothing is shown of it
         if data is not None:

@@ -41,7 +41,7 @@ from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_p
 from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import done, map_job
-from lyapcheck.report.model import EpsilonRow, Subject, anchor, applies
+from lyapcheck.report.model import EpsilonRow, RunRow, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
 from lyapcheck.report.sampled import sampled_section
@@ -389,7 +389,8 @@ def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
 def test_members_stand_beside_each_other_with_their_runs(report):
     assert not [one for one in evidence(report) if one.title == "Simulated: what m does"]
     (first,) = report.runs
-    slower = replace(first, name="another", m=2, L2=77.0, top_speed=0.125, rest=None)
+    changed = {"name": "another", "m": 2, "L2": 77.0, "top_speed": 0.125, "rest": None}
+    slower = RunRow(**vars(first) | changed)
     (section,) = (
         one
         for one in evidence(replace(report, runs=(slower, first)))
@@ -401,7 +402,7 @@ def test_members_stand_beside_each_other_with_their_runs(report):
     assert table.rows[0][1] == f"{first.L2:.2f}"
     assert table.rows[0][4] == f"{first.top_speed:.2f}"
     assert table.rows[1][1::4] == ("77.00", "anywhere")
-    twice = replace(report, runs=(slower, replace(first, m=2)))
+    twice = replace(report, runs=(slower, RunRow(**vars(first) | {"m": 2})))
     assert not [one for one in evidence(twice) if one.title == "Simulated: what m does"]
 
 

@@ -23,8 +23,8 @@ def test_every_word_of_proof_in_a_report_is_a_promise(report):
     written = {*said(report.gate), *report.notes.known}
     written |= {text for row in rows for text in (row.id, row.section, row.heading, row.kind, *row.uses)}
     written |= {text for row in rows for text in (row.title, row.comment)}
-    written |= {text for row in rows if row.promise is None for text in texts_of(row.data())}
-    written |= {text for row in rows for text in row.rules} | set(report.certificates)
+    written |= {text for row in rows if row.decision.promise is None for text in texts_of(row.data())}
+    written |= {text for row in rows for text in row.decision.rules} | set(report.certificates)
     written |= {box.title for box in (*report.notes.chain, *report.notes.route)}
     for finding in report.findings:
         written |= {*texts_of(vars(finding)), *(f"{term}: {text}" for term, text in finding.about.items())}

@@ -80,7 +80,7 @@ def gains_section(report: Report) -> Markup:
     heading = element("h2", "Gains in motion")
     card = list(blocks(sampled_section(report), 3))
     moving = heading, element("p", *words, class_="quiet"), runs
-    sampled = element("div", card, class_="card") if card else None
+    sampled = element("div", card, class_="card blocks scroll") if card else None
     return element("section", *moving, sampled, _map(report), id="gains")
 
 

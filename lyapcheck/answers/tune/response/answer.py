@@ -371,4 +371,6 @@ def _seconds(value: float) -> str:
 
 
 def _degrees(value: float) -> str:
-    return "anywhere" if math.isinf(value) else f"{at_most(value)}°" if value else NONE
+    if math.isnan(value) or not value:
+        return NONE
+    return "anywhere" if math.isinf(value) else f"{at_most(value)}°"
