@@ -17,12 +17,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.running.from_rest import shown_from_rest
 from lyapcheck.asked import sampled, viscous_of
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
-from lyapcheck.control.sampled import SampledLoop, judged_sampled, sampled_proof
 from lyapcheck.control.sampling import LoopRecord, time_text
 from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text, exact_decimal, significant_down
@@ -154,6 +152,9 @@ def sampled_check(
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
+    from lyapcheck.answers.running.from_rest import shown_from_rest  # a gate without a loop starts sooner
+    from lyapcheck.control.sampled import judged_sampled
+
     if record is None or record.period is None:
         return Check(SAMPLED, reason=NO_PERIOD)
     known = SampledCheck(SAMPLED, value=record.period, record=record, counts=inside)
@@ -196,6 +197,8 @@ def question(
     Raises:
         ValueError: (S) does not speak of such a loop or such an h; it says why.
     """
+    from lyapcheck.control.sampled import SampledLoop
+
     if record.lowpass is not None:
         raise ValueError(LOWPASS)
     family = named(gains.family, gains.m)
@@ -217,6 +220,8 @@ def largest(
     asked: SampledStable, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
     """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
+    from lyapcheck.control.sampled import sampled_proof
+
     k_g = asked.k_g or sampled_proof(asked).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
     rows = list(zip(asked.viscous_min, still, now, strict=True))
