@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from lyapcheck.check.kinds.chain import ChainAbove
+    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
     from lyapcheck.check.kinds.decreasing import Decreasing
     from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.check.kinds.sampled import SampledStable
@@ -52,8 +53,10 @@ def decreasing(
     coupling: tuple[Fraction, ...] = (),
     *,
     nominal: bool = False,
-) -> Decreasing:
+) -> Decreasing | ChainDecreasing:
     """Does V fall at every state of every arm in the ranges, with this ε₀? See `Decreasing`.
+
+    Of exact links whose M is too long to be written out the same is asked about the links.
 
     Args:
         gains: the controller.
@@ -62,12 +65,21 @@ def decreasing(
         coupling: the diagonal of Λ, where one is printed.
         nominal: the question is about the nominal numbers of the arm alone.
     """
+    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
     from lyapcheck.check.kinds.decreasing import Decreasing
 
     arm = arm.fixed() if nominal else arm
+    viscous = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)
+    try:
+        mass = mass_of(arm)
+    except TooManyTerms:
+        if arm.chain is None or coupling:
+            raise
+        own = gains.family, gains.m, tuple(gains.kp), tuple(gains.kv)
+        return ChainDecreasing(arm.chain.links, viscous, *own, eps0)
     return Decreasing(
-        mass=mass_of(arm),
-        viscous=tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous),
+        mass=mass,
+        viscous=viscous,
         parameters=parameters_of(arm),
         family=gains.family,
         m=gains.m,

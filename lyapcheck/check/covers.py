@@ -65,6 +65,8 @@ ROWS: dict[str, dict[str, Row]] = {
     "ChainGravityBelow": _CHAIN | {"fall": _same, "joints": _same, "high": _at_most},
     # V itself depends on ε₀, so that a proof for one ε₀ is none for a smaller one
     "Decreasing": _LOOP | {"eps0": _same, "coupling": _same},
+    "ChainDecreasing": _CHAIN
+    | {"viscous": _wider, **dict.fromkeys(("family", "m", "kp", "kv", "eps0"), _same)},
     # more friction than was asked about leaves larger errors
     "Resting": dict.fromkeys(("family", "m", "kp"), _same) | {"torque": _at_least, "errors": _at_most},
     # A conjunction, so that fewer conditions follow. Of the ranges each part is *for all*: gravity for all

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 from lyapcheck.output.digits import at_least
 from lyapcheck.report.model import MapCell
 from lyapcheck.report.plain import read
+from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-    from lyapcheck.search.proof import DecreaseProof
 
 SCALES = ("0.05", "0.1", "0.2", "0.5", "1", "2")
 """k_v of the map, N·m."""
@@ -62,7 +62,7 @@ def _row(model: RobotModel, one: GainSet, scales: Sequence[str], goal: Sequence[
         if known is not None and _digits(result) <= Fraction(map_eps0(known.loop.eps0)):
             promise, _ = answers(known, gains, model, ranges=False)
             result = result if promise is None else replace(result, promise=promise, proof=known)
-        served = result.proof
+        served = result.proof if isinstance(result.proof, DecreaseProof) else None
         cells.append(_cell(result, model, kv, goal))
     return cells[::-1]
 

@@ -15,7 +15,7 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
-from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
 from lyapcheck.search.proof import DecreaseProof
@@ -119,6 +119,14 @@ class ControlledArm:
     def ranged(self) -> Plant:
         """The arm that certificates are about: with its parameters if they are to range."""
         return self.model if self.ranges else self.fixed
+
+    @cached_property
+    def too_long(self) -> bool:
+        """Whether M(q) has too many terms to be written out."""
+        try:
+            return not mass_of(self.ranged)
+        except TooManyTerms:
+            return True
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:

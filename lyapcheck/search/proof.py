@@ -11,6 +11,7 @@ from lyapcheck.computing import shared_between
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 
 if TYPE_CHECKING:
+    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
     from lyapcheck.check.kinds.decreasing import BoxTree
     from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
     from lyapcheck.check.kinds.link_bounds import LinkBounds
@@ -33,6 +34,16 @@ class DecreaseProof:
     inertia: Bisection | Links | MassAtCorners
     kv: tuple[Fraction, ...] = field(default=(), kw_only=True)
     judged: JudgedStatement | None = field(default=None, kw_only=True, compare=False)
+
+    @property
+    def eps0(self) -> Fraction:
+        """ε₀."""
+        return self.loop.eps0
+
+    @property
+    def coupling(self) -> tuple[Fraction, ...]:
+        """Diagonal of Λ; empty for (13)."""
+        return self.loop.coupling
 
     @property
     def boxes(self) -> int:
@@ -59,3 +70,19 @@ class DecreaseProof:
         with shared_between(jobs):
             judged = judged_statement(self.statement, [self.certificate])
         return replace(self, judged=judged) if judged.shown == "proved" else None
+
+
+@dataclass(frozen=True)
+class ChainProof:
+    """The same of links whose M(q) is too long to be written out, judged by the checker."""
+
+    statement: ChainDecreasing
+    certificate: Proof
+    judged: JudgedStatement
+    coupling: tuple[Fraction, ...] = ()
+    boxes: int = 0
+
+    @property
+    def eps0(self) -> Fraction:
+        """ε₀."""
+        return self.statement.eps0

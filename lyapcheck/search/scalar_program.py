@@ -10,12 +10,15 @@ from flint import fmpq
 
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.family.registry import named
+from lyapcheck.search.proof import ChainProof, DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
     from lyapcheck.check.loop.closed_loop import ClosedLoop
-    from lyapcheck.check.statement import Ends
+    from lyapcheck.check.statement import Ends, Proof
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.robots.dynamics import Chain
     from lyapcheck.search.controlled_arm import ControlledArm
 
 DIGITS = 9
@@ -116,3 +119,41 @@ def norm_proof(
     if result.eps0 is None:
         return None, result.reason
     return DecreaseProof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""
+
+
+# --- The same of links whose M(q) is too long to be written out: bounds of ‖M‖ and ‖C‖ along the links.
+
+
+def chain_epsilon(gains: GainSet, chain: Chain, viscous: tuple[Ends, ...]) -> tuple[ChainProof | None, str]:
+    """A proof that the checker has accepted, or why there is none.
+
+    Args:
+        viscous: the range of each diagonal entry of B, N·m·s/rad.
+    """
+    from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
+    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing, ChainNorms
+    from lyapcheck.constants.storage import storage_proof
+    from lyapcheck.control.judgement import judged_statement, proves
+
+    if not named(gains.family, gains.m).bounded:
+        return None, UNBOUNDED
+    if min(low for low, _ in viscous) <= 0:
+        return None, "a joint has no viscous friction, so θ'22 is never positive"
+    largest, coriolis = (storage_proof(chain, name) for name in ("lambda_max", "k_c"))
+    if largest is None or coriolis is None:
+        return None, "no bounds of ‖M‖ and ‖C‖ along the links were found"
+    positive: Proof = OwnMoments()
+    if not proves(ChainAbove(chain.links, Fraction(0)), positive):
+        smallest = storage_proof(chain, "lambda_min")
+        if smallest is None:
+            return None, "M(q) is not shown to be positive definite; lyapcheck robot says what is known"
+        positive = smallest.proof
+    own = gains.family, gains.m, tuple(gains.kp), tuple(gains.kv)
+    statement = ChainDecreasing(chain.links, viscous, *own, Fraction(1))
+    result = scalar_epsilon(statement.form(largest.bound, coriolis.bound))
+    if result.eps0 is None:
+        return None, result.reason
+    statement = replace(statement, eps0=result.eps0)
+    norms = ChainNorms(positive, largest.bound, largest.proof, coriolis.bound, coriolis.proof)
+    judged = judged_statement(statement, [norms])
+    return (ChainProof(statement, norms, judged), "") if judged.shown == "proved" else (None, REFUSED)

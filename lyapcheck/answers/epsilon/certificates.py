@@ -12,9 +12,11 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import file_stem
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from fractions import Fraction
+
     from lyapcheck.answers.epsilon import EpsilonResult
     from lyapcheck.answers.epsilon.four import Refutation
-    from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.search.falsify import RisingState
 
 PROOF = "epsilon"
@@ -33,15 +35,16 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     known = {
         ("certified", "proved"): result.proof,
         ("scalar", "scalar"): result.scalar_proof,
-        ("weighted", "weighted"): weighted.proof if weighted and weighted.proof.loop.coupling else None,
+        ("weighted", "weighted"): weighted.proof if weighted and weighted.proof.coupling else None,
     }
     for (file, kind), proof in known.items():
         if proof is not None:
-            stated = statement_of(proof.loop)
-            add(file, kind, _says(result, proof.loop), stated, "proved", proof.certificate)
+            says = _says(result, proof.eps0, proof.coupling)
+            add(file, kind, says, proof.statement, "proved", proof.certificate)
     if witness is not None and (against := result.against) is not None:
         stated, state = statement_of(against.loop), _state(witness, against)
-        add("falsified", "refuted", _says(result, against.loop), stated, "refuted", state)
+        says = _says(result, against.loop.eps0, against.loop.coupling)
+        add("falsified", "refuted", says, stated, "refuted", state)
     return made
 
 
@@ -50,10 +53,10 @@ def _state(witness: RisingState, at: Refutation) -> StateWitness:
     return StateWitness(at.viscous, at.parameters, witness.state.q, witness.state.e, witness.state.w)
 
 
-def _says(result: EpsilonResult, loop: ClosedLoop) -> str:
+def _says(result: EpsilonResult, eps0: Fraction, coupling: Sequence[Fraction]) -> str:
     arms = "for every arm in its ranges" if result.ranges else "at nominal numbers"
-    weights = ", ".join(decimal_text(scale) for scale in loop.coupling)
+    weights = ", ".join(decimal_text(scale) for scale in coupling)
     return (
         f"dV/dt < 0 at every state but the origin: {result.name} on {result.robot}, {arms}, "
-        f"ε₀ = {decimal_text(loop.eps0)}{f', Λ = diag({weights})' if weights else ''}"
+        f"ε₀ = {decimal_text(eps0)}{f', Λ = diag({weights})' if weights else ''}"
     )

@@ -40,8 +40,8 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.corners import falsify_corners
 from lyapcheck.search.falsify import STARTS, RisingState, falsify
 from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import DecreaseProof
-from lyapcheck.search.scalar_program import norm_epsilon
+from lyapcheck.search.proof import ChainProof, DecreaseProof
+from lyapcheck.search.scalar_program import chain_epsilon, norm_epsilon
 from lyapcheck.search.weights import Effort, Weighted, usual_effort, weighted_epsilon
 
 if TYPE_CHECKING:
@@ -60,8 +60,8 @@ def put_together(
     *,
     published: Fraction | None,
     scalar: Fraction | None,
-    proof: DecreaseProof | None,
-    scalar_proof: DecreaseProof | None,
+    proof: DecreaseProof | ChainProof | None,
+    scalar_proof: DecreaseProof | ChainProof | None,
     weighted: Weighted | None,
     reasons: Mapping[str, str],
     **more: Any,
@@ -90,7 +90,7 @@ def put_together(
         promises[name], why = answers(one, *question)
         reasons |= {name: why} if why else {}
     promise, by_norms = promises["certified"], answers(scalar_proof, *question)[0]
-    certified = None if promise is None or proof is None else proof.loop.eps0
+    certified = None if promise is None or proof is None else proof.eps0
     require_consistent(at, witness, {"scalar": scalar, "certified": certified})
     return EpsilonResult(
         gains=controlled.gains,
@@ -115,7 +115,7 @@ def put_together(
 
 
 def answers(
-    proof: DecreaseProof | None, gains: GainSet, model: Plant, ranges: bool
+    proof: DecreaseProof | ChainProof | None, gains: GainSet, model: Plant, ranges: bool
 ) -> tuple[Promise | None, str]:
     """The promise that V falls with the ε₀ and the weights of a proof, or why it is none.
 
@@ -123,8 +123,7 @@ def answers(
     """
     if proof is None or proof.judged is None:
         return None, ""
-    number, weights = proof.loop.eps0, proof.loop.coupling
-    question = asked.decreasing(gains, model, number, weights, nominal=not ranges)
+    question = asked.decreasing(gains, model, proof.eps0, proof.coupling, nominal=not ranges)
     return promised(question, proof.judged)
 
 
@@ -194,6 +193,25 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
     controlled.require_friction()
     progress(0.0, "scalar form")
     published, scalar, reasons = by_forms(controlled)
+    if controlled.too_long and (chain := controlled.ranged.chain) is not None:
+        viscous = asked.viscous_of(model, nominal=not controlled.ranges)
+        linked, reasons["certified"] = chain_epsilon(gain_set, chain, viscous)
+        reasons["falsified"] = "M(q) of these links is too long to be written out, and no state is searched"
+        return put_together(
+            controlled,
+            controlled,
+            None,
+            published=published,
+            scalar=scalar.eps0,
+            proof=linked,
+            scalar_proof=linked if linked is not None and linked.eps0 == scalar.eps0 else None,
+            weighted=None,
+            boxes=0,
+            certified_by="bounds along the links",
+            reasons={name: reason for name, reason in reasons.items() if reason},
+            assumptions=model.assumptions,
+            seed=options.seed,
+        )
     by = ""
     proof: DecreaseProof | None = None
     scalar_proof: DecreaseProof | None = None

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.files.decimals import decimal_text
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.promise import Promise
     from lyapcheck.search.controlled_arm import ControlledArm
     from lyapcheck.search.falsify import RisingState
-    from lyapcheck.search.proof import DecreaseProof
+    from lyapcheck.search.proof import ChainProof, DecreaseProof
     from lyapcheck.search.weights import Weighted
 
 ROUNDED = Fraction(1, 10**8)
@@ -38,7 +39,7 @@ def eps0_of(promise: Promise | None) -> Fraction | None:
     """The ε₀ that a promise is about."""
     if promise is None:
         return None
-    assert isinstance(promise.asked, Decreasing)
+    assert isinstance(promise.asked, Decreasing | ChainDecreasing)
     return promise.asked.eps0
 
 
@@ -90,8 +91,8 @@ class FourEpsilons:
     witness: RisingState | None
     boxes: int
     certified_by: str
-    proof: DecreaseProof | None = None
-    scalar_proof: DecreaseProof | None = None
+    proof: DecreaseProof | ChainProof | None = None
+    scalar_proof: DecreaseProof | ChainProof | None = None
     against: Refutation | None = None
     weighted: Weighted | None = None
     weighted_promise: Promise | None = None

@@ -47,12 +47,14 @@ def kept_epsilon(
     """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds."""
     if options.seconds is not None:  # another run of so many seconds may find a larger one
         return four(gain_set, model, options, on_progress)
+    if (controlled := ControlledArm(gain_set, model, options.ranges)).too_long:
+        return four(gain_set, model, options, on_progress)
     # all that the four depend on; not the name of the gain set
     gains = gain_set.family, gain_set.m, gain_set.kp, gain_set.kv, gain_set.angle_unit
     budget = {name: getattr(options, name) for name in ("max_boxes", "ranges", "weights", "starts", "seed")}
     return remembered(
         {"epsilon": store.exact(gains, model), **budget},
-        lambda kept: _rebuilt(kept, ControlledArm(gain_set, model, options.ranges), model.assumptions),
+        lambda kept: _rebuilt(kept, controlled, model.assumptions),
         lambda: four(gain_set, model, options, on_progress),
         _written,
         options.jobs,

@@ -118,7 +118,7 @@ def _way(result: FourEpsilons) -> str:
     """How the certified number was proved, and how much was tried."""
     promise = result.promise
     parts = [] if promise is None else [promise.says(f"certified by {result.certified_by}")]
-    if result.proof is not None:
+    if result.proof is not None and result.proof.boxes:
         parts.append(f"{boxes_text(result.proof.boxes)} judged by the checker")
     if result.boxes:
         parts.append(f"{boxes_text(result.boxes)} looked at by the search")

@@ -15,16 +15,18 @@ from fractions import Fraction
 
 from lyapcheck._types import Progress, part, silent
 from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, small, unknown_function
+from lyapcheck.asked import viscous_of
+from lyapcheck.check.statement import Ends
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import DecreaseProof
-from lyapcheck.search.scalar_program import REFUSED, norm_epsilon
+from lyapcheck.search.proof import ChainProof, DecreaseProof
+from lyapcheck.search.scalar_program import REFUSED, chain_epsilon, norm_epsilon
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
@@ -81,10 +83,13 @@ class Prover:
         nominal = self.model.fixed()
         along = name == LASALLE and not small(nominal) and nominal.chain is not None  # looks at M(q) itself
         reason = unknown_function(gains) or ("" if along else self._unphysical(controlled))
-        proof = None
+        proof: DecreaseProof | ChainProof | None = None
         if not reason and name == LASALLE:
             return lasalle(self.model, self.ranges)
-        if not reason:
+        if reason == _TOO_LONG and controlled.ranged.chain is not None:
+            viscous = viscous_of(self.model, self.viscous_min, nominal=not self.ranges)
+            proof, reason = self._along_links(gains, controlled.ranged.chain, viscous)
+        elif not reason:
             friction = friction_of(self.model, self.viscous_min, self.ranges)
             proof, reason = (
                 norm_epsilon(controlled, friction)
@@ -94,7 +99,7 @@ class Prover:
         if proof is None:
             return Check(name, reason=reason)
         judged = judged_statement(proof.statement, [proof.certificate])
-        return decided(name, gains, self.model, proof.loop.eps0, judged, self.viscous_min, self.ranges)
+        return decided(name, gains, self.model, proof.eps0, judged, self.viscous_min, self.ranges)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
@@ -113,6 +118,16 @@ class Prover:
         return self._fault
 
     _fault: str | None = None
+
+    @staticmethod
+    def _along_links(
+        gains: GainSet, chain: Chain, viscous: tuple[Ends, ...]
+    ) -> tuple[ChainProof | None, str]:
+        """Scalar and global alike, by bounds along the links."""
+        lacking = next((one for one in ("numpy", "scipy", "clarabel") if not installed(one)), None)
+        if lacking is not None:
+            return None, f"needs {PACKAGES[lacking]}, which is not installed; {repair(lacking)}"
+        return chain_epsilon(gains, chain, viscous)
 
     def _global(
         self, controlled: ControlledArm, viscous: Sequence[Number], progress: Progress

@@ -57,6 +57,32 @@ def certifies(form: ScalarForm, eps0: Fraction) -> bool:
     return signs and eps0 > 0 and form.margin(eps0) > 0
 
 
+def scalar_form(
+    h: Member,
+    kp: Sequence[Fraction],
+    kv: Sequence[Fraction],
+    friction: Sequence[Ends],
+    largest: Fraction,
+    coriolis: Fraction,
+    weights: Sequence[Fraction] = (),
+) -> ScalarForm:
+    """Θ' of an arm with ‖M(q)‖ ≤ ``largest`` and ‖C(q, x)y‖ ≤ ``coriolis`` ‖x‖ ‖y‖, for y = w − εΛh.
+
+    Soundness: |dε/dt| ≤ ε ‖w‖/(1 + ‖e‖), and with λ = λmax(Λ) ‖Λh(e)‖ ≤ H = min(√n γ λ, L λ ‖e‖). So the
+    rate of εΛh is at most ε (ρλ + G) ‖w‖, G the largest value of H/(1 + ‖e‖). All else is by norms.
+    """
+    scale = max(weights, default=Fraction(1))
+    norm_h = root_above(Fraction(len(kp))) * h.gamma * scale
+    rho, slope = h.rho * scale, h.L * scale
+    G = norm_h * slope / (slope + norm_h)
+    return ScalarForm(
+        stiffness=min(p / w for p, w in zip(kp, weights or (Fraction(1),) * len(kp), strict=True)),
+        friction=min(low for low, _ in friction),
+        drift=largest * (rho + G) + norm_h * coriolis,
+        cross=max(high for _, high in friction) + h.L * max(kv),
+    )
+
+
 LARGEST_RADIUS = 1 << 64
 """Radians; what takes more is no statement about an arm."""
 Range = tuple[Fraction, Fraction]
@@ -161,16 +187,8 @@ class ClosedLoop:
 
         ‖M‖ is at most its largest row sum, and ‖C(q,x)y‖ ≤ (Σ c_ijk²)^½ ‖x‖ ‖y‖.
         """
-        inertia, largest_coupling = self.inertia, max(self.Lambda)
-        norm_h = root_above(Fraction(self.n)) * self.member.gamma * largest_coupling
-        rho, slope = self.member.rho * largest_coupling, self.member.L * largest_coupling
-        G = norm_h * slope / (slope + norm_h)
-        return ScalarForm(
-            stiffness=min(p / scale for p, scale in zip(self.kp, self.Lambda, strict=True)),
-            friction=min(low for low, _ in self.friction),
-            drift=inertia.largest_row * (rho + G) + norm_h * root_above(inertia.squares_of_symbols),
-            cross=max(high for _, high in self.friction) + self.member.L * max(self.kv),
-        )
+        largest, coriolis = self.inertia.largest_row, root_above(self.inertia.squares_of_symbols)
+        return scalar_form(self.member, self.kp, self.kv, self.friction, largest, coriolis, self.Lambda)
 
     @cached_property
     def radius(self) -> float:
