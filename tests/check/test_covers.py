@@ -14,6 +14,7 @@ import pytest
 from lyapcheck.check import kinds
 from lyapcheck.check.covers import ROWS, require_covered
 from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.gate_accepted import GateAccepted, GateParts
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
@@ -36,6 +37,7 @@ MASS = (((((0, 0, 1), F(1)), ((0, 1, 0), F(1, 2))),),)
 RANGE = ((F(2), F(3)),)
 NONE, UNIT = (F(0),) * 3, tuple(tuple(F(i == k) for k in range(3)) for i in range(3))
 LINKS = (RigidLink(UNIT[2], NONE, F(1), UNIT[0], UNIT, UNIT),)
+HEAVY = (RigidLink(UNIT[2], NONE, F(2), UNIT[0], UNIT, UNIT),)
 SHOWN: dict[str, Statement] = {
     "MassAbove": MassAbove(MASS, RANGE, F(1)),
     "MassBelow": MassBelow(MASS, RANGE, F(4)),
@@ -57,6 +59,7 @@ SHOWN: dict[str, Statement] = {
         (MassAbove(MASS, RANGE, F(1)),),
     ),
     "Decreasing": Decreasing(MASS, RANGE, RANGE, "hyperbolic", 1, (F(5),), (F(1),), F(1, 10), ()),
+    "ChainDecreasing": ChainDecreasing(HEAVY, RANGE, "hyperbolic", 1, (F(5),), (F(1),), F(1, 10)),
     "Resting": Resting("hyperbolic", 1, (F(5),), (F(1),), (F(1, 3),)),
     "SampledStable": SampledStable(
         *("hyperbolic", 1, (F(5),), (F(1, 10),), (F(1),), (), (), (), MASS, ((COSINE, F(-5)),), RANGE),
