@@ -7,9 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck import robots
+from lyapcheck import epsilon, robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.control.gains import one_gain_set
 from lyapcheck.control.gravity import computed_bounds
+from lyapcheck.family import named
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.command import invoke
 
@@ -56,8 +59,17 @@ def test_such_an_arm_is_proved_stable_and_told_how_it_swings(tmp_path: Path) -> 
     assert invoke(*command).exit_code == invoke("recheck", proofs).exit_code == 0
 
 
-def test_what_needs_m_written_out_says_so(tmp_path: Path) -> None:
-    arm(tmp_path, "0")
-    (result,) = gate(tmp_path / "g.toml", None, ["scalar"])
-    assert result.verdict == "undecided"
-    assert "too long to be written out; --condition lasalle" in str(result.failures[0].reason)
+def test_such_an_arm_has_a_certified_epsilon_and_v_falls_with_it(tmp_path: Path) -> None:
+    import numpy as np
+
+    model = robots.load(arm(tmp_path, "0"))
+    known = one_gain_set(tmp_path / "g.toml")
+    certified = epsilon(known, model).certified
+    assert certified is not None
+    gains = [*map(float, known.kp)], [*map(float, known.kv)]
+    lyapunov = LyapunovNumeric(model, named("hyperbolic", 1), *gains, float(certified))
+    q, e, w = np.random.default_rng(2).normal(size=(3, 3000, 7)) * np.array([2.0, 2.0, 0.5])[:, None, None]
+    assert lyapunov.rate(q, e, w).max() < 0
+    proofs = str(tmp_path / "proofs")
+    command = ("gate", str(tmp_path / "g.toml"), "--condition", "scalar", "--certificates", proofs)
+    assert invoke(*command).exit_code == invoke("recheck", proofs).exit_code == 0

@@ -48,6 +48,8 @@ FLAT = 8.0
 """So many times as long where h is flat at the goal: what it brings late would not be seen."""
 MOST_AS_RUN = 12
 """Runs as a computer has them, of all motions on all arms: each takes seconds."""
+MOST_WATCHED = 8_000
+"""Steps of the integrator: a stiff motion that took as many is not watched for longer."""
 DOUBLINGS = 6
 """Of that time, until the energy that is left keeps every joint within its band for good."""
 NEVER = 1e3
@@ -168,7 +170,7 @@ def tried(gains: GainSet, models: Sequence[RobotModel], bench: Trials, *, exact:
     """
     for doubling in range(DOUBLINGS + 1 if exact else 1):
         (trial,) = tried_all([gains], models, bench, 2**doubling)
-        if trial.kept:
+        if trial.kept or trial.steps > MOST_WATCHED:
             break
     return trial
 
