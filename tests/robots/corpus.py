@@ -32,9 +32,14 @@ def test_robots_of_the_corpus_load_and_move_as_pinocchio_says() -> None:
         loaded += arm is not None and other is not None
         gap = None if arm is None or other is None else difference(arm, other)
         wrong += [path.name] if gap is not None and gap > TOLERANCE else []
+        other_numbers = [] if arm is None or other is None else numbers_that_differ(arm, other)
+        wrong += [f"{path.name} {name}" for name in other_numbers]
         joints = "" if arm is None else str(arm.n)
         rows.append(f"| {path.name} | {joints} | {how} | {'' if gap is None else f'{gap:.0e}'} |\n")
-    share = f"{loaded} of the {known} files load that Pinocchio reads and that have masses.\n\n"
+    share = (
+        f"{loaded} of the {known} files load that Pinocchio reads and that have masses. "
+        "Torque limits, damping and dry friction are equal in all of them.\n\n"
+    )
     TABLE.write_text(f"# Arms of example-robot-data\n\n{share}{HEAD}{''.join(rows)}", encoding="utf-8")
     assert wrong == []
     assert loaded >= SHARE * known
@@ -76,3 +81,18 @@ def difference(arm: robots.RobotModel, model: pin.Model) -> float:
         gaps = np.max(np.abs(mine.mass(q) - mass)), np.max(np.abs(mine.gravity(q) - gravity))
         worst = max(worst, *(float(gap / np.max(np.abs(mass))) for gap in gaps))
     return worst
+
+
+def numbers_that_differ(arm: robots.RobotModel, model: pin.Model) -> list[str]:
+    """Torque limits, damping and dry friction that are not those of Pinocchio, by joint; none is 0 there."""
+    wrong = []
+    for k, name in enumerate(arm.joints):
+        place = model.joints[model.getJointId(name)].idx_v
+        limit, dry = arm.torque_limit[k], arm.coulomb[k]
+        theirs = model.effortLimit[place], model.damping[place], model.friction[place]
+        known = 0 < theirs[0] < np.finfo(float).max  # no effort, or an endless one, is no limit
+        ours = (0.0 if limit is None else float(limit.value), float(arm.viscous[k].value))
+        ours = (*ours, 0.0 if dry is None else float(dry.value))
+        if ours != (theirs[0] if known else 0.0, *theirs[1:]):
+            wrong.append(f"{name}: {ours} is not {theirs}")
+    return wrong
