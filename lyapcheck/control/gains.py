@@ -101,7 +101,10 @@ class Bounds:
 
 @dataclass(frozen=True)
 class GainFile:
-    """A gain file as read; ``document`` knows the line and column of every number."""
+    """A gain file as read; ``document`` knows the line and column of every number.
+
+    ``certificates`` is the folder whose proofs the gate rechecks before it searches for any.
+    """
 
     path: str
     robot: str | None
@@ -109,6 +112,7 @@ class GainFile:
     bounds: Bounds = Bounds()
     document: TomlFile | None = None
     loop: LoopEntry = NOTHING
+    certificates: str | None = None
 
     def place(self, gain_set: GainSet, key: str = "", joint: int | None = None) -> Place | None:
         """Where a gain of a set stands; ``joint`` counts from 0."""
@@ -166,12 +170,14 @@ def read_gain_file(path: str | Path, robot: str | None = None, *, undamped: bool
     sets = [gain_set_of(table, index, condition, joints, undamped) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds, loop = _bounds(top.table("bounds")), read_loop(top.table("loop"))
+    folder = top.text("certificates")
     top.close()
     _check_names(tables)
     _check_lengths(gains, bounds, notes)
     if notes.problems:
         raise InputError(notes.problems)
-    return GainFile(document.name, own, gains, bounds, document, loop)
+    certificates = str(Path(path).parent / folder) if folder else None
+    return GainFile(document.name, own, gains, bounds, document, loop, certificates)
 
 
 def conditions_of(table: Fields) -> tuple[str, ...]:

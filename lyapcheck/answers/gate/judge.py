@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.gate.folder import certificates_of
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
 from lyapcheck.check.statement import Relation
@@ -23,6 +24,7 @@ from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
+    from lyapcheck.check.certificate import Certificate
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
@@ -180,7 +182,8 @@ def judged_sets(
     record = record_of(loop, gain_file.loop, own)
     conditions: dict[tuple[str, int | None], Conditions] = {}
     deciding = [deciding_for(gains, asked) for gains in gain_file.gains]
-    proved, rests_on = _certificates(gain_file, limits, deciding, on_progress)
+    kept = certificates_of(gain_file)
+    proved, rests_on = _certificates(gain_file, limits, deciding, on_progress, kept)
     if rests_on:
         limits = limits.resting_on((*limits.gravity_notes, *rests_on))
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
@@ -197,10 +200,9 @@ def judged_sets(
             from lyapcheck.answers.running import running_checks
 
             least, others = gain_file.bounds.viscous_min, checks if gamma == "true" else ()
-            checks = (
-                *checks,
-                *running_checks(gains, limits, record, least, names, others, more or not explained, within),
-            )
+            searched = more or not explained
+            running = running_checks(gains, limits, record, least, names, others, searched, within, kept)
+            checks = (*checks, *running)
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
@@ -241,7 +243,11 @@ def _require_known(deciding: Sequence[str]) -> None:
 
 
 def _certificates(
-    gain_file: GainFile, limits: Limits, deciding: Sequence[Sequence[str]], on_progress: Progress | None
+    gain_file: GainFile,
+    limits: Limits,
+    deciding: Sequence[Sequence[str]],
+    on_progress: Progress | None,
+    kept: Sequence[Certificate],
 ) -> tuple[list[tuple[Check, ...]], tuple[str, ...]]:
     """The checks of the certificates that decide, for each gain set, and what they take for granted."""
     wanted = [[name for name in CERTIFICATES if name in names] for names in deciding]
@@ -250,7 +256,7 @@ def _certificates(
     from lyapcheck._types import part, silent
     from lyapcheck.answers.gate.prover import Prover
 
-    prover = Prover(limits.model, gain_file.bounds.viscous_min, limits.varied)
+    prover = Prover(limits.model, gain_file.bounds.viscous_min, limits.varied, kept)
     checks: list[tuple[Check, ...]] = []
     step, number = 1 / sum(map(len, wanted)), 0
     for gains, own in zip(gain_file.gains, wanted, strict=True):

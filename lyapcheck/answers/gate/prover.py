@@ -11,11 +11,17 @@ proves them. A search that finds nothing refutes nothing: there is no ``rejected
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
+from functools import partial
+from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress, part, silent
+from lyapcheck.answers.gate.folder import shown_by
 from lyapcheck.answers.gate.otherwise import LASALLE, decided, friction_of, lasalle, small, unknown_function
-from lyapcheck.asked import viscous_of
+from lyapcheck.asked import decreasing, viscous_of
+from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
+from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.statement import Ends
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
@@ -27,6 +33,10 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.posture import unphysical
 from lyapcheck.search.proof import ChainProof, DecreaseProof
 from lyapcheck.search.scalar_program import REFUSED, chain_epsilon, norm_epsilon
+
+if TYPE_CHECKING:
+    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.check.statement import Statement
 
 MAX_BOXES = 5_000
 """For each attempt: any ε₀ will do, so the boxes of a second or two are enough."""
@@ -54,12 +64,17 @@ class Prover:
         model: the arm; ``None`` where the gain file gives its limits only.
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
         ranges: for all values of what is uncertain about the arm, and not for the nominal ones.
+        kept: certificates that are judged before anything is searched.
     """
 
     def __init__(
-        self, model: RobotModel | None, viscous_min: Fraction | None = None, ranges: bool = False
+        self,
+        model: RobotModel | None,
+        viscous_min: Fraction | None = None,
+        ranges: bool = False,
+        kept: Sequence[Certificate] = (),
     ) -> None:
-        self.model, self.viscous_min, self.ranges = model, viscous_min, ranges
+        self.model, self.viscous_min, self.ranges, self.kept = model, viscous_min, ranges, kept
 
     def check(self, name: str, gains: GainSet, progress: Progress = silent) -> Check:
         """The check of one certificate: its value is the ε₀ proved.
@@ -73,9 +88,10 @@ class Prover:
         """
         if self.model is None:
             return Check(name, reason=_NO_ARM)
-        lacking = next((one for one in SEARCHES if not installed(one)), None) if name == GLOBAL else None
-        if lacking is not None:
-            return Check(name, reason=f"needs {PACKAGES[lacking]}, which is not installed; {repair(lacking)}")
+        if name == GLOBAL:
+            known = self._from_folder(name, gains, self.model)
+            if known is not None:
+                return known
         progress(0.0, "")
         controlled = ControlledArm(gains, self.model, self.ranges)
         if self.ranges and self.model.n > FEW_JOINTS and (name == LASALLE or not controlled.chains):
@@ -107,6 +123,30 @@ class Prover:
         if self.model is None:
             return ()
         return (_RANGED if self.ranges else _NOMINAL, *self.model.assumptions)
+
+    def _from_folder(self, name: str, gains: GainSet, model: RobotModel) -> Check | None:
+        """The largest ε₀ of the certificates at hand; with neither these nor a search why there is none."""
+        found = [
+            Check(name, judgement=judged, value=judged.statement.eps0, promise=promise)  # type: ignore[attr-defined]
+            for promise, judged in shown_by(self.kept, partial(self._asked, gains, model))
+        ]
+        lacking = next((one for one in SEARCHES if not installed(one)), None)
+        if not found and lacking is not None:
+            found = [
+                Check(name, reason=f"needs {PACKAGES[lacking]}, which is not installed; {repair(lacking)}")
+            ]
+        return max(found, key=lambda check: check.value or 0, default=None)
+
+    def _asked(self, gains: GainSet, model: RobotModel, stated: Statement) -> Statement | None:
+        """That V falls for these gains, with the ε₀ and the weights of a statement."""
+        if not isinstance(stated, Decreasing | ChainDecreasing):
+            return None
+        weights = stated.coupling if isinstance(stated, Decreasing) else ()
+        try:
+            asked = decreasing(gains, model, stated.eps0, weights, nominal=not self.ranges)
+        except TooManyTerms:
+            return None
+        return replace(asked, viscous=viscous_of(model, self.viscous_min, nominal=not self.ranges))
 
     def _unphysical(self, controlled: ControlledArm) -> str:
         """Why there is nothing to prove on this arm, looked at once."""

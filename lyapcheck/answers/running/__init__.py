@@ -23,6 +23,7 @@ from lyapcheck.control.sampling import LoopRecord
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
+    from lyapcheck.check.certificate import Certificate
 
 INFINITE = "No rate is known: what is said is of (11), for a controller of infinite rate; see [loop]."
 
@@ -50,6 +51,7 @@ def running_checks(
     others: Sequence[Check] = (),
     searched: bool = True,
     within: Fraction | None = None,
+    kept: Sequence[Certificate] = (),
 ) -> tuple[Check, ...]:
     """The one place where an arm, gains and a record become statements that are judged.
 
@@ -62,12 +64,13 @@ def running_checks(
         others: the checks of (10i) and (10p), of which one has to pass for `sampled` to count.
         searched: whether to look for a refutation of what is not shown.
         within: degrees from the goal within which it is to be shown from rest.
+        kept: certificates that are judged before anything is searched.
     """
     checks: list[Check] = []
     if SAMPLED in deciding or (record is not None and record.period is not None):
-        kept = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
-        inside = any(each and all(each) for each in kept)
-        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, within))
+        passed = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
+        inside = any(each and all(each) for each in passed)
+        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, within, kept))
     if HOLDS in deciding or (record is not None and not record.knows_gravity):
         checks += holds_checks(gains, limits.model, record)
     return tuple(checks)

@@ -9,8 +9,9 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.gate.folder import shown_by
 from lyapcheck.asked import sampled_from_rest, viscous_of
-from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY
+from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, SampledFromRest
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.sampled import SampledLoop
 from lyapcheck.control.sampling import ONE
@@ -20,6 +21,10 @@ from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.check.statement import Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
@@ -30,16 +35,26 @@ SEARCHES = ("numpy", "scipy", "cvxpy", "clarabel")
 
 
 def shown_from_rest(
-    gains: GainSet, arm: RobotModel | None, record: LoopRecord, low: Fraction | None, within: Fraction | None
+    gains: GainSet,
+    arm: RobotModel | None,
+    record: LoopRecord,
+    low: Fraction | None,
+    within: Fraction | None,
+    kept: Sequence[Certificate] = (),
 ) -> tuple[Promise | None, str]:
     """That these gains bring the arm, in its ranges, to each goal at exactly the period; or why not.
 
     Its dry friction is left out; ``low``, N·m·s/rad, replaces its λmin(B). Starts are at rest with
-    each |e_i| ≤ ``within``, degrees; without it nothing is looked for.
+    each |e_i| ≤ ``within``, degrees; without it nothing is looked for but the widest of ``kept``.
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
     unfit = _unfit(gains, arm, record, within)
+    if kept and arm is not None and record.period is not None and not unfit:
+        known = shown_by(kept, lambda stated: _asked(gains, arm, record, low, within, stated))
+        widest = max(known, key=lambda pair: pair[0].asked.within, default=None)  # type: ignore[attr-defined]
+        if widest is not None:
+            return widest[0], ""
     if within is None or unfit or arm is None or record.period is None:
         return None, unfit if within is not None else "" if unfit else UNTRIED
     if lacking := next((one for one in SEARCHES if not installed(one)), ""):
@@ -55,6 +70,26 @@ def shown_from_rest(
     if proof is None:
         return None, f"(P) finds no proof from rest within {decimal_text(within)}° over the ranges of the arm"
     return promised(asked, judged_statement(asked, [proof]))
+
+
+def _asked(
+    gains: GainSet,
+    arm: RobotModel,
+    record: LoopRecord,
+    low: Fraction | None,
+    within: Fraction | None,
+    stated: Statement,
+) -> Statement | None:
+    """The question from within so many degrees, or from as many as a statement has."""
+    if not isinstance(stated, SampledFromRest):
+        return None
+    assert record.period is not None
+    loop = SampledLoop(record.period, delay=record.delay)
+    try:
+        asked = sampled_from_rest(gains, loop, arm, stated.within if within is None else within)
+    except TooManyTerms:
+        return None
+    return replace(asked, viscous=viscous_of(arm, low))
 
 
 def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord, within: Fraction | None) -> str:

@@ -31,6 +31,7 @@ from lyapcheck.robots.dynamics import TooManyTerms
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from lyapcheck.check.certificate import Certificate
     from lyapcheck.check.kinds.sampled import SampledStable
     from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
     from lyapcheck.control.gains import GainSet
@@ -138,6 +139,7 @@ def sampled_check(
     inside: bool,
     searched: bool = True,
     within: Fraction | None = None,
+    kept: Sequence[Certificate] = (),
 ) -> Check:
     """Are these gains stable, run in this way?
 
@@ -149,6 +151,7 @@ def sampled_check(
         inside: whether (10i) or (10p) is accepted, so that no motor saturates.
         searched: whether to look for a refutation where nothing is shown.
         within: where that finds none, show it from rest within so many degrees at exactly this period.
+        kept: certificates that are judged before anything is searched.
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
@@ -178,7 +181,7 @@ def sampled_check(
     refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
     if refuted is not None and not known.rests and _period(refuted) <= asked.period:
         return replace(known, judgement=refuted, refuted=refuted)
-    promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, within)
+    promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, within, kept)
     known = replace(known, refuted=refuted, from_rest=promise)
     if promise is not None and known.counts and not known.rests and record.encoder is None:
         known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]
