@@ -14,6 +14,7 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import GateResult, gate
+from lyapcheck.answers.running import from_rest
 from lyapcheck.answers.running.holds import HoldsCheck
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import Check
@@ -314,6 +315,14 @@ def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch:
     assert told == ["SampledFromRest", "1/1000", "90", 1]
     assert invoke("recheck", str(kept)).exit_code == 0
     assert left_over(words, monkeypatch) == []
+    with_folder = file.with_name("kept.toml")
+    with_folder.write_text(f'certificates = "made"\n{file.read_text()}')
+    monkeypatch.setattr(from_rest, "installed", lambda name: False)
+    for within, answer in ((None, "accepted"), (45, "accepted"), (91, "undecided")):
+        asked_for = None if within is None else Fraction(within)
+        found = judged(with_folder, LoopEntry(period=MS), ("sampled",), within=asked_for)
+        assert found.verdict == answer
+    assert judged(with_folder, LoopEntry(period=MS / 2), ("sampled",)).verdict == "undecided"
 
 
 NOT_FROM_REST = [
