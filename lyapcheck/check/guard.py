@@ -55,7 +55,6 @@ class Guard:
         self._exit.close()
 
     def judge(self, content: bytes, full: bool) -> Judgement:
-        """What a certificate shows by itself."""
         answer = self._ask(content, full)
         if "ended" in answer:
             return replace(Judgement().refused(answer["ended"]), spent=True)
@@ -100,7 +99,6 @@ class Guard:
                     stream.close()  # type: ignore[union-attr]
 
     def _ended(self, code: int, late: bool) -> str:
-        """Why a certificate has no answer."""
         seconds, memory = self.limits.seconds, self.limits.memory
         if late or (code < 0 and -code == getattr(signal, "SIGXCPU", 0)):
             return f"takes more than {seconds} s of computing time; --seconds allows more"

@@ -31,17 +31,14 @@ class Checked:
 
     @property
     def file(self) -> str:
-        """The name it goes by."""
         return self.document.file
 
     @property
     def accepted(self) -> bool:
-        """Whether it and all that it rests on is shown."""
         return self.status == "accepted"
 
     @property
     def verdict(self) -> str:
-        """``proved`` or ``refuted``, if it is accepted."""
         return self.finding.verdict if self.accepted else ""
 
 
@@ -109,7 +106,6 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
 
 
 def _own(document: Document, guard: Guard, full: bool) -> Checked:
-    """One document judged by itself."""
     try:
         finding = guard.judge(content(document.path), full)
     except (OSError, ValueError) as error:

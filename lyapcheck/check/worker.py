@@ -74,7 +74,6 @@ def _limit(limits: Limits) -> list[str]:
 
 
 def _lower(limit: int, wanted: int) -> None:
-    """Set a limit of the system, within what the process may."""
     hard = resource.getrlimit(limit)[1]
     resource.setrlimit(limit, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))
 

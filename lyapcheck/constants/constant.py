@@ -35,7 +35,6 @@ def from_distances(plant: Plant, name: str) -> Fraction | None:
 
 
 def _length(vector: Sequence[Fraction]) -> Fraction:
-    """The length of a vector, rounded up."""
     square = sum((x * x for x in vector), Fraction(0))
     return Fraction(sqrt(square)) * (1 + Fraction(1, 10**12))
 

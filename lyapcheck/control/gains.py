@@ -80,7 +80,6 @@ class GainSet:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.kp)
 
 

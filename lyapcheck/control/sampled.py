@@ -68,7 +68,6 @@ class SampledLoop:
 
     @property
     def stretch(self) -> Fraction:
-        """The longest interval over the nominal one."""
         return Fraction(1) if self.longest is None or self.period <= 0 else self.longest / self.period
 
 

@@ -55,7 +55,6 @@ class LoopRecord:
 
     @property
     def entry(self) -> LoopEntry:
-        """The same as a source would say it."""
         return LoopEntry(**{one.name: getattr(self, one.name) for one in fields(LoopEntry)})
 
     @property
@@ -69,7 +68,6 @@ class LoopRecord:
 
     @property
     def how(self) -> str:
-        """The same without the period."""
         late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
         parts = [late if self.delay else "no delay"]
         parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
@@ -148,7 +146,6 @@ def _option(key: str) -> str:
 
 
 def _typed(value: Any) -> Any:
-    """A number where a text is one."""
     text = value.strip() if isinstance(value, str) else ""
     if not _DECIMAL.fullmatch(text):
         return value

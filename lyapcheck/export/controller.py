@@ -61,12 +61,10 @@ class Controller:
 
     @property
     def family(self) -> Family:
-        """Of h."""
         return named(self.gains.family, self.gains.m)
 
     @cached_property
     def saturation(self) -> Saturation:
-        """h in C."""
         return Saturation(self.family)
 
     @cached_property
@@ -79,7 +77,6 @@ class Controller:
 
     @cached_property
     def sum(self) -> Kernel:
-        """One τ_i of its parts."""
         program = Program()
         kp, he, kv, hw, gi = map(program.read, ("kp", "he", "kv", "hw", "gi"))
         return Kernel(program, {"tau[i]": kp * he - kv * hw + gi})
@@ -130,7 +127,6 @@ class Controller:
         ]
 
     def texts(self) -> dict[str, str]:
-        """The C files by name."""
         n, loop = self.model.n, self.loop
         assert loop.period is not None
         title = _plain(f"{self.gains.name} on {self.model.name}")

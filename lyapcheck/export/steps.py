@@ -35,7 +35,6 @@ class Program:
         return Step(self, self._known[what])
 
     def read(self, name: str) -> Step:
-        """What stands under a C name."""
         return self.step("read", name)
 
     def number(self, value: Fraction | int) -> Step:

@@ -41,7 +41,6 @@ def places(text: str) -> dict[KeyPath, int]:
 
 
 def _unquoted(key: str) -> str:
-    """What a quoted key says."""
     return str(tomllib.loads(f"key = {key}")["key"]) if "\\" in key else key[1:-1]
 
 
@@ -86,7 +85,6 @@ class _Walk:
         return path
 
     def _keys(self, end: str) -> list[str]:
-        """The parts of a dotted key up to a mark."""
         keys: list[str] = []
         while (token := self.tokens[self.at]) != end:
             quoted = self.kinds[self.at] == QUOTED

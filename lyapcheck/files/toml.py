@@ -35,7 +35,6 @@ class TomlFile:
 
     @cached_property
     def _lines(self) -> list[int]:
-        """The offset of each line."""
         return [0, *(match.end() for match in re.finditer("\n", self.text))]
 
     def place(self, path: KeyPath) -> Place | None:
@@ -48,7 +47,6 @@ class TomlFile:
         return Place(line, offset - self._lines[line - 1] + 1)
 
     def line(self, path: KeyPath) -> int | None:
-        """The line of a key, counted from 1."""
         place = self.place(path)
         return None if place is None else place.line
 

@@ -87,7 +87,6 @@ def _distances(links: Sequence[RigidLink]) -> list[list[Fraction]]:
 
 
 def _from_axis(link: RigidLink, point: Vector) -> Fraction:
-    """The distance of a point of a link from the axis of its joint."""
     return _norm(Algebra(Fraction).cross(link.axis, point))
 
 
@@ -108,7 +107,6 @@ def _smallest(inertia: Sequence[Fraction]) -> Fraction:
 def _largest(
     masses: Sequence[Fraction], inertia: Sequence[Fraction], distances: Sequence[Sequence[Fraction]]
 ) -> Fraction:
-    """ρ(B)."""
     joints = range(len(masses))
 
     def entry(i: int, j: int) -> Fraction:
@@ -179,16 +177,13 @@ def _definite(tensor: Tensor, shift: Fraction, sign: int) -> bool:
 
 
 def _norm(vector: Vector) -> Fraction:
-    """The length, rounded up."""
     return _root(sum((x * x for x in vector), Fraction(0)))
 
 
 def _root(square: Fraction) -> Fraction:
-    """The square root, rounded up."""
     root = math.isqrt(math.ceil(square * _DIGITS**2))
     return Fraction(root if Fraction(root, _DIGITS) ** 2 >= square else root + 1, _DIGITS)
 
 
 def _above(value: Fraction) -> Fraction:
-    """A short rational that is not smaller."""
     return Fraction(math.ceil(value * _DIGITS**2), _DIGITS**2)

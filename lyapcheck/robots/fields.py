@@ -49,7 +49,6 @@ class Number:
 
     @property
     def ranged(self) -> bool:
-        """Whether the number may differ from its nominal value."""
         low, high = self.bounds
         return low < high
 
@@ -111,7 +110,6 @@ class ArmFields(Fields):
         return cast(ArmNotes, self.notes).source
 
     def texts(self, key: str) -> tuple[str, ...]:
-        """A list of texts, empty when absent or bad."""
         value = self.raw(key)
         if value is None:
             return ()
@@ -133,7 +131,6 @@ class ArmFields(Fields):
         return number
 
     def vector(self, key: str, unit: str) -> tuple[Number, ...] | None:
-        """A list of three numbers, required; ``None`` when bad."""
         value = self.raw(key, required=True)
         if value is None:
             return None
@@ -145,7 +142,6 @@ class ArmFields(Fields):
         return kept if len(kept) == 3 else None
 
     def decimal(self, path: KeyPath, value: object) -> Fraction | None:
-        """An exact number of any sign, ``None`` when the value is none."""
         if isinstance(value, int | Fraction) and not isinstance(value, bool):
             exact = Fraction(value)
             if abs(exact) <= LARGEST:
@@ -165,7 +161,6 @@ class ArmFields(Fields):
         return number
 
     def _described(self, unit: str) -> Number | None:
-        """The number that this table of value, unit, source … describes."""
         value, low, high = (self._part(key, required=key == "value") for key in ("value", "low", "high"))
         given, source, note = self.text("unit"), self.text("source"), self.text("note")
         if unit and given and given != unit:

@@ -52,7 +52,6 @@ def read_overlay(
 
 
 def _choice(top: ArmFields) -> Choice:
-    """``base``, ``tip``, ``fixed`` and ``xacro``."""
     fixed: dict[str, Fraction] = {}
     for joint, value in _pairs(top, "fixed").items():
         exact = top.decimal(("fixed", joint), value)
@@ -80,7 +79,6 @@ def _read_motors(top: ArmFields) -> list[JointEntry]:
 
 
 def _completed(model: RobotModel, motors: list[JointEntry]) -> RobotModel:
-    """The model with the numbers of the motors in place of its own."""
     parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in _PARTS}
     numbers: dict[str, Number] = dict(model.numbers)
     for motor in motors:

@@ -43,7 +43,6 @@ class Plant:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return self.dynamics.n
 
     @property
@@ -53,7 +52,6 @@ class Plant:
 
     @property
     def potential(self) -> fmpq_mpoly:
-        """The potential energy as a polynomial, J."""
         return self.dynamics.polynomials.potential
 
     @property
@@ -115,7 +113,6 @@ class Plant:
     def mass_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[list[T]]:
-        """M(q), (n, n), kg·m², in any arithmetic."""
         return self.at(sin, cos, lift, parameters).mass()
 
     def coriolis_at(
@@ -132,13 +129,11 @@ class Plant:
     def gravity_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[T]:
-        """g(q), (n,), N·m, in any arithmetic."""
         return self.at(sin, cos, lift, parameters).gravity()
 
     def potential_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> T:
-        """The potential energy, J, in any arithmetic."""
         result: T = self.at(sin, cos, lift, parameters).potential()
         return result
 

@@ -70,13 +70,11 @@ class Vary:
 
     @property
     def text(self) -> str:
-        """As it is typed."""
         ends = [100 * (x - 1) if self.relative else x for x in (self.low, self.high)]
         unit = "%" if self.relative else ""
         return f"{self.name}={'..'.join(decimal_text(x) + unit for x in ends)}"
 
     def matches(self, key: str) -> bool:
-        """Whether a number of that name is meant."""
         return key == self.name or key.endswith(f"_{self.name}")
 
     def of(self, number: Number) -> Number:

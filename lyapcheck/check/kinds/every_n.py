@@ -81,11 +81,9 @@ class EveryN(OfTerms):
 
     @property
     def domain(self) -> dict[str, Interval]:
-        """The ranges of the numbers."""
         return dict.fromkeys(self.positive, POSITIVE)
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """Both sides, the derivatives and what is given."""
         known = (*(value for _, value in self.rates), *(one.equals for one in self.given))
         return [(tree, self.domain) for tree in (self.left, self.right, *known)]
 

@@ -117,12 +117,10 @@ class GateAccepted(Total):
 
     @property
     def gradient(self) -> GravityOfPotential:
-        """That g is the gradient of the potential."""
         return GravityOfPotential(self.gravity, self.potential, self.parameters)
 
     @property
     def bounds(self) -> list[GravityBelow]:
-        """|g_i(q)| ≤ k_gi for all q and parameters."""
         pairs = zip(self.gravity, self.k_g, strict=True) if self.gravity else ()
         return [GravityBelow(self.joints, (entry,), self.parameters, k) for entry, k in pairs]
 

@@ -49,11 +49,9 @@ class GravityBelow(BoundedAbove):
 
     @property
     def entries(self) -> list[Uncertain]:
-        """The g_i."""
         return [by_parameters(entry, self.joints) for entry in self.gravity]
 
     def at(self, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> list[arb]:
-        """The g_i in balls at one posture."""
         return [value_at(entry, q, parameters) for entry in self.entries]
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
@@ -108,7 +106,6 @@ class Levers(Proof):
         )
 
     def weighed(self) -> list[tuple[RigidLink, ...]]:
-        """The links with each row of masses."""
         others = [zip(self.links, row, strict=True) for row in self.shares]
         return [self.links, *(tuple(replace(link, mass=mass) for link, mass in row) for row in others)]
 
@@ -155,11 +152,9 @@ class GravityOfPotential(Compared):
 
     @property
     def joints(self) -> int:
-        """As many as entries."""
         return len(self.gravity)
 
     def gaps(self) -> Iterator[Gap]:
-        """g_i − ∂U/∂q_i."""
         potential = by_parameters(self.potential, self.joints)
         for i, entry in enumerate(self.gravity):
             slope = {power: derivative(part, i) for power, part in potential.items()}

@@ -196,12 +196,10 @@ class OfArm(Total):
 
     @property
     def joints(self) -> int:
-        """The rows of M."""
         return len(self.mass)
 
     @property
     def inertia(self) -> Inertia:
-        """M(q)."""
         return inertia_of(self.mass, self.parameters)
 
     @property

@@ -36,7 +36,6 @@ class Resting(Total):
     errors: tuple[Fraction | None, ...]
 
     def require_well_formed(self) -> None:
-        """One number a joint; stiffness above 0, sizes not below."""
         n = len(self.kp)
         require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
         for subject in ("torque", "errors"):

@@ -118,7 +118,6 @@ class SampledStable(Total):
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.kp)
 
     @property

@@ -60,7 +60,6 @@ class SampledFromRest(Total):
     within: Fraction
 
     def require_well_formed(self) -> None:
-        """One number a joint, positive gains, an arm, whole samples."""
         n = len(self.mass)
         require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
         for subject in ("kp", "kv", "viscous"):

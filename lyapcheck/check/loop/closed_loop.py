@@ -90,7 +90,6 @@ class ClosedLoop:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return self.arm.n
 
     @cached_property
@@ -100,7 +99,6 @@ class ClosedLoop:
 
     @cached_property
     def friction(self) -> tuple[Range, ...]:
-        """The range of each diagonal entry of B."""
         return self.viscous or tuple((b, b) for b in self.arm.viscous)
 
     @cached_property
@@ -110,7 +108,6 @@ class ClosedLoop:
 
     @property
     def mass(self) -> list[list[Uncertain]]:
-        """M as harmonics, by powers of the parameters."""
         return self.inertia.mass
 
     @property
@@ -126,7 +123,6 @@ class ClosedLoop:
 
     @property
     def Lambda(self) -> tuple[Fraction, ...]:
-        """Diagonal of Λ."""
         return self.coupling or (Fraction(1),) * self.n
 
     @cached_property
@@ -145,7 +141,6 @@ class ClosedLoop:
         return tuple(sorted({signs.index(-1) for signs in turns if -1 in signs}))
 
     def symmetric_under(self, signs: Sequence[int]) -> bool:
-        """Whether M(σq) = Σ M(q) Σ."""
         joints = range(self.n)
         return all(
             mirrored(part, signs) == {k: (sign * a, sign * b) for k, (a, b) in part.items()}

@@ -36,7 +36,6 @@ class UrdfNotes:
         self.quaternions = False
 
     def fail(self, element: Element, key: str, value: str, rule: str, repair: str) -> None:
-        """Note one problem at the line of an element."""
         shown = value if len(value) <= _LONGEST else value[: _LONGEST - 3] + "…"
         self.problems.append(Problem(self.file, element.line, key, printable(shown), rule, repair))
 
@@ -173,7 +172,6 @@ class UrdfLink:
 
     @property
     def described(self) -> bool:
-        """Whether the file has an ``<inertial>`` for it."""
         return self.element.tag == "inertial"
 
 

@@ -38,7 +38,6 @@ class Element:
         return "".join(self.texts)
 
     def all(self, tag: str) -> list[Element]:
-        """The children with that tag, in order."""
         return [child for child in self.children if child.tag == tag]
 
 
