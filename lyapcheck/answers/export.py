@@ -22,7 +22,7 @@ from lyapcheck.control.sampled import SampledLoop, judged_sampled, largest_perio
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
-from lyapcheck.export.rounding import Unbounded
+from lyapcheck.export.steps import Unbounded
 from lyapcheck.files.decimals import decimal_text, significant_down
 from lyapcheck.lyapunov.numeric import arm_digest
 from lyapcheck.output.answer import Answer

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import REALS, Comparison, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.signs import require_defined
 from lyapcheck.check.refusal import require
 
 

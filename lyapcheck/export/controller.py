@@ -18,8 +18,7 @@ from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.export.functions import FLAT, Kernel, Saturation, angle_error, sine_text
-from lyapcheck.export.rounding import BITS, Rounded
-from lyapcheck.export.steps import Program, constant
+from lyapcheck.export.steps import BITS, Program, Rounded, constant
 from lyapcheck.family import Family, named
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.plant import Plant

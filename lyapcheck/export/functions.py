@@ -22,8 +22,7 @@ from flint import arb
 from lyapcheck.check.numbers.balls import power, precision
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.errors import argument_error
-from lyapcheck.export.rounding import BITS, TINY, Rounded, U, Unbounded, upper
-from lyapcheck.export.steps import Program, Step, constant
+from lyapcheck.export.steps import BITS, TINY, Program, Rounded, Step, U, Unbounded, constant, upper
 from lyapcheck.family.base import Family
 
 SHORT = 22

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from lyapcheck.errors import Problem, near, nearest
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.toml import KeyPath
 from lyapcheck.output.escapes import printable
 
 # --- What text in a file must be, and the repair where it is not.

@@ -12,8 +12,7 @@ from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import BodyEntry, components, read_bodies
 from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare, Polynomials
-from lyapcheck.robots.fields import ArmFields, Number
-from lyapcheck.robots.joints import ROTOR, JointEntry, read_joints
+from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, read_joints
 from lyapcheck.robots.printed import PrintedTerms, PrintedTorques, is_angle, read_printed, read_torques
 
 MOST_JOINTS = 12

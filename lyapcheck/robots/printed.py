@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.toml import KeyPath
 from lyapcheck.robots import trig
 from lyapcheck.robots.fields import ArmFields
 

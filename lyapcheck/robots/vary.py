@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
-from lyapcheck.robots.fields import Number
-from lyapcheck.robots.joints import ROTOR
+from lyapcheck.robots.fields import ROTOR, Number
 
 if TYPE_CHECKING:
     from lyapcheck.robots.plant import RobotModel

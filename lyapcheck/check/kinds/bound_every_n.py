@@ -16,11 +16,11 @@ from itertools import chain, product
 
 from flint import fmpq
 
-from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import NONNEGATIVE, Domain
 from lyapcheck.check.expressions.expression import Tree, shared, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.signs import require_defined_at
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.every_n import (
     MAX_SIZE,

@@ -17,10 +17,9 @@ from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf.chain import choose_chain, held, options
-from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of
+from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of, rotors
 from lyapcheck.robots.urdf.parts import Triple, UrdfJoint, UrdfLink, UrdfNotes, read_parts
 from lyapcheck.robots.urdf.rotations import Roundings
-from lyapcheck.robots.urdf.rotors import rotors
 from lyapcheck.robots.urdf.tree import Tree, build_tree, moved_bodies, moved_links, tensor
 from lyapcheck.robots.urdf.xml import Element
 

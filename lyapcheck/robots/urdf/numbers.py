@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.fields import Number
-from lyapcheck.robots.urdf.parts import Triple, UrdfJoint
+from lyapcheck.robots.urdf.parts import Triple, UrdfJoint, decimal
 from lyapcheck.robots.urdf.tree import Tree
-from lyapcheck.robots.urdf.words import INERTIA
-from lyapcheck.robots.urdf.xml import Element
+from lyapcheck.robots.urdf.xml import INERTIA, Element
 
 _NO_DAMPING = "the file gives no damping, which means 0; property 2.7 needs more than that"
 
@@ -75,3 +75,41 @@ def joint_numbers(
 
 def _source(element: Element, file: str) -> str:
     return f"{file}, line {element.line}"
+
+
+# --- What transmissions say of rotors: told, as M is that of the links.
+
+
+_INERTIA = ("motorInertia", "rotorInertia", "drake:rotor_inertia", "rotor_inertia", "armature")
+_RATIO = ("mechanicalReduction", "drake:gear_ratio", "gear_ratio")
+
+
+def rotors(root: Element, chain: Iterable[UrdfJoint]) -> list[str]:
+    """A sentence on the reflected inertia I r² of each joint of the arm whose rotor the file describes."""
+    names, said = [joint.name for joint in chain], {}
+    for part in (*root.all("transmission"), *root.all("joint")):
+        inside = list(_all(part))
+        joints = [part, *part.all("joint")]
+        inertia, ratio = _number(inside, _INERTIA), _number(inside, _RATIO)
+        for name in (joint.attributes.get("name", "") for joint in joints if joint.tag == "joint"):
+            if inertia and name in names:
+                said[name] = inertia * (1 if ratio is None else ratio) ** 2
+    words = ", ".join(f"{name} {decimal_text(value)} kg·m²" for name, value in said.items())
+    return [f"Rotor inertia that the file gives is not in M: {words}"] if said else []
+
+
+def _all(element: Element) -> Iterator[Element]:
+    yield element
+    for child in element.children:
+        yield from _all(child)
+
+
+def _number(elements: Iterable[Element], tags: tuple[str, ...]) -> Fraction | None:
+    """What the first element of such a tag says, as its value or between its tags."""
+    for element in elements:
+        if element.tag in tags:
+            return decimal((element.attributes.get("value") or element.text).strip())
+        for tag in tags:
+            if tag in element.attributes:
+                return decimal(element.attributes[tag].strip())
+    return None

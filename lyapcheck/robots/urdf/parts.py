@@ -11,8 +11,7 @@ from typing import TypeVar
 from lyapcheck.errors import Problem, nearest
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import LARGEST
-from lyapcheck.robots.urdf.words import ATTRIBUTES, CHILDREN, INERTIA, MIRRORED, VERSIONS, Words
-from lyapcheck.robots.urdf.xml import Element
+from lyapcheck.robots.urdf.xml import ATTRIBUTES, CHILDREN, INERTIA, MIRRORED, VERSIONS, Element, Words
 
 # --- Reading the attributes of URDF elements: exact decimals, and every problem at once.
 
