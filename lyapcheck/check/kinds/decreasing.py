@@ -16,11 +16,18 @@ from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import diagonal_text, expression_text, number_text
 from lyapcheck.check.judgement import TORQUE
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, PostureWitness, mass_text, require_mass
+from lyapcheck.check.kinds.inertia import (
+    Mass,
+    MassAbove,
+    PostureWitness,
+    mass_text,
+    require_mass,
+    require_one_a_joint,
+)
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, at_parameters
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import member, member_text
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Ends, OfTerms, Proof, Relation, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
@@ -48,16 +55,9 @@ class OfLoop(Statement):
 
     def require_well_formed(self) -> None:
         require_mass(self.mass, self.parameters)
-        self.require_one_a_joint("viscous", "kp", "kv")
+        require_one_a_joint(self, len(self.mass), "viscous", "kp", "kv")
         for low, high in self.viscous:
             require(low <= high, "range", f"[{low}, {high}]", "is empty")
-
-    def require_one_a_joint(self, *subjects: str) -> None:
-        """Refuse fields of another length than the number of joints."""
-        n = len(self.mass)
-        for subject in subjects:
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
 
     @property
     def granted(self) -> tuple[str, ...]:
@@ -103,9 +103,8 @@ class OfLoop(Statement):
     def gains_text(self, kv: str = ", K_v") -> str:
         ranges = ((number_text(low), number_text(high)) for low, high in self.viscous)
         friction = ", ".join(low if low == high else f"{low} … {high}" for low, high in ranges)
-        function = self.family if self.m is None else f"{self.family}_{self.m}"
         return (
-            f"B = diag({friction}), h = {function}, "
+            f"B = diag({friction}), h = {member_text(self.family, self.m)}, "
             f"K_p = {diagonal_text(self.kp)}{kv} = {diagonal_text(self.kv)}"
         )
 
@@ -129,7 +128,7 @@ class Decreasing(OfLoop, Total):
     def require_well_formed(self) -> None:
         super().require_well_formed()
         if self.coupling:
-            self.require_one_a_joint("coupling")
+            require_one_a_joint(self, len(self.mass), "coupling")
 
     def text(self) -> str:
         return (

@@ -18,6 +18,7 @@ from lyapcheck.check.kinds.inertia import (
     PostureWitness,
     dot,
     polynomial_text,
+    potential_text,
     require_polynomials,
     require_posture,
     variable_names,
@@ -161,8 +162,6 @@ class GravityOfPotential(Compared):
             yield f"g{i + 1}", (), mixed([(1, by_parameters(entry, self.joints)), (-1, slope)])
 
     def text(self) -> str:
-        names = variable_names(self.joints, len(self.parameters))
-        energy = [f"U = {polynomial_text(self.potential, names)}"]
-        potential = written_out(energy, "potential", self.potential, ())
+        potential = potential_text(self.potential, self.joints, len(self.parameters), "potential")
         about = gravity_text(self.gravity, self.joints, self.parameters)
         return f"g(q) is the gradient of U(q), for all q, with {potential}, {about}"
