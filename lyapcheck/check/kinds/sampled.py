@@ -184,7 +184,8 @@ class SampledStable(Total):
             f"for every T ≤ {number_text(self.period)} s {what} with torques (6) held between readings up to "
             f"{self._longest} apart, {late_text(self.delay)}, q̇ from differences/T weighted "
             f"{list_text(self.taps)}: h = {member_text(self.family, self.m)}, "
-            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
+            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
+            f"b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
         )
 
     def _arm_text(self) -> str:

@@ -87,7 +87,8 @@ class SampledFromRest(Total):
             f"at intervals of T = {number_text(self.period)} s, {late_text(self.delay)}, q̇ by backward "
             f"differences: from every start at rest with |e_i| ≤ {number_text(self.within)}° the torque (6) "
             f"brings every arm to q_d: h = {member_text(self.family, self.m)}, "
-            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, B = diag({ranges}), {mass_text(self.mass, self.parameters)}, "
+            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, B = diag({ranges}), "
+            f"{mass_text(self.mass, self.parameters)}, "
             f"{potential_text(self.potential, n, len(self.parameters))}"
         )
 
