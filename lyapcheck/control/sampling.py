@@ -54,6 +54,11 @@ class LoopRecord:
         return not self.unknown_payload and not self.gravity_error
 
     @property
+    def stretch(self) -> Fraction:
+        """The longest interval over the nominal one."""
+        return self.longest / self.period if self.longest is not None and self.period else Fraction(1)
+
+    @property
     def entry(self) -> LoopEntry:
         return LoopEntry(**{one.name: getattr(self, one.name) for one in fields(LoopEntry)})
 
