@@ -88,7 +88,7 @@ from lyapcheck.files.toml import TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import check_positive_definite
 from lyapcheck.robots.choice import Choice
-from lyapcheck.robots.fields import ArmFields, ArmNotes, JointEntry, Number, read_motor
+from lyapcheck.robots.fields import PARTS, ArmFields, ArmNotes, JointEntry, Number, of_joints, read_motor
 from lyapcheck.robots.plans import ModelPlan, read_plan
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.vary import (
@@ -198,13 +198,8 @@ def _model(
     return RobotModel(
         name=name,
         title=title,
-        joints=tuple(joint.name for joint in joints),
         dynamics=dynamics,
-        viscous=tuple(joint.viscous.widened(spread) for joint in joints if joint.viscous is not None),
-        coulomb=tuple(joint.coulomb for joint in joints),
-        torque_limit=tuple(joint.torque_limit for joint in joints),
-        encoder=tuple(joint.encoder for joint in joints),
-        gravity_bound=tuple(joint.gravity_bound for joint in joints),
+        **of_joints(joints, spread),
         numbers=numbers,
         parameters=parameters,
         remarks=remarks,
@@ -213,9 +208,6 @@ def _model(
 
 
 # --- Arm files that name a file of a robot: its links, with friction, limits and encoders given here.
-
-
-_PARTS = ("viscous", "coulomb", "torque_limit", "encoder", "gravity_bound")
 
 
 def read_overlay(
@@ -280,11 +272,11 @@ def _read_motors(top: ArmFields) -> list[JointEntry]:
 
 
 def _completed(model: RobotModel, motors: list[JointEntry]) -> RobotModel:
-    parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in _PARTS}
+    parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in PARTS}
     numbers: dict[str, Number] = dict(model.numbers)
     for motor in motors:
         numbers |= motor.numbers()
-        for key in _PARTS:
+        for key in PARTS:
             value = getattr(motor, key)
             if value is not None:
                 parts[key][model.joints.index(motor.name)] = value

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
-from typing import cast
+from typing import Any, cast
 
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import RETYPE, UNPRINTABLE, Fields, Notes
@@ -198,6 +198,7 @@ class ArmFields(Fields):
 
 
 ROTOR = "_rotor_inertia"
+PARTS = ("viscous", "coulomb", "torque_limit", "encoder", "gravity_bound")
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,30}")
 
 
@@ -220,9 +221,15 @@ class JointEntry:
 
     def numbers(self) -> dict[str, Number]:
         """The other numbers of the joint under the names that reports use."""
-        parts = ("viscous", "coulomb", "torque_limit", "gravity_bound")
-        result = {f"{self.name}_{part}": getattr(self, part) for part in parts}
+        result = {f"{self.name}_{part}": getattr(self, part) for part in PARTS if part != "encoder"}
         return {name: number for name, number in result.items() if number is not None}
+
+
+def of_joints(joints: Sequence[JointEntry], spread: Fraction = Fraction(0)) -> dict[str, Any]:
+    """What joints, base first, say of a `RobotModel`; friction without a range gets value·(1 ± spread)."""
+    kept = {key: tuple(getattr(joint, key) for joint in joints) for key in PARTS}
+    viscous = tuple(x.widened(spread) for x in kept["viscous"] if x is not None)
+    return kept | {"joints": tuple(joint.name for joint in joints), "viscous": viscous}
 
 
 def read_joints(tables: list[ArmFields]) -> list[JointEntry]:

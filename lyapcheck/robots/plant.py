@@ -13,7 +13,7 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
+from lyapcheck.robots.chain_bounds import chain_bounds
 from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift, Tidy
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.printed import PrintedTorques
@@ -95,7 +95,7 @@ class Plant:
         return heavy if masses_alone else None
 
     @cached_property
-    def chain_bounds(self) -> ChainBounds | None:
+    def chain_bounds(self) -> dict[str, Fraction | None] | None:
         """What masses and distances of exact links say for all angles."""
         return None if self.chain is None else chain_bounds(self.chain)
 
