@@ -20,7 +20,7 @@ help:
 	@echo "make promises   what is promised over ranges, asked at 200 members a test; writes reports/promises.md"
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make kernel-slow  both checkers on every committed certificate; writes reports/kernel.md and what check knows of Coq"
-	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
+	@echo "make fuzz       a million random statements against an oracle; hours"
 	@echo "make lint       style (ruff) and formatting"
 	@echo "make types      static types (mypy --strict)"
 	@echo "make bench      benchmarks; writes reports/benchmarks.md"
@@ -74,7 +74,7 @@ kernel-slow: .venv/.ready kernel
 	$(BIN)/python -m tests.kernel.figures --folder build/kernel
 
 fuzz: .venv/.ready
-	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --seed 1122 --jobs 2 --report reports/statement_fuzz.md --record reports/statement_fuzz.json
+	$(BIN)/python -m tests.statement_fuzz --statements 1000000 --seed 1122 --jobs 2
 
 lint: .venv/.ready
 	$(BIN)/ruff check .

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
     from lyapcheck.check.statement import Ends, Statement
     from lyapcheck.control.gains import Bounds, GainSet
-    from lyapcheck.control.sampled import SampledLoop
+    from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.plant import Plant
 
@@ -99,7 +99,7 @@ def resting(gains: GainSet, dry: Sequence[Fraction], errors: Sequence[Fraction |
 
 def sampled(
     gains: GainSet,
-    loop: SampledLoop,
+    loop: LoopRecord,
     viscous_min: Sequence[Fraction],
     arm: RobotModel | None = None,
     k_g: Sequence[Fraction] = (),
@@ -120,6 +120,7 @@ def sampled(
     """
     from lyapcheck.check.kinds.sampled import SampledStable
 
+    assert loop.period is not None
     chain = None if arm is None or arm.n <= FEW_JOINTS else arm.chain
     model = arm if chain is None else None
     return SampledStable(
@@ -142,7 +143,7 @@ def sampled(
     )
 
 
-def sampled_from_rest(gains: GainSet, loop: SampledLoop, arm: Plant, within: Fraction) -> SampledFromRest:
+def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: Plant, within: Fraction) -> SampledFromRest:
     """Do these gains bring the arm to each goal from rest within so many degrees, at exactly this period?
 
     Args:
@@ -156,6 +157,7 @@ def sampled_from_rest(gains: GainSet, loop: SampledLoop, arm: Plant, within: Fra
     """
     from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 
+    assert loop.period is not None
     return SampledFromRest(
         family=gains.family,
         m=gains.m,

@@ -18,11 +18,11 @@ from lyapcheck.check.certificate import About
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.limits import Limits, limits_for
-from lyapcheck.control.sampled import SampledLoop, judged_sampled, largest_period
+from lyapcheck.control.sampled import judged_sampled, largest_period, require_sampled
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
-from lyapcheck.export.rounding import Unbounded
+from lyapcheck.export.steps import Unbounded
 from lyapcheck.files.decimals import decimal_text, significant_down
 from lyapcheck.lyapunov.numeric import arm_digest
 from lyapcheck.output.answer import Answer
@@ -238,8 +238,7 @@ def _certified_period(
     gains: GainSet, model: RobotModel, limits: Limits, loop: LoopRecord
 ) -> tuple[Promise | None, str]:
     """That the loop is stable at each period up to one just below all that (S) shows; or why it is open."""
-    assert loop.period is not None
-    run = SampledLoop(loop.period, loop.longest, loop.delay, loop.filter, loop.velocity)
+    run = require_sampled(loop)
     least = [number.bounds[0] for number in model.viscous]
     conclusion = "goal" if loop.knows_gravity and not model.dry else "rest"
     try:

@@ -202,7 +202,6 @@ def judged(content: bytes, full: bool = False) -> Judgement:
 
 
 def _claimed(certificate: Certificate, data: Any, full: bool) -> Judgement:
-    """What it says of itself."""
     claim = certificate.claim
     return Judgement(
         digest=data["digest"],
@@ -217,7 +216,6 @@ def _claimed(certificate: Certificate, data: Any, full: bool) -> Judgement:
 
 
 def _shown(result: Judgement, certificate: Certificate, data: Any, grade: str, full: bool) -> Judgement:
-    """What it shows, now that its proof is accepted."""
     statement = certificate.statement
     decided = decided_by(statement, certificate.proof, certificate.verdict, data["statement"])
     shown = certificate.verdict == "proved"

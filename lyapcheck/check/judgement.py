@@ -63,7 +63,6 @@ class Judgement:
     rules: tuple[tuple[str, str], ...] = ()
 
     def refused(self, reason: str) -> Judgement:
-        """The same, refused."""
         return replace(self, reason=plain(reason))
 
 

@@ -11,10 +11,10 @@ from fractions import Fraction
 
 from flint import ctx
 
-from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import Comparison, Domain, Interval, holds
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
+from lyapcheck.check.expressions.signs import require_defined_at
 from lyapcheck.check.expressions.text import expression_text, number_text
 from lyapcheck.check.numbers.polynomials import ball_of
 from lyapcheck.check.refusal import require

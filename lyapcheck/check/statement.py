@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import REALS, Comparison, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.signs import require_defined
 from lyapcheck.check.refusal import require
 
 
@@ -28,7 +28,6 @@ class Relation:
 
     @property
     def strict(self) -> bool:
-        """Whether equality is excluded."""
         return self.operator == "<"
 
     @property
@@ -38,7 +37,6 @@ class Relation:
 
     @property
     def comparison(self) -> Comparison:
-        """The relation as witnesses are replayed."""
         return self.left, self.operator, self.right
 
     def __bool__(self) -> bool:
@@ -118,7 +116,6 @@ class Variable:
 
     @property
     def interval(self) -> Interval:
-        """The numbers over which it ranges."""
         return REALS if self.low is None else Interval(self.low, open_low=self.strict)
 
 

@@ -9,9 +9,9 @@ from fractions import Fraction
 
 from flint import ctx
 
-from lyapcheck.check.expressions.defined import Undefined, require_defined
 from lyapcheck.check.expressions.expression import Tree, Unsupported, derivative, substitute, variables
 from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.signs import Undefined, require_defined
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import BITS

@@ -270,22 +270,24 @@ def sampled(
         conclusion: *rest*: every motion comes to rest, whatever gravity acts.
         longest: interval between readings, s; the period unless it is given.
         filter: weights of the differences of readings, the newest first.
-        loop: ``delay`` in whole samples, ``velocity`` and ``angles``; see `SampledLoop`.
+        loop: ``delay`` in whole samples, ``velocity`` and ``angles``; see `LoopRecord`.
 
     Raises:
         ValueError: the loop is one that (S) does not speak of.
     """
     from lyapcheck import asked
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.control.sampled import SampledLoop
+    from lyapcheck.control.sampled import require_sampled
+    from lyapcheck.control.sampling import LoopRecord
 
     stiffness, damping, friction, bounds, taps = (
         tuple(map(exact_value, values)) for values in (kp, kv, viscous_min, k_g, filter)
     )
     least = friction or tuple(b.bounds[0] for b in getattr(robot, "viscous", ()))
-    runs = SampledLoop(exact_value(period), _end(longest), filter=taps, **loop)
+    angles = loop.pop("angles", "unwrapped")
+    runs = LoopRecord(exact_value(period), _end(longest), filter=taps, **{"delay": 0, **loop})
     gains = GainSet("", m, stiffness, damping, family)
-    return asked.sampled(gains, runs, least, robot, bounds, conclusion)
+    return asked.sampled(gains, require_sampled(runs, angles), least, robot, bounds, conclusion)
 
 
 # --- Whether the hypotheses of a proved statement hold anywhere: one that holds of nothing says nothing.

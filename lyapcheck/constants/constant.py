@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, nextafter, sqrt
@@ -26,17 +26,10 @@ def ceiling(bound: Fraction | None, sign: int) -> float:
 
 def from_distances(plant: Plant, name: str) -> Fraction | None:
     """A lower bound of λmin(M), an upper one of another constant, from masses and distances where known."""
-    bounds = plant.chain_bounds
-    if bounds is None:
-        return None
-    known = {"lambda_min": bounds.lambda_min, "lambda_max": bounds.lambda_max, "k_c": bounds.k_c}
-    known |= {f"k_g{i + 1}": top for i, top in enumerate(bounds.gravity)}
-    return _length(bounds.gravity) if name == "k_g" else known[name]
-
-
-def _length(vector: Sequence[Fraction]) -> Fraction:
-    """The length of a vector, rounded up."""
-    square = sum((x * x for x in vector), Fraction(0))
+    known = plant.chain_bounds
+    if known is None or name != "k_g":
+        return None if known is None else known[name]
+    square = sum((x * x for key, x in known.items() if key.startswith("k_g") and x is not None), Fraction(0))
     return Fraction(sqrt(square)) * (1 + Fraction(1, 10**12))
 
 

@@ -82,7 +82,6 @@ def _shift(radius: Array, w: Array) -> Array:
 
 
 def _norm(a: Array) -> Array:
-    """The Frobenius norm, rounded up."""
     return np.asarray(np.sqrt(np.sum(a * a, axis=(-2, -1))) * (1 + 1e-12))
 
 

@@ -70,7 +70,6 @@ class StorageProblem:
 
     @property
     def count(self) -> int:
-        """Coefficients of a form."""
         return self.vectors * (3 * self.vectors + 1) // 2
 
 
@@ -302,7 +301,6 @@ class BoundWithProof:
         return self.statement.low if isinstance(self.statement, ChainAbove) else self.statement.high
 
     def at_end(self, value: Fraction) -> Bound:
-        """The statement with another bound."""
         return with_end(self.statement, value)
 
 

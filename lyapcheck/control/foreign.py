@@ -199,6 +199,5 @@ def _first(table: Mapping[str, _Node], words: Sequence[str]) -> _Node | None:
 
 
 def _names(node: _Node) -> tuple[str, ...]:
-    """One name, or a list of them."""
     items = node.value if isinstance(node.value, list) else [node]
     return tuple(item.value for item in items if isinstance(item.value, str) and item.value)

@@ -13,8 +13,7 @@ from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.family.registry import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
-from lyapcheck.files.places import KeyPath, Place
-from lyapcheck.files.toml import GAINS, TomlFile, open_document, require_kind
+from lyapcheck.files.toml import GAINS, KeyPath, Place, TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.choice import named, placed, split
 
@@ -80,7 +79,6 @@ class GainSet:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.kp)
 
 

@@ -40,7 +40,6 @@ class JudgedStatement:
 
     @property
     def verdict(self) -> str:
-        """``accepted``, ``rejected`` or ``undecided``."""
         return VERDICTS.get(self.shown, UNDECIDED)
 
 

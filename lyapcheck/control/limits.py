@@ -62,7 +62,6 @@ class ArmLimits:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.joints)
 
 
@@ -185,11 +184,9 @@ class Limits:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.joints)
 
     def resting_on(self, assumptions: tuple[str, ...]) -> Limits:
-        """The same limits with other assumptions."""
         return replace(self, assumptions=assumptions)
 
 

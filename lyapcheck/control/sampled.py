@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
@@ -14,62 +13,44 @@ from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.statement import Proof
 from lyapcheck.control.gravity import least_along
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.robots.dynamics import Chain
 
 
-@dataclass(frozen=True)
-class SampledLoop:
-    """How a computer runs (6).
-
-    Args:
-        period: nominal, by which differences of readings are divided, s.
-        longest: interval between readings, s; the period where none is given.
-        delay: whole samples from a reading to its torque.
-        filter: weights of the differences, the newest first.
-        velocity: how it is had.
-        angles: as readings give them.
+def require_sampled(loop: LoopRecord, angles: str = "unwrapped") -> LoopRecord:
+    """A loop of which (S) speaks, with the angles as readings give them.
 
     Raises:
         ValueError: (S) does not speak of such a loop; it says what to do.
     """
-
-    period: Fraction
-    longest: Fraction | None = None
-    delay: int = 0
-    filter: tuple[Fraction, ...] = (Fraction(1),)
-    velocity: str = "difference"
-    angles: str = "unwrapped"
-
-    def __post_init__(self) -> None:
-        taps = isinstance(self.filter, tuple) and 1 <= len(self.filter) <= MOST_TAPS
-        rules = {
-            "period": (self.period > 0, "must be positive; give seconds"),
-            "longest": (self.stretch >= 1, "is below the period; give the longest interval"),
-            "delay": (
-                self.delay in range(MOST_DELAY + 1),
-                f"must be whole samples to {MOST_DELAY}; round it up",
-            ),
-            "filter": (
-                taps,
-                f"must be 1 to {MOST_TAPS} weights of differences; cut one off that never ends",
-            ),
-            "velocity": (
-                self.velocity == "difference",
-                'needs the inertia and is not covered; take velocity = "difference"',
-            ),
-            "angles": (
-                self.angles == "unwrapped",
-                "jump by a turn and are not covered; add the turns, as |Δq| < π in a sample",
-            ),
-        }
-        for name, (fits, rule) in rules.items():
-            if not fits:
-                raise ValueError(f"{name} = {getattr(self, name)} {rule}")
-
-    @property
-    def stretch(self) -> Fraction:
-        """The longest interval over the nominal one."""
-        return Fraction(1) if self.longest is None or self.period <= 0 else self.longest / self.period
+    period, taps = loop.period or Fraction(0), loop.filter
+    few = isinstance(taps, tuple) and 1 <= len(taps) <= MOST_TAPS
+    cut = f"must be 1 to {MOST_TAPS} weights of differences; cut one off that never ends"
+    whole = loop.delay in range(MOST_DELAY + 1)
+    rules: dict[str, tuple[object, bool, str]] = {
+        "period": (loop.period, period > 0, "must be positive; give seconds"),
+        "longest": (loop.longest, loop.stretch >= 1, "is below the period; give the longest interval"),
+        "delay": (loop.delay, whole, f"must be whole samples to {MOST_DELAY}; round it up"),
+        "filter": (
+            taps,
+            few,
+            cut,
+        ),
+        "velocity": (
+            loop.velocity,
+            loop.velocity == "difference",
+            'needs the inertia and is not covered; take velocity = "difference"',
+        ),
+        "angles": (
+            angles,
+            angles == "unwrapped",
+            "jump by a turn and are not covered; add the turns, as |Δq| < π in a sample",
+        ),
+    }
+    for name, (value, fits, rule) in rules.items():
+        if not fits:
+            raise ValueError(f"{name} = {value} {rule}")
+    return loop
 
 
 def sampled_proof(statement: SampledStable) -> ShortPeriod:

@@ -54,8 +54,12 @@ class LoopRecord:
         return not self.unknown_payload and not self.gravity_error
 
     @property
+    def stretch(self) -> Fraction:
+        """The longest interval over the nominal one."""
+        return self.longest / self.period if self.longest is not None and self.period else Fraction(1)
+
+    @property
     def entry(self) -> LoopEntry:
-        """The same as a source would say it."""
         return LoopEntry(**{one.name: getattr(self, one.name) for one in fields(LoopEntry)})
 
     @property
@@ -69,7 +73,6 @@ class LoopRecord:
 
     @property
     def how(self) -> str:
-        """The same without the period."""
         late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
         parts = [late if self.delay else "no delay"]
         parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
@@ -148,7 +151,6 @@ def _option(key: str) -> str:
 
 
 def _typed(value: Any) -> Any:
-    """A number where a text is one."""
     text = value.strip() if isinstance(value, str) else ""
     if not _DECIMAL.fullmatch(text):
         return value

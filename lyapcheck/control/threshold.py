@@ -70,7 +70,6 @@ class Threshold:
         return ForAll(Relation(product, self.operator, self.limit), Fraction(0))
 
     def admits(self, value: Fraction, places: int = 0) -> bool:
-        """Whether the checker proves that a positive value passes."""
         return self.judged(value, places).shown == "proved"
 
     def near(self, places: int = 0) -> Enclosure:

@@ -18,8 +18,7 @@ from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.export.functions import FLAT, Kernel, Saturation, angle_error, sine_text
-from lyapcheck.export.rounding import BITS, Rounded
-from lyapcheck.export.steps import Program, constant
+from lyapcheck.export.steps import BITS, Program, Rounded, constant
 from lyapcheck.family import Family, named
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.plant import Plant
@@ -61,12 +60,10 @@ class Controller:
 
     @property
     def family(self) -> Family:
-        """Of h."""
         return named(self.gains.family, self.gains.m)
 
     @cached_property
     def saturation(self) -> Saturation:
-        """h in C."""
         return Saturation(self.family)
 
     @cached_property
@@ -79,7 +76,6 @@ class Controller:
 
     @cached_property
     def sum(self) -> Kernel:
-        """One τ_i of its parts."""
         program = Program()
         kp, he, kv, hw, gi = map(program.read, ("kp", "he", "kv", "hw", "gi"))
         return Kernel(program, {"tau[i]": kp * he - kv * hw + gi})
@@ -130,7 +126,6 @@ class Controller:
         ]
 
     def texts(self) -> dict[str, str]:
-        """The C files by name."""
         n, loop = self.model.n, self.loop
         assert loop.period is not None
         title = _plain(f"{self.gains.name} on {self.model.name}")

@@ -22,8 +22,7 @@ from flint import arb
 from lyapcheck.check.numbers.balls import power, precision
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.errors import argument_error
-from lyapcheck.export.rounding import BITS, TINY, Rounded, U, Unbounded, upper
-from lyapcheck.export.steps import Program, Step, constant
+from lyapcheck.export.steps import BITS, TINY, Program, Rounded, Step, U, Unbounded, constant, upper
 from lyapcheck.family.base import Family
 
 SHORT = 22
@@ -107,15 +106,12 @@ class Kernel:
 
     @property
     def reads(self) -> list[str]:
-        """The C names that it reads."""
         return [rest[0] for kind, *rest in self.program.steps if kind == "read"]
 
     def rounded(self, **given: Rounded) -> list[Rounded]:
-        """The outputs in running errors."""
         return self.program.run(list(self.outputs.values()), given, Rounded.constant)
 
     def text(self, indent: str = "    ") -> str:
-        """Its C statements."""
         return self.program.text(self.outputs, indent, self.letter)
 
 
@@ -241,7 +237,6 @@ class Saturation:
         return (1 / (1 + low.csch() ** 2)).union(low.coth())
 
     def text(self) -> str:
-        """Reduction, exp, and the two branches."""
         return HYPERBOLIC.format(
             reduced=_reduced("a", reduction(1)),
             part=exp_less_one().text(),

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from lyapcheck.errors import Problem, near, nearest
 from lyapcheck.files.decimals import RANGE, NotFinite, of_physical_size
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.toml import KeyPath
 from lyapcheck.output.escapes import printable
 
 # --- What text in a file must be, and the repair where it is not.
@@ -34,7 +34,6 @@ class Notes:
         self.line = line
 
     def fail(self, path: KeyPath, value: object, rule: str, repair: str) -> None:
-        """Note one problem at a key."""
         shown = "" if value is None else _shown(value)
         self.problems.append(Problem(self.file, self.line(path), key_text(path), shown, rule, repair))
 
@@ -47,18 +46,15 @@ class Fields:
         self._asked: list[str] = []
 
     def fail(self, key: str, rule: str, repair: str) -> None:
-        """Note a problem with one key of this table."""
         self.notes.fail((*self.path, key), self.data.get(key), rule, repair)
 
     def raw(self, key: str, required: bool = False) -> Any:
-        """The value as read, ``None`` when absent."""
         self._asked.append(key)
         if required and key not in self.data:
             self.fail(key, "is missing", f"add {key} to this table")
         return self.data.get(key)
 
     def text(self, key: str, required: bool = False) -> str:
-        """A string, empty when absent."""
         value = self.raw(key, required)
         if value is None:
             return ""
@@ -71,7 +67,6 @@ class Fields:
         return value
 
     def choice(self, key: str, options: Sequence[str], default: str) -> str:
-        """One of a few texts, ``default`` when absent."""
         value = self.text(key)
         if value and value not in options:
             meant = near(value, options) or default
@@ -93,7 +88,6 @@ class Fields:
         return value
 
     def number(self, key: str, positive: bool = True) -> Fraction | None:
-        """One exact number, ``None`` when absent or bad."""
         value = self.raw(key)
         return None if value is None else self._number((*self.path, key), value, positive)
 
@@ -112,7 +106,6 @@ class Fields:
         return kept if len(kept) == len(items) else None
 
     def table(self, key: str) -> Self | None:
-        """A table, ``None`` when absent or bad."""
         value = self.raw(key)
         if value is None:
             return None
@@ -122,7 +115,6 @@ class Fields:
         return type(self)(value, (*self.path, key), self.notes)
 
     def tables(self, key: str, required: bool = False) -> list[Self]:
-        """An array of tables, empty when absent or bad."""
         value = self.raw(key)
         if value is None:
             if required:

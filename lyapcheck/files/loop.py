@@ -56,7 +56,6 @@ class LoopEntry:
 
     @property
     def toml(self) -> str:
-        """The table ``[loop]`` that says it."""
         periods = {name: getattr(self, name) for name in ("period", "longest")}
         lines = [f'{name} = "{decimal_text(10**6 * x)} us"' for name, x in periods.items() if x is not None]
         if self.period is not None and "/" in lines[0]:
@@ -143,7 +142,6 @@ def _taps(table: Fields) -> tuple[Fraction, ...] | None:
 
 
 def _encoder(table: Fields) -> int | None:
-    """Counts a turn."""
     value = table.raw("encoder")
     if value is None:
         return None

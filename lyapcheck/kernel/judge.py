@@ -9,8 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lyapcheck.check.certificate import Certificate, certificate_of
-from lyapcheck.check.files import content
-from lyapcheck.check.recheck import Checked, Outcome
+from lyapcheck.check.recheck import Checked, Outcome, content
 from lyapcheck.check.refusal import plain, require
 from lyapcheck.kernel.coq import (
     GRADE,

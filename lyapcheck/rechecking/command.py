@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import argparse
+import io
 import json
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.guard import CannotStart
-from lyapcheck.check.judgement import Limits
-from lyapcheck.check.recheck import Checked, Outcome, recheck
+from lyapcheck.check.judgement import MOST, Limits
+from lyapcheck.check.recheck import Checked, Outcome, Unreadable, gather, recheck
 from lyapcheck.check.refusal import plain
 from lyapcheck.rechecking.trusted import GENERAL, lies_in, modules
 
@@ -212,3 +213,35 @@ def run(
         return UNUSABLE
     sys.stdout.write(formats[format](outcome, trusted))
     return outcome.code
+
+
+# --- ``python -P -m lyapcheck.check CERTIFICATE…``: the same without any other library.
+
+
+INTERRUPTED = 130
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Parse the options of :func:`run`, and run."""
+    parser = argparse.ArgumentParser(prog="python -P -m lyapcheck.check", description=__doc__)
+    parser.add_argument("certificates", nargs="+", metavar="CERTIFICATE", help="files or directories")
+    parser.add_argument("--format", choices=FORMATS, default="text", help=HELP["format"])
+    for name in ("full", "trusted"):
+        parser.add_argument(f"--{name}", action="store_true", help=HELP[name])
+    for name in ("seconds", "memory"):
+        least = getattr(Limits(), name)
+        parser.add_argument(f"--{name}", type=_positive, default=least, help=f"{HELP[name]} [{least}]")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    try:
+        return run(**vars(parser.parse_args(arguments)))
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def _positive(word: str) -> int:
+    value = int(word)
+    if not 1 <= value <= MOST:
+        raise argparse.ArgumentTypeError(f"must be from 1 to {MOST}")
+    return value

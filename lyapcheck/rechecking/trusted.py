@@ -15,7 +15,7 @@ from lyapcheck import check
 
 PACKAGE = "lyapcheck.check"
 ROOT = Path(check.__file__).parent
-CORE = tuple(f"{PACKAGE}.{name}" for name in ("recheck", "worker", "certificate"))
+CORE = tuple(f"{PACKAGE}.{name}" for name in ("recheck", "certificate"))
 """What every verdict goes through; the last one is imported by name."""
 FUNCTIONS = f"{PACKAGE}.numbers.functions"
 """The bounded functions, which are imported by name."""

@@ -78,8 +78,9 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
-from lyapcheck.errors import InputError, file_error
+from lyapcheck.errors import InputError, file_error, nearest
 from lyapcheck.files.loop import read_loop
 from lyapcheck.files.reader import ARM
 from lyapcheck.files.toml import ARM as TOML_ARM
@@ -87,10 +88,19 @@ from lyapcheck.files.toml import TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import check_positive_definite
 from lyapcheck.robots.choice import Choice
-from lyapcheck.robots.fields import ArmFields, ArmNotes
+from lyapcheck.robots.fields import PARTS, ArmFields, ArmNotes, JointEntry, Number, of_joints, read_motor
 from lyapcheck.robots.plans import ModelPlan, read_plan
 from lyapcheck.robots.plant import RobotModel
-from lyapcheck.robots.vary import MASSES, MOTOR, PAYLOAD, Vary, require_movable, varied, varied_numbers
+from lyapcheck.robots.vary import (
+    MASSES,
+    MOTOR,
+    PAYLOAD,
+    Vary,
+    require_movable,
+    varied,
+    varied_numbers,
+    with_rotors,
+)
 
 # --- Opening an arm file, and refusing what is none.
 
@@ -139,8 +149,6 @@ def read_arm(
     title, _ = top.text("title", required=True), top.text("source")
     remarks, loop = top.texts("remarks"), read_loop(top.table("loop"))
     if "urdf" in top.data:  # which also reports what was noted so far
-        from lyapcheck.robots.overlay import read_overlay
-
         model = read_overlay(path, title, remarks, top, choice or Choice())
         return replace(with_ranges(model, spread, vary), loop=loop)
     if choice:
@@ -190,15 +198,88 @@ def _model(
     return RobotModel(
         name=name,
         title=title,
-        joints=tuple(joint.name for joint in joints),
         dynamics=dynamics,
-        viscous=tuple(joint.viscous.widened(spread) for joint in joints if joint.viscous is not None),
-        coulomb=tuple(joint.coulomb for joint in joints),
-        torque_limit=tuple(joint.torque_limit for joint in joints),
-        encoder=tuple(joint.encoder for joint in joints),
-        gravity_bound=tuple(joint.gravity_bound for joint in joints),
+        **of_joints(joints, spread),
         numbers=numbers,
         parameters=parameters,
         remarks=remarks,
         printed=plan.torques,
     )
+
+
+# --- Arm files that name a file of a robot: its links, with friction, limits and encoders given here.
+
+
+def read_overlay(
+    path: Path, title: str, remarks: tuple[str, ...], top: ArmFields, choice: Choice
+) -> RobotModel:
+    """The arm of the file that ``urdf`` names, with the numbers of ``[[joints]]`` in place of its own.
+
+    A choice goes before that of the file.
+
+    Raises:
+        InputError: either file has a problem; those of the arm file come first.
+    """
+    from lyapcheck.robots.formats import read_robot
+
+    file, own = top.text("urdf", required=True), _choice(top)
+    gravity = top.vector("gravity", "m/s²") if "gravity" in top.data else None
+    if gravity is not None and any(x.ranged for x in gravity):
+        top.fail("gravity", "must be exact here", "give plain numbers")
+    motors = _read_motors(top)
+    top.close()
+    if file and Path(file).suffix.lower() == ".toml":
+        top.fail("urdf", "must be the path of a file of a robot", 'write urdf = "arm.urdf"')
+    if top.notes.problems:
+        raise InputError(top.notes.problems)
+    model = read_robot(path.parent / file, file, choice.over(own), gravity)
+    for i, motor in enumerate(motors):
+        if motor.name not in model.joints:
+            repair = nearest(motor.name, model.joints, f"use one of: {', '.join(model.joints)}")
+            top.notes.fail(("joints", i, "name"), motor.name, "is no joint of this chain", repair)
+    if top.notes.problems:
+        raise InputError(top.notes.problems)
+    return _completed(
+        replace(model, name=printable(path.stem), title=title, remarks=(*remarks, *model.remarks)), motors
+    )
+
+
+def _choice(top: ArmFields) -> Choice:
+    fixed: dict[str, Fraction] = {}
+    for joint, value in _pairs(top, "fixed").items():
+        exact = top.decimal(("fixed", joint), value)
+        fixed |= {} if exact is None else {joint: exact}
+    xacro = {name: str(value) for name, value in _pairs(top, "xacro").items()}
+    return Choice(top.text("base"), top.text("tip"), fixed, xacro)
+
+
+def _pairs(top: ArmFields, key: str) -> dict[str, object]:
+    value = top.raw(key)
+    if value is None or isinstance(value, dict):
+        return value or {}
+    top.fail(key, "must be a table of names and values", f"write {key} = {{ NAME = VALUE }}")
+    return {}
+
+
+def _read_motors(top: ArmFields) -> list[JointEntry]:
+    tables = top.tables("joints")
+    motors = [read_motor(table.text("name", required=True), table, required=False) for table in tables]
+    for i, (table, motor) in enumerate(zip(tables, motors, strict=True)):
+        table.close()
+        if motor.name in [other.name for other in motors[:i]]:
+            table.fail("name", "is given twice", "give each joint one table")
+    return motors
+
+
+def _completed(model: RobotModel, motors: list[JointEntry]) -> RobotModel:
+    parts: dict[str, list[Any]] = {key: list(getattr(model, key)) for key in PARTS}
+    numbers: dict[str, Number] = dict(model.numbers)
+    for motor in motors:
+        numbers |= motor.numbers()
+        for key in PARTS:
+            value = getattr(motor, key)
+            if value is not None:
+                parts[key][model.joints.index(motor.name)] = value
+    changed: dict[str, Any] = {key: tuple(values) for key, values in parts.items()}
+    rotors = {name: number for motor in motors for name, number in motor.rotors.items()}
+    return with_rotors(replace(model, numbers=numbers | rotors, **changed), rotors)

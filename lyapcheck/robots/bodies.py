@@ -188,5 +188,4 @@ def _tangent(state: int, joint: int) -> fmpq:
 
 
 def _positive_definite(rows: list[list[fmpq]]) -> bool:
-    """All leading principal minors are positive."""
     return all(fmpq_mat([row[:k] for row in rows[:k]]).det() > 0 for k in range(1, len(rows) + 1))

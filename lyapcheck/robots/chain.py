@@ -87,7 +87,6 @@ class ChainInMotion(Posture):
         return rows
 
     def gravity(self) -> Values:
-        """g(q), (n,), N·m."""
         return self.torques(self.fall)
 
     def potential(self) -> Any:
@@ -97,7 +96,6 @@ class ChainInMotion(Posture):
         return of.value(of.dot(of.scaled(Fraction(-1), self.fall), place))
 
     def _twists(self, x: VectorsVector) -> tuple[list[Twist], list[Twist]]:
-        """V_k, and Ẋ_k, of each joint in its frame."""
         of = self.of
         twists: list[Twist] = []
         slopes: list[Twist] = []
@@ -113,7 +111,6 @@ class ChainInMotion(Posture):
         return twists, slopes
 
     def _moving(self, twists: Sequence[Twist]) -> list[_Moving]:
-        """K of each joint."""
         of = self.of
         result: list[_Moving] = []
         for k in reversed(range(self.n)):

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.loop.chain import RigidLink, lever_bound
@@ -30,46 +29,24 @@ Vector = Sequence[Fraction]
 Tensor = Sequence[Vector]
 
 
-@dataclass(frozen=True)
-class ChainBounds:
-    """Bounds for all angles.
+def chain_bounds(chain: Chain) -> dict[str, Fraction | None]:
+    """Bounds for all angles of a chain of exact links: λmin(M) from below, else from above, by name.
 
-    Args:
-        pivots: lower bounds of the pivots of M from the tip, kg·m²: the moment of each link about its axis.
-        lambda_min: lower bound of λmin(M), kg·m².
-        lambda_max: upper bound of λmax(M), kg·m².
-        gravity: upper bound of every |g_i|, N·m.
-        k_c: upper bound of ‖C(q,x)y‖/(‖x‖‖y‖), kg·m²; ``None`` where a link has an inertia that no body has.
-    """
+    ``k_g1`` … of |g_i|, N·m; ``k_c`` is ``None`` where a link has an inertia that no body has; kg·m².
 
-    pivots: tuple[Fraction, ...]
-    lambda_min: Fraction
-    lambda_max: Fraction
-    gravity: tuple[Fraction, ...]
-    k_c: Fraction | None
-
-
-def chain_bounds(chain: Chain) -> ChainBounds:
-    """The bounds of a chain of exact links.
-
-    Soundness: rational arithmetic, roots and eigenvalues rounded to the safe side. Eliminating from the tip,
-        M = UᵀDU with U unit triangular and D_k = s_kᵀ A_k s_k, where the articulated inertia A_k is that of
-        link k and its rotor plus a positive semidefinite part: D_k is never below the moment of these.
-
-    References: articulated bodies, featherstone2008rigid chapter 7.
+    Soundness: rational arithmetic, roots and eigenvalues rounded to the safe side.
     """
     links = chain.links
     masses, tensors = [link.mass for link in links], [link.inertia for link in links]
     spectra = [_spectrum(tensor) for tensor in tensors]
     distances = _distances(links)
     rotors = [link.rotor for link in links]
-    return ChainBounds(
-        tuple(link.about_axis for link in links),
-        _smallest([low for low, _ in spectra]) + min(rotors),
-        _largest(masses, [high for _, high in spectra], distances) + max(rotors),
-        tuple(lever_bound(links, chain.fall, i, ()) for i in range(chain.n)),
-        _coriolis(masses, [high for _, high in spectra], distances) if all(map(bodily, tensors)) else None,
-    )
+    largest = [high for _, high in spectra]
+    return {
+        "lambda_min": _smallest([low for low, _ in spectra]) + min(rotors),
+        "lambda_max": _largest(masses, largest, distances) + max(rotors),
+        "k_c": _coriolis(masses, largest, distances) if all(map(bodily, tensors)) else None,
+    } | {f"k_g{i + 1}": lever_bound(links, chain.fall, i, ()) for i in range(chain.n)}
 
 
 def _distances(links: Sequence[RigidLink]) -> list[list[Fraction]]:
@@ -87,7 +64,6 @@ def _distances(links: Sequence[RigidLink]) -> list[list[Fraction]]:
 
 
 def _from_axis(link: RigidLink, point: Vector) -> Fraction:
-    """The distance of a point of a link from the axis of its joint."""
     return _norm(Algebra(Fraction).cross(link.axis, point))
 
 
@@ -108,7 +84,6 @@ def _smallest(inertia: Sequence[Fraction]) -> Fraction:
 def _largest(
     masses: Sequence[Fraction], inertia: Sequence[Fraction], distances: Sequence[Sequence[Fraction]]
 ) -> Fraction:
-    """ρ(B)."""
     joints = range(len(masses))
 
     def entry(i: int, j: int) -> Fraction:
@@ -179,16 +154,13 @@ def _definite(tensor: Tensor, shift: Fraction, sign: int) -> bool:
 
 
 def _norm(vector: Vector) -> Fraction:
-    """The length, rounded up."""
     return _root(sum((x * x for x in vector), Fraction(0)))
 
 
 def _root(square: Fraction) -> Fraction:
-    """The square root, rounded up."""
     root = math.isqrt(math.ceil(square * _DIGITS**2))
     return Fraction(root if Fraction(root, _DIGITS) ** 2 >= square else root + 1, _DIGITS)
 
 
 def _above(value: Fraction) -> Fraction:
-    """A short rational that is not smaller."""
     return Fraction(math.ceil(value * _DIGITS**2), _DIGITS**2)

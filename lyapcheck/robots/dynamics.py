@@ -111,12 +111,10 @@ class Polynomials(Dynamics):
 
     @property
     def n(self) -> int:  # type: ignore[override]
-        """Number of joints."""
         return len(self.mass)
 
     @property
     def polynomials(self) -> Polynomials:
-        """Itself."""
         return self
 
     @cached_property
@@ -138,28 +136,23 @@ class Polynomials(Dynamics):
 
     @cached_property
     def mass_terms(self) -> dict[tuple[int, int], trig.Terms]:
-        """M_ij for i ≤ j."""
         return {(i, j): trig.to_terms(self.mass[i][j]) for i in range(self.n) for j in range(i, self.n)}
 
     @cached_property
     def symbol_terms(self) -> dict[tuple[int, int, int], trig.Terms]:
-        """c_ijk where it does not vanish."""
         places = product(range(self.n), repeat=3)
         return {(i, j, k): trig.to_terms(c) for i, j, k in places if (c := self.christoffel[i][j][k]) != 0}
 
     @cached_property
     def gravity_terms(self) -> list[trig.Terms]:
-        """g."""
         return [trig.to_terms(entry) for entry in self.gravity]
 
     def at(
         self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
     ) -> ArmAtAngles:
-        """The values of the polynomials."""
         return _Evaluated(self, [*sin, *cos, *(values[name] for name in self.names)], lift)
 
     def fixed(self, values: Mapping[str, Fraction]) -> Polynomials:
-        """The polynomials with numbers for their parameters."""
         ring = trig.trig_ring(self.n)
         mass = tuple(tuple(trig.substitute(entry, values, ring) for entry in row) for row in self.mass)
         return Polynomials(mass, trig.substitute(self.potential, values, ring))
@@ -170,7 +163,6 @@ class Polynomials(Dynamics):
         return {"mass": rows, "potential": trig.to_terms(self.potential), "names": self.names}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """The polynomials of plain terms."""
         ring = trig.trig_ring(len(state["mass"]), state["names"])
         mass = tuple(tuple(trig.from_terms(ring, terms) for terms in row) for row in state["mass"])
         potential = trig.from_terms(ring, state["potential"])
@@ -230,7 +222,6 @@ class Chain(Dynamics):
 
     @property
     def n(self) -> int:  # type: ignore[override]
-        """Number of joints."""
         return len(self.links)
 
     @cached_property
@@ -262,14 +253,12 @@ class Chain(Dynamics):
         return self._posture(sin, cos, values, Algebra(lift, tidy))
 
     def fixed(self, values: Mapping[str, Fraction]) -> Chain:
-        """The links with numbers for their parameters."""
         return Chain(*self._with(values, Algebra(Fraction)))
 
     def _posture(self, sin: Sequence[Any], cos: Sequence[Any], values: Values, of: Algebra) -> ChainInMotion:
         return ChainInMotion(*self._with(values, of), sin, cos, of)
 
     def _with(self, values: Values, of: Algebra) -> tuple[tuple[RigidLink, ...], tuple[Entry, ...]]:
-        """Links and free fall with values for the parameters."""
         if not self.names:
             return self.links, self.fall
         parts = [

@@ -1,8 +1,17 @@
-"""A file of a robot in whatever format it is: the tag of its root decides, not its name."""
+"""A file of a robot in whatever format it is: the tag of its root decides, not its name.
+
+MJCF is taken as MuJoCo compiles it, written as the elements of a URDF file: bodies become links, hinges
+revolute joints, slides prismatic ones, ball and free joints floating ones. Numbers are the shortest decimals
+of MuJoCo's doubles. Gravity, damping, dry friction and the limits of the motors are those of the model.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from lyapcheck.errors import argument_error, file_error
 from lyapcheck.files.reader import URDF, read_bytes
@@ -12,6 +21,188 @@ from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf import read_urdf
 from lyapcheck.robots.urdf.xml import Element, parse_xml
+
+_HERE = (1.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A model as URDF elements, with what URDF has no place for."""
+
+    robot: Element
+    gravity: tuple[Number, ...]
+    remarks: tuple[str, ...]
+    source: str
+
+
+def read_mjcf(path: Path, shown: str, root: Element) -> Compiled:
+    """A file that MuJoCo compiles, with what it includes.
+
+    Raises:
+        InputError: MuJoCo is not installed, or refuses the file.
+    """
+    if not installed("mujoco"):
+        repair = 'pip install "lyapcheck[mjcf]", or give the URDF of this robot'
+        raise file_error(shown, "is MJCF, which MuJoCo compiles, and that is not installed", repair)
+    import mujoco
+
+    mujoco.set_mju_user_warning(lambda message: None)  # which else go to a file in the working directory
+    try:
+        model = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError as error:
+        said = " ".join(str(error).split())[:300]
+        raise file_error(shown, f"is MJCF that MuJoCo refuses: {said}", "correct that") from None
+    return _Reading(mujoco, model, path.name, _lines(root)).compiled()
+
+
+def _lines(root: Element) -> dict[str, int]:
+    """The line of each body and joint that this file itself names."""
+    result: dict[str, int] = {}
+    waiting = [root]
+    while waiting:
+        element = waiting.pop()
+        if element.tag in ("body", "joint") and "name" in element.attributes:
+            result.setdefault(f"{element.tag} {element.attributes['name']}", element.line)
+        waiting += element.children
+    return result
+
+
+class _Reading:
+    """One compiled model; ``m`` is MuJoCo's."""
+
+    def __init__(self, mujoco: Any, m: Any, file: str, lines: dict[str, int]) -> None:
+        self.mujoco, self.m, self.lines = mujoco, m, lines
+        self.source = f"{file}, compiled by MuJoCo {mujoco.__version__}"
+        self.bodies = [self._name("body", i) for i in range(m.nbody)]
+        self.joints = [self._name("joint", i) for i in range(m.njnt)]
+
+    def compiled(self) -> Compiled:
+        m = self.m
+        name = str(m.names[: m.names.find(b"\0")], "utf-8", "replace") or "model"
+        parts = [part for body in range(m.nbody) for part in self._body(body)]
+        robot = Element("robot", {"name": name, "version": "1.1"}, 1, parts)
+        gravity = tuple(Number(_exact(x), "m/s²", self.source) for x in m.opt.gravity)
+        return Compiled(robot, gravity, tuple(self._remarks()), self.source)
+
+    def _name(self, kind: str, index: int) -> str:
+        of = getattr(self.mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
+        return self.mujoco.mj_id2name(self.m, of, index) or f"{kind}{index}"
+
+    def _body(self, i: int) -> Iterator[Element]:
+        """The link of a body, and the joints between it and its parent."""
+        m, name = self.m, self.bodies[i]
+        line = self.lines.get(f"body {name}", 1)
+        moments = dict(zip(("ixx", "iyy", "izz"), map(_text, m.body_inertia[i]), strict=True))
+        inertia = Element("inertia", {**moments, "ixy": "0", "ixz": "0", "iyz": "0"}, line)
+        mass = Element("mass", {"value": _text(m.body_mass[i])}, line)
+        origin = self._origin(line, m.body_ipos[i], m.body_iquat[i])
+        parts = [Element("inertial", {}, line, [origin, mass, inertia])] if m.body_mass[i] else []
+        yield Element("link", {"name": name}, line, parts)
+        if i == 0:
+            return
+        above, place, turn = self.bodies[m.body_parentid[i]], m.body_pos[i], m.body_quat[i]
+        first = m.body_jntadr[i]
+        for j in range(first, first + m.body_jntnum[i]):
+            below = f"{name}/{self.joints[j]}"
+            at, turn_at = self._carried(place, turn, m.jnt_pos[j], self._zero(j))
+            yield Element("link", {"name": below}, line)
+            yield self._joint(j, above, below, at, turn_at)
+            above, place, turn = below, -m.jnt_pos[j], _HERE
+        yield self._fixed(f"{name}/body", line, above, name, place, turn)
+
+    def _zero(self, j: int) -> Any:
+        """The turn of a hinge from the pose that the file describes back to where its angle is 0."""
+        turn = self._vector(_HERE)
+        if self.m.jnt_type[j] == self.mujoco.mjtJoint.mjJNT_HINGE:
+            self.mujoco.mju_axisAngle2Quat(turn, self.m.jnt_axis[j], -self.m.qpos0[self.m.jnt_qposadr[j]])
+        return turn
+
+    def _carried(self, place: Any, turn: Any, offset: Any, more: Any) -> tuple[Any, Any]:
+        """The pose of a joint at an offset in a frame, turned there."""
+        moved, both = self._vector((0.0, 0.0, 0.0)), self._vector(_HERE)
+        self.mujoco.mju_rotVecQuat(moved, offset, turn)
+        self.mujoco.mju_mulQuat(both, turn, more)
+        return place + moved, both
+
+    def _vector(self, values: Sequence[float]) -> Any:
+        import numpy as np
+
+        return np.array(values, dtype=np.float64)
+
+    def _origin(self, line: int, place: Any, turn: Any) -> Element:
+        w, x, y, z = turn
+        words = {"xyz": " ".join(map(_text, place))}
+        if any((x, y, z)):
+            words["quat_xyzw"] = " ".join(map(_text, (x, y, z, w)))
+        return Element("origin", words, line)
+
+    def _fixed(self, name: str, line: int, above: str, below: str, place: Any, turn: Any) -> Element:
+        parts = self._ends(line, above, below, place, turn)
+        return Element("joint", {"name": name, "type": "fixed"}, line, parts)
+
+    def _ends(self, line: int, above: str, below: str, place: Any, turn: Any) -> list[Element]:
+        parent, child = Element("parent", {"link": above}, line), Element("child", {"link": below}, line)
+        return [parent, child, self._origin(line, place, turn)]
+
+    def _joint(self, j: int, above: str, below: str, place: Any, turn: Any) -> Element:
+        m, kinds = self.m, self.mujoco.mjtJoint
+        line, degree = self.lines.get(f"joint {self.joints[j]}", 1), m.jnt_dofadr[j]
+        names = {int(kinds.mjJNT_HINGE): "revolute", int(kinds.mjJNT_SLIDE): "prismatic"}
+        kind = names.get(int(m.jnt_type[j]), "floating")
+        parts = self._ends(line, above, below, place, turn)
+        parts.append(Element("axis", {"xyz": " ".join(map(_text, m.jnt_axis[j]))}, line))
+        friction = {"damping": m.dof_damping[degree], "friction": m.dof_frictionloss[degree]}
+        parts.append(Element("dynamics", {key: _text(value) for key, value in friction.items()}, line))
+        if m.dof_armature[degree]:
+            parts.append(Element("armature", {"value": _text(m.dof_armature[degree])}, line))
+        limit = self._limit(j)
+        parts.append(Element("limit", {"effort": "0" if limit is None else _text(limit)}, line))
+        return Element("joint", {"name": self.joints[j], "type": kind}, line, parts)
+
+    def _limit(self, j: int) -> float | None:
+        """What the motors of a joint can do in both directions, N·m; ``None`` where nothing limits them."""
+        m, limits = self.m, []
+        if m.jnt_actfrclimited[j]:
+            limits.append(min(abs(end) for end in m.jnt_actfrcrange[j]))
+        forces: list[float | None] = [
+            self._force(a)
+            for a in range(m.nu)
+            if m.actuator_trntype[a] == self.mujoco.mjtTrn.mjTRN_JOINT and m.actuator_trnid[a][0] == j
+        ]
+        if forces and None not in forces:
+            limits.append(sum(force for force in forces if force is not None))
+        return min(limits, default=None)
+
+    def _force(self, a: int) -> float | None:
+        """The largest force of an actuator in both directions, times its gear."""
+        m, limits = self.m, []
+        if m.actuator_forcelimited[a]:
+            limits.append(min(abs(end) for end in m.actuator_forcerange[a]))
+        direct = m.actuator_biastype[a] == self.mujoco.mjtBias.mjBIAS_NONE
+        if m.actuator_ctrllimited[a] and direct:
+            limits.append(min(abs(end) for end in m.actuator_ctrlrange[a]) * abs(m.actuator_gainprm[a][0]))
+        return min(limits) * abs(m.actuator_gear[a][0]) if limits else None
+
+    def _remarks(self) -> Iterator[str]:
+        m = self.m
+        springs = [self.joints[j] for j in range(m.njnt) if m.jnt_stiffness[j].any()]
+        if springs:
+            yield f"Springs of joints are not part of the arm: {', '.join(springs)}"
+        floating = [self.bodies[i] for i in range(m.nbody) if m.body_gravcomp[i]]
+        if floating:
+            yield f"Gravity counts for bodies that MuJoCo holds up (gravcomp): {', '.join(floating)}"
+        for count, what in ((m.neq, "equality constraints"), (m.ntendon, "tendons")):
+            if count:
+                yield f"Not part of the arm: {count} {what} of the model"
+
+
+def _exact(value: float) -> Fraction:
+    return Fraction(_text(value))
+
+
+def _text(value: float) -> str:
+    return repr(float(value) + 0.0)
+
 
 _READ = "give an arm file (.toml), or a robot as URDF, xacro or MJCF"
 _SILENT = (
@@ -52,8 +243,6 @@ def read_robot(
         names = ", ".join(choice.xacro)
         raise argument_error("xacro", names, f"{shown} is no xacro file", "leave the arguments out")
     if root.tag == "mujoco":
-        from lyapcheck.robots.mjcf import read_mjcf
-
         compiled = read_mjcf(path, shown, root)
         fall, remarks = gravity or compiled.gravity, compiled.remarks
         return read_urdf(compiled.robot, path, shown, choice, fall, remarks, compiled.source)

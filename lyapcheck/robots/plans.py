@@ -12,8 +12,7 @@ from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.robots import trig
 from lyapcheck.robots.bodies import BodyEntry, components, read_bodies
 from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare, Polynomials
-from lyapcheck.robots.fields import ArmFields, Number
-from lyapcheck.robots.joints import ROTOR, JointEntry, read_joints
+from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, read_joints
 from lyapcheck.robots.printed import PrintedTerms, PrintedTorques, is_angle, read_printed, read_torques
 
 MOST_JOINTS = 12
@@ -68,8 +67,6 @@ class ChainPlan:
         return set(self.numbers())
 
     def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
-        """The chain."""
-
         def entry(name: str) -> Any:
             if name in parameters:
                 return ParameterShare(name)
@@ -91,15 +88,12 @@ class PrintedPlan:
     torques: PrintedTorques | None
 
     def numbers(self) -> dict[str, Number]:
-        """The entries of ``[numbers]``, and rotor inertias."""
         return dict(self.entries, **_rotors(self.joints))
 
     def used(self) -> set[str]:
-        """Those that occur in a term."""
         return self.printed.names() | set(_rotors(self.joints))
 
     def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
-        """M and the potential as printed."""
         n = len(self.joints)
         ring = trig.trig_ring(n, parameters)
         polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}

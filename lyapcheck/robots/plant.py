@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import TypeVar
+from math import sqrt
+from typing import TYPE_CHECKING, TypeVar
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.errors import argument_error
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.robots.chain_bounds import ChainBounds, chain_bounds
+from lyapcheck.robots.chain_bounds import chain_bounds
 from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift, Tidy
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.printed import PrintedTorques
+
+if TYPE_CHECKING:
+    from lyapcheck.robots.fields import Number
+
 
 P = TypeVar("P", bound="Plant")
 T = TypeVar("T")
@@ -43,7 +48,6 @@ class Plant:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return self.dynamics.n
 
     @property
@@ -53,7 +57,6 @@ class Plant:
 
     @property
     def potential(self) -> fmpq_mpoly:
-        """The potential energy as a polynomial, J."""
         return self.dynamics.polynomials.potential
 
     @property
@@ -92,7 +95,7 @@ class Plant:
         return heavy if masses_alone else None
 
     @cached_property
-    def chain_bounds(self) -> ChainBounds | None:
+    def chain_bounds(self) -> dict[str, Fraction | None] | None:
         """What masses and distances of exact links say for all angles."""
         return None if self.chain is None else chain_bounds(self.chain)
 
@@ -115,7 +118,6 @@ class Plant:
     def mass_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[list[T]]:
-        """M(q), (n, n), kg·m², in any arithmetic."""
         return self.at(sin, cos, lift, parameters).mass()
 
     def coriolis_at(
@@ -132,13 +134,11 @@ class Plant:
     def gravity_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> list[T]:
-        """g(q), (n,), N·m, in any arithmetic."""
         return self.at(sin, cos, lift, parameters).gravity()
 
     def potential_at(
         self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
     ) -> T:
-        """The potential energy, J, in any arithmetic."""
         result: T = self.at(sin, cos, lift, parameters).potential()
         return result
 
@@ -219,6 +219,68 @@ class RobotModel(Plant):
     @cached_property
     def doubts(self) -> tuple[str, ...]:
         """What looks like a template or another unit; no verdict rests on it."""
-        from lyapcheck.robots.doubts import doubts
 
         return doubts(self)
+
+
+# --- What makes the numbers of an arm doubtful: templates and wrong units; no verdict rests on it.
+
+
+HEAVIEST, LONGEST = 1000, 5
+"""kg of one body, and m from joint to joint: of arms nobody bolts to a floor."""
+LIGHTEST, STEEPEST = 1, 30
+"""m/s² of free fall, from the moon to a large planet."""
+SAME = 2
+"""So many joints with the same limit and friction are doubted; either alone with twice as many."""
+
+
+def doubts(model: RobotModel) -> tuple[str, ...]:
+    """A sentence on everything that looks like a template or another unit."""
+    return (*_templates(model), *_units(model))
+
+
+def _templates(model: RobotModel) -> Iterator[str]:
+    friction = _values(model.viscous)
+    limits = _values(model.torque_limit)
+    if friction and not any(friction):
+        yield "Viscous friction is 0 for every joint, as files say that do not know it"
+        friction = None
+    same = [
+        words
+        for words, values in (("viscous friction", friction), ("torque limit", limits))
+        if values is not None and len(values) >= SAME and len(set(values)) == 1
+    ]
+    if len(same) == 2 or (same and model.n >= 2 * SAME):
+        verb = "are" if len(same) == 2 else "is"
+        words = " and ".join(same).capitalize()
+        yield f"{words} {verb} the same for every joint, as in templates; measured ones differ"
+
+
+def _values(numbers: Sequence[Number | None]) -> list[Fraction] | None:
+    """Exact numbers of every joint; ``None`` where one is missing, assumed or a range."""
+    known = [x.value for x in numbers if x is not None and not x.assumed and not x.ranged]
+    return known if len(known) == len(numbers) else None
+
+
+def _units(model: RobotModel) -> Iterator[str]:
+    chain = model.fixed().chain
+    if chain is None:
+        return
+    for name, link in zip(model.joints, chain.links, strict=True):
+        far = max(sqrt(sum(float(x) ** 2 for x in vector)) for vector in (link.origin, link.com))
+        if link.mass > HEAVIEST:
+            yield f"What {name} moves has a mass of {float(link.mass):.6g} kg: is that in grams?"
+        if far > LONGEST:
+            yield f"{name} or its body is {far:.6g} m away from the joint before: is that in mm?"
+        spread = (
+            sqrt(float(sum(link.inertia[i][i] for i in range(3))) / (2 * float(link.mass)))
+            if link.mass
+            else 0
+        )
+        if spread > LONGEST:
+            yield f"The inertia behind {name} is that of a body of {spread:.6g} m: is it in kg·mm² or g·m²?"
+    size = sqrt(sum(float(x) ** 2 for x in chain.fall))
+    if chain.fall[2] > 0 and chain.fall[2] >= max(map(abs, chain.fall[:2])):
+        yield f"Gravity points upwards: g_z = {float(chain.fall[2]):.6g} m/s²"
+    if size and not LIGHTEST < size < STEEPEST:
+        yield f"Free fall of {size:.6g} m/s² is that of no place where arms stand"

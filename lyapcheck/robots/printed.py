@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
-from lyapcheck.files.places import KeyPath
+from lyapcheck.files.toml import KeyPath
 from lyapcheck.robots import trig
 from lyapcheck.robots.fields import ArmFields
 
@@ -37,7 +37,6 @@ class PrintedTerms:
     potential: Terms
 
     def names(self) -> set[str]:
-        """The entries of ``[numbers]`` that occur."""
         return names_of([*self.mass.values(), self.potential])
 
     def build(
@@ -177,7 +176,6 @@ class PrintedTorques:
     gravity: tuple[Terms, ...]
 
     def names(self) -> set[str]:
-        """The entries of ``[numbers]`` that occur."""
         return names_of([*self.coriolis.values(), *self.gravity])
 
     def symbols(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly], n: int) -> Tensor:
@@ -192,7 +190,6 @@ class PrintedTorques:
         )
 
     def weights(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
-        """g(q) in normal form."""
         return tuple(polynomial(terms, ring, numbers) for terms in self.gravity)
 
 

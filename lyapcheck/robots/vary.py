@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
-from lyapcheck.robots.fields import Number
-from lyapcheck.robots.joints import ROTOR
+from lyapcheck.robots.fields import ROTOR, Number
 
 if TYPE_CHECKING:
     from lyapcheck.robots.plant import RobotModel
@@ -70,13 +69,11 @@ class Vary:
 
     @property
     def text(self) -> str:
-        """As it is typed."""
         ends = [100 * (x - 1) if self.relative else x for x in (self.low, self.high)]
         unit = "%" if self.relative else ""
         return f"{self.name}={'..'.join(decimal_text(x) + unit for x in ends)}"
 
     def matches(self, key: str) -> bool:
-        """Whether a number of that name is meant."""
         return key == self.name or key.endswith(f"_{self.name}")
 
     def of(self, number: Number) -> Number:

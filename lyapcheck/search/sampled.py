@@ -71,7 +71,7 @@ class LinearLoop:
     taps: tuple[float, ...]
 
     def transition(self, goals: Array, period: float) -> Array:
-        """Φ of ``lyapcheck.check.loop.sampled`` at goals (N, n), degrees, in doubles: (N, s, s)."""
+        """Φ of ``lyapcheck.check.kinds.sampled_unstable`` at goals (N, n), degrees, in doubles: (N, s, s)."""
         q, n, d = np.radians(goals), self.arm.n, self.delay
         count, unit, readings = len(q), np.eye(n), d + len(self.taps)
         slope = self._slope(q)

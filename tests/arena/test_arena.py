@@ -14,9 +14,9 @@ import pytest
 from lyapcheck.check import recheck
 from lyapcheck.check.certificate import judged
 from lyapcheck.check.codec import members
-from lyapcheck.check.files import Unreadable, gather
 from lyapcheck.check.guard import Guard
 from lyapcheck.check.judgement import Limits
+from lyapcheck.check.recheck import Unreadable, gather
 from lyapcheck.check.statement import Piece, Proof, Statement
 from lyapcheck.check.verify import rule_for
 from tests.arena.run import ARENA, ENDS, faults

@@ -8,10 +8,9 @@ import pytest
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About
 from lyapcheck.check.codec import from_json
-from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, Cover, CoveredTerms, terms_in_words
 from lyapcheck.check.kinds.every_n import EveryN
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.systems.system import minus

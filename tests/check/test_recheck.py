@@ -17,11 +17,10 @@ import lyapcheck.check.verify as verify_module
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.__main__ import main
 from lyapcheck.check.certificate import digest_of, judged
-from lyapcheck.check.files import Document, Unreadable, gather
 from lyapcheck.check.guard import Guard
 from lyapcheck.check.judgement import Judgement
 from lyapcheck.check.kinds.constant import Constant, SeparateBalls
-from lyapcheck.check.recheck import Alarm, Checked, recheck, summed
+from lyapcheck.check.recheck import Alarm, Checked, Document, Unreadable, gather, recheck, summed
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import each_once, verify

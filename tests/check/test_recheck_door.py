@@ -16,10 +16,9 @@ import pytest
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.certificate import digest_of, judged, parse, read
 from lyapcheck.check.codec import members
-from lyapcheck.check.files import content, gather
 from lyapcheck.check.guard import CannotStart, Guard
 from lyapcheck.check.judgement import MAX_BYTES, Judgement, Limits
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import content, gather, recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from tests.arena.run import ARENA
@@ -349,7 +348,7 @@ def _without():
     from lyapcheck.check import guard
 
     return guard.CODE.replace(
-        "serve(Limits", "import lyapcheck.check.worker as worker; worker.resource = None\nserve(Limits"
+        "serve(Limits", "import lyapcheck.check.guard as worker; worker.resource = None\nserve(Limits"
     )
 
 

@@ -22,7 +22,8 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.sampled import SampledLoop, judged_sampled, largest_period, sampled_proof
+from lyapcheck.control.sampled import judged_sampled, largest_period, require_sampled, sampled_proof
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.robots import load
 from tests import oracle
 from tests.arena.sampled import BOTH, NOTHING, ONE, PRINTED, SHOWN, TWO
@@ -188,7 +189,7 @@ def test_the_energy_of_the_theorem_falls_from_reading_to_reading(seed: int) -> N
 def test_no_slope_of_gravity_is_above_the_smaller_bound(name: str) -> None:
     arm = load(name)
     ones = (F(1),) * arm.n
-    one = asked.sampled(GainSet("", 1, ones, ones), SampledLoop(F(1, 1000)), ones, arm)
+    one = asked.sampled(GainSet("", 1, ones, ones), LoopRecord(F(1, 1000), delay=0), ones, arm)
     bounds = [float(k) for k in sampled_proof(one).k_g]
     generator = np.random.default_rng(1)
     for _ in range(20):
@@ -218,8 +219,9 @@ def test_no_slope_of_gravity_is_above_the_smaller_bound(name: str) -> None:
 def test_a_loop_that_it_does_not_speak_of_is_refused_with_what_to_do(
     loop: dict[str, Any], words: str
 ) -> None:
+    angles = loop.pop("angles", "unwrapped")
     with pytest.raises(ValueError, match=words):
-        SampledLoop(**({"period": F(1, 1000)} | loop))
+        require_sampled(LoopRecord(**({"period": F(1, 1000)} | loop)), angles)
 
 
 def test_a_conjunction_is_about_one_arm_whichever_way_it_is_given() -> None:

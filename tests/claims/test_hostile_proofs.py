@@ -4,8 +4,7 @@ import pytest
 
 from lyapcheck.answers.explain import explain
 from lyapcheck.answers.recheck import Recheck
-from lyapcheck.check.files import gather
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.claims import run_proof
 from lyapcheck.output.formats import Format, JudgedFormat
 from tests.answers.test_hostile_names import CHECKS, NASTY

@@ -14,8 +14,7 @@ import pytest
 import lyapcheck.claims.fresh_check
 from lyapcheck.answers.check import run as runner
 from lyapcheck.answers.explain import explain
-from lyapcheck.check.files import gather
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.claim import Case, Lacking
 from lyapcheck.errors import InputError

@@ -27,7 +27,7 @@ from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.export.controller import ANGLES, Controller, c_names
 from lyapcheck.export.functions import NEAR
-from lyapcheck.export.rounding import BITS, Rounded, Unbounded
+from lyapcheck.export.steps import BITS, Rounded, Unbounded
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
 

@@ -17,7 +17,7 @@ def one_process():
     from lyapcheck.check import certificate, guard
     from lyapcheck.claims import fresh_check, script_process
     from lyapcheck.claims import script as ask
-    from lyapcheck.rechecking import main as checker
+    from lyapcheck.rechecking import command as checker
 
     def run_script(words, asked, *to):
         request = pickle.loads(asked)

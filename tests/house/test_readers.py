@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).parents[2] / "lyapcheck"
 OPENING = ("open", "read_text", "read_bytes")
 READERS = {
     ("files/reader.py", "read_bytes"): "the reader",
-    ("check/files.py", "content"): "the checker's own, of certificates",
+    ("check/recheck.py", "content"): "the checker's own, of certificates",
     ("store.py", "_content"): "that of the store, which opens no link either",
 }
 OURS = {
@@ -39,7 +39,7 @@ WRITTEN = {
     ("cli/show.py", "_append_summary"): "the summary of a job",
 }
 OF_THE_SYSTEM = {
-    ("check/worker.py", "_most_memory"): "/proc",
+    ("check/guard.py", "_most_memory"): "/proc",
     ("claims/script_process.py", "_only_ours"): "the null device",
     ("cli/main.py", "_require_output"): "the null device",
     ("cli/main.py", "_drop"): "the null device",

@@ -6,8 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lyapcheck.check.certificate import certificate_of
-from lyapcheck.check.files import content, gather
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import content, gather, recheck
 from lyapcheck.kernel.coq import FILE, written
 from lyapcheck.kernel.judge import judged
 from lyapcheck.kernel.statements import shown

@@ -16,7 +16,6 @@ import pytest
 
 from lyapcheck.answers.recheck import _copied
 from lyapcheck.check.certificate import Certificate, certificate_of
-from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import Agrees
@@ -27,7 +26,7 @@ from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import MassBelow
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.loop.field import BrokenTree
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.errors import InputError

@@ -21,10 +21,9 @@ import pytest
 from PIL import Image
 
 from lyapcheck.answers.gate.judge import judged_sets
-from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.claims.decision import Decision
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.check.files import gather
-from lyapcheck.check.recheck import recheck
+from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.report import experiment
 from lyapcheck.report.experiment import study_file

@@ -14,7 +14,7 @@ from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.sampled import SampledLoop
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.sampled import refuted_at, smallest_refuted
@@ -44,7 +44,7 @@ def question(name: str, period: F | None = None, m: int = 1, delay: int = 1, **c
     gains = GainSet(name, m, *(tuple(map(F, row.split())) for row in (kp, kv)))
     T = period or F(text.split()[0]) / 1000
     friction = tuple(number.value for number in arm.viscous)
-    return replace(asked.sampled(gains, SampledLoop(T, delay=delay), friction, arm), **changes)
+    return replace(asked.sampled(gains, LoopRecord(T, delay=delay), friction, arm), **changes)
 
 
 def against(statement: SampledStable) -> GrowingMotion:

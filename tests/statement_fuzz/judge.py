@@ -21,7 +21,6 @@ SECONDS, PATIENCE = 30, 2
 PROVED, REFUTED, UNDECIDED, NONE = "proved", "refuted", "undecided", "no verdict"
 FALSE_REFUSED = "undecided, and not true"
 DISAGREEMENT = "undecided: the checker refuses what the search found"
-VERDICTS = (PROVED, REFUTED, UNDECIDED, FALSE_REFUSED, DISAGREEMENT, NONE)
 
 
 class TooSlow(BaseException):

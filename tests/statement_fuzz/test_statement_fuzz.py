@@ -1,6 +1,5 @@
 """Random statements are never proved though false or undefined, and never refuted without a reason."""
 
-import json
 from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace
@@ -16,7 +15,7 @@ from lyapcheck.claims import Constant, Relation
 from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import one_in
 from tests.oracle import confirms, known, objection
-from tests.statement_fuzz.__main__ import judged, main, markdown
+from tests.statement_fuzz.__main__ import judged
 from tests.statement_fuzz.generators import GENERATORS, TRUE, draw, names
 from tests.statement_fuzz.generators.loops import theorems
 from tests.statement_fuzz.judge import FALSE_REFUSED, decide, judge
@@ -195,28 +194,3 @@ def test_the_oracle_objects_to_nothing_without_gains():
     torque = ("sum", ("vec", "gd"), ("vec", "dg"))
     held = replace(argument.system, torque=torque, friction="positive")
     assert "rests at" in objection(Stable(replace(argument, system=held)), 3).place
-
-
-# The page and the record ------------------------------------------------------------------------------------
-
-
-def test_the_page_has_the_counts_and_the_faults():
-    run = judged(range(20), 2, "BoundEveryN")
-    run.faults.append([17, "BoundEveryN, by hand: proved (faith), but false at every point\n  {}"])
-    text = markdown([run])
-    assert "20 statements: " in text
-    assert "; 1 faults." in text
-    assert "| 2 | BoundEveryN | " in text
-    assert "- 17: BoundEveryN, by hand: proved (faith), but false at every point" in text
-
-
-def test_a_record_goes_on_where_it_ended(tmp_path):
-    record, page = tmp_path / "r.json", tmp_path / "r.md"
-    both = ["--seed", "5", "--record", str(record), "--report", str(page), "--only", "Constant"]
-    assert main(["--statements", "30", *both]) == 0
-    assert main(["--statements", "50", *both]) == 0
-    whole = judged(range(50), 5, "Constant")
-    assert json.loads(record.read_text()) == [whole.data()]
-    assert page.read_text() == markdown([whole])
-    assert main(["--statements", "10", *both, "--seed", "6"]) == 0
-    assert [one["seed"] for one in json.loads(record.read_text())] == [5, 6]

@@ -13,7 +13,6 @@ from lyapcheck.answers.gate.folder import shown_by
 from lyapcheck.asked import sampled_from_rest, viscous_of
 from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, SampledFromRest
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.control.sampled import SampledLoop
 from lyapcheck.control.sampling import ONE
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.libraries import PACKAGES, installed, repair
@@ -62,7 +61,7 @@ def shown_from_rest(
     from lyapcheck.search.sampled_energy import falling_energy
 
     try:
-        asked = sampled_from_rest(gains, SampledLoop(record.period, delay=record.delay), arm, within)
+        asked = sampled_from_rest(gains, record, arm, within)
     except TooManyTerms:
         return None, "M(q) of these links is too long to be written out, which (P) asks for"
     asked = replace(asked, viscous=viscous_of(arm, low))

@@ -200,7 +200,7 @@ def question(
     Raises:
         ValueError: (S) does not speak of such a loop or such an h; it says why.
     """
-    from lyapcheck.control.sampled import SampledLoop
+    from lyapcheck.control.sampled import require_sampled
 
     if record.lowpass is not None:
         raise ValueError(LOWPASS)
@@ -209,7 +209,7 @@ def question(
         raise ValueError("h is unbounded, of which (S) does not speak")
     _ = family.checked
     assert record.period is not None
-    loop = SampledLoop(record.period, record.longest, record.delay, record.filter, record.velocity)
+    loop = require_sampled(record)
     arm, bare = limits.model, [limits.viscous_min or Fraction(0)] * limits.n
     goal = "goal" if record.knows_gravity and (arm is None or not arm.dry) else "rest"
     least = bare if arm is None else [low for low, _ in viscous_of(arm, viscous_min)]

@@ -30,7 +30,6 @@ class Interval:
         return " and ".join(filter(None, (low, high))) or "real"
 
     def signs(self) -> frozenset[int]:
-        """The signs of its numbers."""
         below = self.low is None or self.low < 0
         above = self.high is None or self.high > 0
         return frozenset(sign for sign, has in ((-1, below), (0, Fraction(0) in self), (1, above)) if has)

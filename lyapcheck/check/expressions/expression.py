@@ -42,15 +42,12 @@ class Algebra:
     """The arithmetic of real balls at the current precision of flint."""
 
     def number(self, value: Fraction) -> Any:
-        """The element for a rational number."""
         return arb(fmpq(value.numerator, value.denominator))
 
     def constant(self, name: str, m: int) -> Any:
-        """The element for γ_m, ρ_m or L_m."""
         return family_constant(name, m)
 
     def pi(self) -> Any:
-        """The element for π."""
         return arb.pi()
 
     def power_zero(self, base: Any) -> Any:
@@ -59,7 +56,6 @@ class Algebra:
         return arb("nan") if undefined else self.number(Fraction(1))
 
     def function(self, name: str, value: Any) -> Any:
-        """An elementary function of an element."""
         return abs(value) if name == "abs" else getattr(value, name)()
 
 
@@ -67,7 +63,6 @@ class ExactAlgebra(Algebra):
     """Rational arithmetic: constants and functions that leave ℚ have no place in it."""
 
     def number(self, value: Fraction) -> Any:
-        """The number itself."""
         return fmpq(value.numerator, value.denominator)
 
     def constant(self, name: str, m: int) -> Any:
@@ -77,11 +72,9 @@ class ExactAlgebra(Algebra):
         return self.number(Fraction(1))
 
     def pi(self) -> Any:
-        """``Unsupported``."""
         raise Unsupported("π is not rational")
 
     def function(self, name: str, value: Any) -> Any:
-        """``Unsupported``."""
         raise Unsupported(f"{name} leaves the rational numbers")
 
 
@@ -89,15 +82,12 @@ class SeriesAlgebra(Algebra):
     """Truncated power series with balls as coefficients, to the length that ``ctx.cap`` allows."""
 
     def number(self, value: Fraction) -> Any:
-        """The constant series."""
         return arb_series([super().number(value)])
 
     def constant(self, name: str, m: int) -> Any:
-        """The constant series of γ_m, ρ_m or L_m."""
         return arb_series([super().constant(name, m)])
 
     def pi(self) -> Any:
-        """The constant series π."""
         return arb_series([arb.pi()])
 
     def function(self, name: str, value: Any) -> Any:

@@ -40,7 +40,6 @@ class Remembered:
         return id(tree) in self._kept
 
     def add(self, tree: Any) -> None:
-        """Keep one that passed."""
         if len(self._kept) >= self.MOST:
             self._kept.clear()
         self._kept[id(tree)] = tree

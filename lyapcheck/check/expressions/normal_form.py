@@ -91,11 +91,9 @@ class RationalAlgebra(Algebra):
         self.one = self.ring.constant(1)
 
     def variable(self, name: str) -> Ratio:
-        """The generator of a variable."""
         return Ratio(self.ring.gen(self.names.index(name)), self.one)
 
     def number(self, value: Fraction) -> Ratio:
-        """The constant polynomial."""
         return Ratio(self.ring.constant(rational(value)), self.one)
 
     def constant(self, name: str, m: int) -> Ratio:
@@ -107,7 +105,6 @@ class RationalAlgebra(Algebra):
         return self._generator("pi", "")
 
     def function(self, name: str, value: Ratio) -> Ratio:
-        """A function of a quotient, in generators."""
         value = Ratio(self.reduced(value.top), self.reduced(value.bottom)).lowest()
         if value.top == 0 and name in AT_ZERO:
             return self.number(Fraction(AT_ZERO[name]))

@@ -84,7 +84,6 @@ class Coefficient:
 
     @property
     def is_zero(self) -> bool:
-        """Whether the number is exactly zero."""
         return self.exact == ()
 
     def inverse(self) -> Coefficient:
@@ -129,7 +128,6 @@ def _monomial(powers: Iterable[tuple[Symbol, int]], factor: fmpq) -> tuple[Monom
 
 
 def _collected(terms: Iterable[tuple[Monomial, fmpq]]) -> Coefficient:
-    """A sum of multiples of monomials."""
     result: dict[Monomial, fmpq] = {}
     for p, c in terms:
         result[p] = result[p] + c if p in result else c
@@ -180,7 +178,6 @@ class Asymptotic:
         return self * result.scaled(c.inverse(), power_of(key, Fraction(-1)))
 
     def scaled(self, by: Coefficient, key: Key = ONE) -> Asymptotic:
-        """The product with one term."""
         return Asymptotic(tuple((_times(k, key), c * by) for k, c in self.terms), self.start)
 
     def leading(self) -> tuple[Key, Coefficient, Asymptotic]:
@@ -321,19 +318,15 @@ class ScaleAlgebra(Algebra):
     start: Fraction
 
     def number(self, value: Fraction) -> Asymptotic:
-        """A rational number."""
         return constant(exactly(value), self.start)
 
     def constant(self, name: str, m: int) -> Asymptotic:
-        """γ_m, ρ_m or L_m."""
         return constant(exactly(1) if m == 1 else named(name, m), self.start)
 
     def pi(self) -> Asymptotic:
-        """The number π."""
         return constant(named("pi"), self.start)
 
     def function(self, name: str, value: Asymptotic) -> Asymptotic:
-        """An elementary function."""
         if name == "abs":
             return value if value.sign() > 0 else -value
         if name == "sqrt":
@@ -346,7 +339,6 @@ class ScaleAlgebra(Algebra):
         return composed(name, small, None if limit.is_zero and name in AT_ZERO else limit.ball)
 
     def _at_infinity(self, name: str, value: Asymptotic) -> Asymptotic:
-        """A function of what is not bounded."""
         if name == "exp":
             return self._exp(value)
         if name in ("sinh", "cosh", "tanh"):

@@ -16,11 +16,11 @@ from itertools import chain, product
 
 from flint import fmpq
 
-from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import NONNEGATIVE, Domain
 from lyapcheck.check.expressions.expression import Tree, shared, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.signs import require_defined_at
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.every_n import (
     MAX_SIZE,
@@ -65,7 +65,6 @@ class BoundEveryN(OfTerms):
 
     @property
     def identity(self) -> EveryN:
-        """``left = 0`` with the same letters."""
         return EveryN(self.left, ("num", "0"), self.symmetric, self.rates, self.given)
 
     def require_well_formed(self) -> None:
@@ -92,7 +91,6 @@ class BoundEveryN(OfTerms):
         require_distinct("letters", sorted(name for _, name in used))
 
     def terms_with_values(self) -> Iterator[Tree]:
-        """All its expressions."""
         yield from (tree for tree, _ in self.identity.terms())
         yield self.right
         for known, size in self.norms:
@@ -101,7 +99,6 @@ class BoundEveryN(OfTerms):
             yield from (number, size)
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """All its expressions, with numbers that are not negative."""
         domain = dict.fromkeys(self.numbers, NONNEGATIVE)
         return [(tree, domain) for tree in self.terms_with_values()]
 

@@ -37,7 +37,6 @@ class OfLinks(Total):
     links: tuple[RigidLink, ...]
 
     def require_well_formed(self) -> None:
-        """Joints with axes of length 1, rotations and bodies."""
         n = len(self.links)
         require(1 <= n <= MAX_LINKS, "links", n, f"must be 1 to {MAX_LINKS}")
         for link in self.links:
@@ -67,7 +66,6 @@ class OfChain(OfLinks, Bound):
         return Posture(self.links, [x.sin() for x in q], [x.cos() for x in q], Algebra(to_arb))
 
     def moved(self, witness: PostureWitness) -> tuple[list[arb], list[arb]]:
-        """x and M(q)x in balls."""
         rows, n = self.at(witness).mass(), len(self.links)
         require(len(witness.x) == n, "x", len(witness.x), f"must have {n} entries")
         require(any(witness.x), "x", "0", "must not be the zero vector")
@@ -89,7 +87,6 @@ class ChainAbove(OfChain):
         return f"M(q) ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
 
     def attempts(self) -> list[Proof]:
-        """Of the bound 0."""
         return [OwnMoments()] if self.low == 0 else []
 
     def excess(self, at: PostureWitness) -> arb:
@@ -125,7 +122,6 @@ class ChainGravityBelow(OfChain):
     high: Fraction
 
     def require_well_formed(self) -> None:
-        """A chain, a vector and some of its joints."""
         super().require_well_formed()
         require(len(self.fall) == 3, "fall", len(self.fall), "must have 3 entries")
         rising = list(self.joints) == sorted(set(self.joints))
@@ -362,16 +358,13 @@ class ChainIdentity(OfLinks):
     identity: str
 
     def require_well_formed(self) -> None:
-        """A chain, and an identity that is listed."""
         super().require_well_formed()
         require(self.identity in IDENTITIES, "identity", self.identity, f"must be one of {list(IDENTITIES)}")
 
     def text(self) -> str:
-        """The identity, and what M and C are."""
         return f"{IDENTITIES[self.identity]} {self.over}; C by Christoffel symbols"
 
     def attempts(self) -> list[Proof]:
-        """The only rule there is."""
         return [ByDefinition()]
 
 

@@ -132,7 +132,6 @@ class Agrees(OfTerms):
             require(plain, "printed number", text, "is not a decimal")
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """The formula over all roundings of the inputs."""
         ranges = zip(self.inputs, _ranges(self), strict=True)
         return [(self.formula, {name: Interval(r.lower, r.upper) for (name, _), r in ranges})]
 

@@ -79,7 +79,6 @@ class _OfCoriolis(OfArm, Compared):
         require_polynomials(chain.from_iterable(chain.from_iterable(self.printed)), n, self.parameters)
 
     def same(self, i: int, j: int) -> bool:
-        """Whether M_ij = M_ji."""
         return self.inertia.mass[i][j] == self.inertia.mass[j][i]
 
     @property
@@ -105,7 +104,6 @@ class _OfCoriolis(OfArm, Compared):
 
     @property
     def over(self) -> str:
-        """``for all q …``, and what C is."""
         about = super().over
         if not self.printed:
             return f"{about}; C by Christoffel symbols"
@@ -127,7 +125,6 @@ class CoriolisAtRest(_OfCoriolis):
     """C(q, 0) = 0, for all q and parameters."""
 
     def gaps(self) -> Iterator[Gap]:
-        """What has no rate."""
         for i, j in product(range(self.joints), repeat=2):
             yield f"C{i + 1}{j + 1}", (), self.symbol(i, j, self.joints)
 
@@ -173,7 +170,6 @@ class CoriolisTorque(_OfCoriolis):
 
     @property
     def speaks_of_symbols(self) -> bool:
-        """Always."""
         return True
 
     def gaps(self) -> Iterator[Gap]:
@@ -232,7 +228,6 @@ class CoriolisBelow(OfArm, BoundedAbove):
         return self.high > 0 and self.symmetric.coriolis_below(self.high, most)
 
     def square_by_sizes(self) -> Fraction:
-        """See :meth:`Inertia.squares_of_symbols`."""
         return self.symmetric.squares_of_symbols
 
     def excess(self, at: PostureWitness) -> arb:

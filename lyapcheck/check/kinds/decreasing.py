@@ -16,11 +16,18 @@ from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import diagonal_text, expression_text, number_text
 from lyapcheck.check.judgement import TORQUE
 from lyapcheck.check.kinds.constant import Constant
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, PostureWitness, mass_text, require_mass
+from lyapcheck.check.kinds.inertia import (
+    Mass,
+    MassAbove,
+    PostureWitness,
+    mass_text,
+    require_mass,
+    require_one_a_joint,
+)
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, at_parameters
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import member, member_text
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Ends, OfTerms, Proof, Relation, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
@@ -47,22 +54,13 @@ class OfLoop(Statement):
     kv: tuple[Fraction, ...]
 
     def require_well_formed(self) -> None:
-        """A square M, one number a joint, no range that is empty."""
         require_mass(self.mass, self.parameters)
-        self.require_one_a_joint("viscous", "kp", "kv")
+        require_one_a_joint(self, len(self.mass), "viscous", "kp", "kv")
         for low, high in self.viscous:
             require(low <= high, "range", f"[{low}, {high}]", "is empty")
 
-    def require_one_a_joint(self, *subjects: str) -> None:
-        """Refuse fields of another length than the number of joints."""
-        n = len(self.mass)
-        for subject in subjects:
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
-
     @property
     def granted(self) -> tuple[str, ...]:
-        """What ties the numbers to a robot under the controller (6)."""
         exact = all(low == high for low, high in (*self.parameters, *self.viscous))
         arm = (
             "exactly this M(q), C by Christoffel symbols, and exactly this B"
@@ -73,7 +71,6 @@ class OfLoop(Statement):
 
     @property
     def mass_positive(self) -> MassAbove:
-        """M(q) ≻ 0."""
         return MassAbove(self.mass, self.parameters, Fraction(0))
 
     @classmethod
@@ -91,7 +88,6 @@ class OfLoop(Statement):
         )
 
     def loop(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> ClosedLoop:
-        """The closed loop at one ε₀; see its ``coupling``."""
         return ClosedLoop(
             arm=Arm(self.mass, tuple(low for low, _ in self.viscous)),
             family=self.family,
@@ -105,17 +101,14 @@ class OfLoop(Statement):
         )
 
     def gains_text(self, kv: str = ", K_v") -> str:
-        """``B = …, h = …, K_p = …, K_v = …``."""
         ranges = ((number_text(low), number_text(high)) for low, high in self.viscous)
         friction = ", ".join(low if low == high else f"{low} … {high}" for low, high in ranges)
-        function = self.family if self.m is None else f"{self.family}_{self.m}"
         return (
-            f"B = diag({friction}), h = {function}, "
+            f"B = diag({friction}), h = {member_text(self.family, self.m)}, "
             f"K_p = {diagonal_text(self.kp)}{kv} = {diagonal_text(self.kv)}"
         )
 
     def mass_text(self) -> str:
-        """M(q) and the ranges of its parameters."""
         return mass_text(self.mass, self.parameters)
 
 
@@ -135,7 +128,7 @@ class Decreasing(OfLoop, Total):
     def require_well_formed(self) -> None:
         super().require_well_formed()
         if self.coupling:
-            self.require_one_a_joint("coupling")
+            require_one_a_joint(self, len(self.mass), "coupling")
 
     def text(self) -> str:
         return (
@@ -144,13 +137,11 @@ class Decreasing(OfLoop, Total):
         )
 
     def loop_text(self) -> str:
-        """Of which closed loop and V."""
         weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
         return f"{self.gains_text()}, ε₀ = {number_text(self.eps0)}{weights} and {self.mass_text()}"
 
     @property
     def closed_loop(self) -> ClosedLoop:
-        """The loop, at this ε₀ and with these weights."""
         return self.loop(self.eps0, coupling=self.coupling)
 
 
@@ -162,7 +153,6 @@ class BoxTree(RateProof):
     tree: str
 
     def require_shown(self, loop: ClosedLoop) -> None:
-        """By :func:`proves`."""
         boxes = f"of {self.tree.count('.')} boxes"
         require(proves(loop, self.tree), "tree", boxes, "has a box on which P ≻ 0 is not shown")
 
@@ -278,17 +268,14 @@ class DampingBelow(OfLoop, OfTerms):
     bound: Tree
 
     def with_damping(self, factor: Fraction, eps0: Fraction) -> Decreasing:
-        """That dV/dt < 0 at one κ and one ε₀."""
         kv = tuple(factor * k for k in self.kv)
         arm = (self.mass, self.viscous, self.parameters)
         return Decreasing(*arm, self.family, self.m, self.kp, kv, eps0, ())
 
     def below(self, factor: Fraction) -> Constant:
-        """That κ λmax(K_v) < bound at one κ."""
         return Constant(Relation(("num", str(factor * max(self.kv))), "<", self.bound))
 
     def require_well_formed(self) -> None:
-        """K_v above 0, and an expression without variables."""
         super().require_well_formed()
         require(all(k > 0 for k in self.kv), "kv", self.kv, "must be positive")
         require_expressions([self.bound], [])

@@ -10,10 +10,10 @@ from itertools import chain
 
 from flint import fmpq_mat
 
-from lyapcheck.check.expressions.defined import require_defined_at
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.expressions.signs import require_defined_at
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.letters.entries import Entries, exact
@@ -81,11 +81,9 @@ class EveryN(OfTerms):
 
     @property
     def domain(self) -> dict[str, Interval]:
-        """The ranges of the numbers."""
         return dict.fromkeys(self.positive, POSITIVE)
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """Both sides, the derivatives and what is given."""
         known = (*(value for _, value in self.rates), *(one.equals for one in self.given))
         return [(tree, self.domain) for tree in (self.left, self.right, *known)]
 

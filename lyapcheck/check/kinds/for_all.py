@@ -116,7 +116,6 @@ class ForAll(Pointwise):
 
     @property
     def interval(self) -> Interval:
-        """The domain."""
         return Interval(self.low, self.high, self.open_low, self.open_high)
 
     @property

@@ -16,11 +16,11 @@ from fractions import Fraction
 
 from flint import fmpq_mpoly
 
-from lyapcheck.check.expressions.defined import require_defined
 from lyapcheck.check.expressions.domain import POSITIVE, Domain, Interval
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside
+from lyapcheck.check.expressions.signs import require_defined
 from lyapcheck.check.kinds.implies import SignIdentity, Signs, require_identity
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import (

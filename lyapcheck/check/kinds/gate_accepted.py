@@ -15,7 +15,7 @@ from fractions import Fraction
 from flint import arb
 
 from lyapcheck.check.expressions.text import diagonal_text, list_text, number_text
-from lyapcheck.check.judgement import LARGEST, MAX_ARM, TORQUE
+from lyapcheck.check.judgement import LARGEST, TORQUE
 from lyapcheck.check.kinds.decreasing import OfLoop
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.identity import SameHarmonics
@@ -23,13 +23,15 @@ from lyapcheck.check.kinds.inertia import (
     OfArm,
     PostureWitness,
     polynomial_text,
+    potential_text,
+    require_one_a_joint,
     require_posture,
     variable_names,
     written_out,
 )
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import hyperbolic_constants, precision, to_arb
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import member, member_text
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Statement, Total
@@ -66,10 +68,7 @@ class GateAccepted(Total):
     def require_well_formed(self) -> None:
         """One number a joint; positive gains; conditions that are known, and parts about this arm."""
         n = self.joints
-        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
-        for subject in ("k_g", "viscous", "limits", "kp", "kv"):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
+        require_one_a_joint(self, n, "k_g", "viscous", "limits", "kp", "kv")
         require(min(*self.kp, *self.kv) > 0, "gains", "", "must be positive")
         require(min(self.k_g) >= 0, "k_g", min(self.k_g), "must not be negative")
         require(
@@ -117,12 +116,10 @@ class GateAccepted(Total):
 
     @property
     def gradient(self) -> GravityOfPotential:
-        """That g is the gradient of the potential."""
         return GravityOfPotential(self.gravity, self.potential, self.parameters)
 
     @property
     def bounds(self) -> list[GravityBelow]:
-        """|g_i(q)| ≤ k_gi for all q and parameters."""
         pairs = zip(self.gravity, self.k_g, strict=True) if self.gravity else ()
         return [GravityBelow(self.joints, (entry,), self.parameters, k) for entry, k in pairs]
 
@@ -162,7 +159,6 @@ class GateAccepted(Total):
     def text(self) -> str:
         limits = ", ".join("none" if x is None else number_text(x) for x in self.limits)
         ranges = [f"{number_text(a)} … {number_text(b)}" for a, b in (*self.viscous, *self.parameters)]
-        function = self.family if self.m is None else f"{self.family}_{self.m}"
         words = [
             f"|g_i(q)| ≤ k_gi for all q{'' if self.gravity else ', a premise'}",
             *(f"({name}) with these k_gi" for name in self.conditions),
@@ -174,12 +170,13 @@ class GateAccepted(Total):
         over = [f"{name} in {text}" for name, text in pairs]
         entries = [f"g{i} = {polynomial_text(g, names)}" for i, g in enumerate(self.gravity, 1)]
         if self.gravity:
-            slope = [f"U = {polynomial_text(self.potential, names)}"]
             over += [written_out(entries, "g(q)", self.gravity, ())]
-            over += [written_out(slope, "potential U(q) of it", self.potential, ())]
+            over += [
+                potential_text(self.potential, self.joints, len(self.parameters), "potential U(q) of it")
+            ]
         return (
             f"{'; '.join(words)}: for every arm with k_g = {list_text(self.k_g)}, τmax = ({limits}), "
-            f"B = diag({', '.join(ranges[: self.joints])}), under h = {function}, "
+            f"B = diag({', '.join(ranges[: self.joints])}), under h = {member_text(self.family, self.m)}, "
             f"{', '.join([f'K_p = {diagonal_text(self.kp)}', f'K_v = {diagonal_text(self.kv)}', *over])}"
         )
 

@@ -18,6 +18,7 @@ from lyapcheck.check.kinds.inertia import (
     PostureWitness,
     dot,
     polynomial_text,
+    potential_text,
     require_polynomials,
     require_posture,
     variable_names,
@@ -49,11 +50,9 @@ class GravityBelow(BoundedAbove):
 
     @property
     def entries(self) -> list[Uncertain]:
-        """The g_i."""
         return [by_parameters(entry, self.joints) for entry in self.gravity]
 
     def at(self, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> list[arb]:
-        """The g_i in balls at one posture."""
         return [value_at(entry, q, parameters) for entry in self.entries]
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
@@ -108,7 +107,6 @@ class Levers(Proof):
         )
 
     def weighed(self) -> list[tuple[RigidLink, ...]]:
-        """The links with each row of masses."""
         others = [zip(self.links, row, strict=True) for row in self.shares]
         return [self.links, *(tuple(replace(link, mass=mass) for link, mass in row) for row in others)]
 
@@ -155,19 +153,15 @@ class GravityOfPotential(Compared):
 
     @property
     def joints(self) -> int:
-        """As many as entries."""
         return len(self.gravity)
 
     def gaps(self) -> Iterator[Gap]:
-        """g_i − ∂U/∂q_i."""
         potential = by_parameters(self.potential, self.joints)
         for i, entry in enumerate(self.gravity):
             slope = {power: derivative(part, i) for power, part in potential.items()}
             yield f"g{i + 1}", (), mixed([(1, by_parameters(entry, self.joints)), (-1, slope)])
 
     def text(self) -> str:
-        names = variable_names(self.joints, len(self.parameters))
-        energy = [f"U = {polynomial_text(self.potential, names)}"]
-        potential = written_out(energy, "potential", self.potential, ())
+        potential = potential_text(self.potential, self.joints, len(self.parameters), "potential")
         about = gravity_text(self.gravity, self.joints, self.parameters)
         return f"g(q) is the gradient of U(q), for all q, with {potential}, {about}"

@@ -38,7 +38,6 @@ class Identity(Pointwise):
     variables: tuple[Variable, ...] = ()
 
     def require_well_formed(self) -> None:
-        """Expressions, and a range for variables that occur."""
         require_expressions((self.left, self.right))
         named = [variable.name for variable in self.variables]
         require_distinct("variables", named)
@@ -47,7 +46,6 @@ class Identity(Pointwise):
 
     @property
     def names(self) -> set[str]:
-        """The variables that occur."""
         return variables(self.left) | variables(self.right)
 
     @property

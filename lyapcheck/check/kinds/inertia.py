@@ -56,6 +56,14 @@ def require_polynomials(entries: Iterable[Monomials], n: int, parameters: tuple[
         require(low <= high, "range", f"[{low}, {high}]", "is empty")
 
 
+def require_one_a_joint(statement: object, n: int, *subjects: str) -> None:
+    """Refuse more joints than an arm may have, and fields of another length."""
+    require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
+    for subject in subjects:
+        size = len(getattr(statement, subject))
+        require(size == n, subject, size, f"must be {n}, one a joint")
+
+
 def mass_text(mass: Mass, parameters: tuple[Ends, ...]) -> str:
     """M(q) written out, or where that is long its size and a digest of its entries."""
     return written_out(mass_entries(mass, parameters), f"M(q) of {len(mass)} joints", mass, parameters)
@@ -99,6 +107,14 @@ def polynomial_text(entry: Monomials, names: Sequence[str]) -> str:
             factors.insert(0, number_text(abs(c)))
         terms.append(("−" if c < 0 else "") + "·".join(factors))
     return " + ".join(terms).replace("+ −", "− ") or "0"
+
+
+def potential_text(
+    energy: Monomials, n: int, parameters: int, what: str = "potential U(q)", name: str = "U"
+) -> str:
+    """An energy written out, or its digest."""
+    entry = f"{name} = {polynomial_text(energy, variable_names(n, parameters))}"
+    return written_out([entry], what, energy, ())
 
 
 @dataclass(frozen=True)
@@ -196,12 +212,10 @@ class OfArm(Total):
 
     @property
     def joints(self) -> int:
-        """The rows of M."""
         return len(self.mass)
 
     @property
     def inertia(self) -> Inertia:
-        """M(q)."""
         return inertia_of(self.mass, self.parameters)
 
     @property

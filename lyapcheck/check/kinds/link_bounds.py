@@ -185,7 +185,6 @@ class LinkBounds(RateProof):
     scales: str
 
     def require_shown(self, loop: ClosedLoop) -> None:
-        """Judge links, bounds and boxes one after the other."""
         n = loop.n
         require(not loop.coupling, "weights", loop.coupling, "must be none")
         require(loop.admissible, "gains, friction or ε₀", "", "must be positive, M = Mᵀ")

@@ -45,11 +45,9 @@ class NormBound(Pointwise):
 
     @property
     def at_points(self) -> tuple[tuple[()], Comparison]:
-        """The bound written out in x1, …, xn."""
         return (), vector_relation(self).comparison
 
     def terms(self) -> list[tuple[Tree, Domain]]:
-        """The component for every real x, and the bound."""
         return [(self.component, {}), (self.bound, {})]
 
     def text(self) -> str:

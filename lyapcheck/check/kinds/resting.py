@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import angles_text, diagonal_text, list_text
-from lyapcheck.check.judgement import LARGEST, MAX_ARM, TORQUE
+from lyapcheck.check.judgement import LARGEST, TORQUE
+from lyapcheck.check.kinds.inertia import require_one_a_joint
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.check.numbers.members import Member, member, member_text
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, rule
@@ -36,12 +37,8 @@ class Resting(Total):
     errors: tuple[Fraction | None, ...]
 
     def require_well_formed(self) -> None:
-        """One number a joint; stiffness above 0, sizes not below."""
         n = len(self.kp)
-        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
-        for subject in ("torque", "errors"):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
+        require_one_a_joint(self, n, "torque", "errors")
         require(min(self.kp) > 0, "kp", min(self.kp), "must be positive")
         for value in (*self.torque, *self.errors):
             require(value is None or 0 <= value <= LARGEST, "size", value, f"must be from 0 to {LARGEST}")
@@ -54,11 +51,10 @@ class Resting(Total):
         )
 
     def text(self) -> str:
-        member_m = "" if self.m is None else f"_{self.m}"
         return (
             "at every state of rest of (11) with a torque d on its right, K_p h(e) + d = 0, "
             f"|d_i| ≤ {list_text(self.torque)} N·m: |e_i| ≤ {angles_text(self.errors)}; "
-            f"for h = {self.family}{member_m} and K_p = {diagonal_text(self.kp)}"
+            f"for h = {member_text(self.family, self.m)} and K_p = {diagonal_text(self.kp)}"
         )
 
 

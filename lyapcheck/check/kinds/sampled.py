@@ -20,22 +20,20 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from lyapcheck.check.expressions.text import diagonal_text, list_text, number_text
-from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.kinds.chain import ChainAbove, ChainGravityBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
     MassAbove,
     mass_text,
-    polynomial_text,
+    potential_text,
     require_mass,
+    require_one_a_joint,
     require_polynomials,
-    variable_names,
-    written_out,
 )
 from lyapcheck.check.kinds.stable_arm import slope
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.numbers.harmonics import by_parameters
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import member, member_text
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule
@@ -87,10 +85,7 @@ class SampledStable(Total):
     def require_well_formed(self) -> None:
         """One number a joint, one arm, whole samples, a filter of finitely many taps."""
         n = self.n
-        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
-        for subject in ("kv", "viscous_min"):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
+        require_one_a_joint(self, n, "kv", "viscous_min")
         require(min(*self.kp, *self.kv) > 0, "gains", "", "must be positive")
         require(min(self.viscous_min) >= 0, "viscous_min", min(self.viscous_min), "must not be negative")
         require(self.period > 0, "period", self.period, "must be positive")
@@ -118,7 +113,6 @@ class SampledStable(Total):
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.kp)
 
     @property
@@ -181,7 +175,6 @@ class SampledStable(Total):
         return "T" if self.stretch == 1 else f"{number_text(self.stretch)}·T"
 
     def text(self) -> str:
-        function = self.family if self.m is None else f"{self.family}_{self.m}"
         what = (
             "the goal is globally asymptotically stable"
             if self.conclusion == GOAL
@@ -190,8 +183,9 @@ class SampledStable(Total):
         return (
             f"for every T ≤ {number_text(self.period)} s {what} with torques (6) held between readings up to "
             f"{self._longest} apart, {late_text(self.delay)}, q̇ from differences/T weighted "
-            f"{list_text(self.taps)}: h = {function}, K_p = {diagonal_text(self.kp)}, "
-            f"K_v = {diagonal_text(self.kv)}, b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
+            f"{list_text(self.taps)}: h = {member_text(self.family, self.m)}, "
+            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
+            f"b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
         )
 
     def _arm_text(self) -> str:
@@ -200,10 +194,8 @@ class SampledStable(Total):
             return f"the arm with free fall {list_text(self.fall)}, {arm}"
         if not self.mass:
             return f"any serial revolute arm with |g_i(q)| ≤ {list_text(self.k_g)}"
-        names = variable_names(self.n, len(self.parameters))
-        energy = [f"U = {polynomial_text(self.potential, names)}"]
-        written = written_out(energy, "potential U(q)", self.potential, ())
-        return f"any arm with {mass_text(self.mass, self.parameters)} ≻ 0, {written}"
+        energy = potential_text(self.potential, self.n, len(self.parameters))
+        return f"any arm with {mass_text(self.mass, self.parameters)} ≻ 0, {energy}"
 
 
 @dataclass(frozen=True)

@@ -7,18 +7,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 
 from flint import arb
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
-from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.kinds.inertia import (
     mass_text,
-    polynomial_text,
+    potential_text,
     require_mass,
+    require_one_a_joint,
     require_polynomials,
-    variable_names,
-    written_out,
 )
 from lyapcheck.check.kinds.sampled import late_text
 from lyapcheck.check.kinds.stable_arm import hessian
@@ -27,7 +26,7 @@ from lyapcheck.check.loop.inertia import inertia_of
 from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, Numbers, SampledEnergy, falls
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import by_parameters
-from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.members import member, member_text
 from lyapcheck.check.numbers.polynomials import dyadic, root_above
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
@@ -60,12 +59,8 @@ class SampledFromRest(Total):
     within: Fraction
 
     def require_well_formed(self) -> None:
-        """One number a joint, positive gains, an arm, whole samples."""
         n = len(self.mass)
-        require(1 <= n <= MAX_ARM, "joints", n, f"must be from 1 to {MAX_ARM}")
-        for subject in ("kp", "kv", "viscous"):
-            size = len(getattr(self, subject))
-            require(size == n, subject, size, f"must be {n}, one a joint")
+        require_one_a_joint(self, n, "kp", "kv", "viscous")
         require(min(*self.kp, *self.kv) > 0, "gains", "", "must be positive")
         require(
             all(0 <= low <= high for low, high in self.viscous), "viscous", "", "must be ranges from 0 on"
@@ -88,14 +83,13 @@ class SampledFromRest(Total):
 
     def text(self) -> str:
         n, ranges = len(self.mass), ", ".join(f"{number_text(a)} … {number_text(b)}" for a, b in self.viscous)
-        energy = [f"U = {polynomial_text(self.potential, variable_names(n, len(self.parameters)))}"]
-        function = self.family if self.m is None else f"{self.family}_{self.m}"
         return (
             f"at intervals of T = {number_text(self.period)} s, {late_text(self.delay)}, q̇ by backward "
             f"differences: from every start at rest with |e_i| ≤ {number_text(self.within)}° the torque (6) "
-            f"brings every arm to q_d: h = {function}, K_p = {diagonal_text(self.kp)}, "
-            f"K_v = {diagonal_text(self.kv)}, B = diag({ranges}), {mass_text(self.mass, self.parameters)}, "
-            f"{written_out(energy, 'potential U(q)', self.potential, ())}"
+            f"brings every arm to q_d: h = {member_text(self.family, self.m)}, "
+            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, B = diag({ranges}), "
+            f"{mass_text(self.mass, self.parameters)}, "
+            f"{potential_text(self.potential, n, len(self.parameters))}"
         )
 
 
@@ -168,21 +162,15 @@ def _require_sizes(proof: FallingEnergy, n: int, d: int) -> None:
     V = proof.energy
     rows = [proof.least, proof.scale, V.coupling, V.stiffness, V.moved, V.mean, V.slow, V.kept, V.late]
     squares = [getattr(V.splits, name) for name in V.splits.__dataclass_fields__]
-    fits = {n} == {len(row) for row in (*rows, *squares)} and {n} == {
-        len(x) for square in squares for x in square
-    }
+    split = [row for square in squares for row in square]
+    fits = {n} == {*map(len, (*rows, *squares, *split))}
     late = {len(x) for x in V.kept} == {d + 1} and {len(x) for x in V.late} == {d}
     require(fits and late, "energy", "", f"must be of {n} joints and {d} samples")
-    positive = (
-        *proof.least,
-        proof.speed,
-        *proof.scale,
-        V.weight,
-        *(x for square in squares for row in square for x in row),
-    )
+    positive = (*proof.least, proof.speed, *proof.scale, V.weight, *chain.from_iterable(split))
     require(min(positive) > 0, "energy", min(positive), "must be positive")
-    others = (*V.coupling, *V.stiffness, *V.moved, *V.mean, *(x for row in (*V.kept, *V.late) for x in row))
-    require(min(others) >= 0, "energy", min(others), "must not be negative")
+    others = chain(V.coupling, V.stiffness, V.moved, V.mean, *V.kept, *V.late)
+    least = min(others)
+    require(least >= 0, "energy", least, "must not be negative")
     require(0 < proof.share < 1, "share", proof.share, "must be between 0 and 1")
     require(all(0 <= x <= 1 for x in V.slow), "slow", "", "must be from 0 to 1")
     require(V.reach >= 1, "reach", V.reach, "must be at least 1")

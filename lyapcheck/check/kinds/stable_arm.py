@@ -20,11 +20,9 @@ from lyapcheck.check.kinds.inertia import (
     MassAbove,
     MassBelow,
     mass_text,
-    polynomial_text,
+    potential_text,
     require_mass,
     require_polynomials,
-    variable_names,
-    written_out,
 )
 from lyapcheck.check.kinds.stability import ByObligations, Stable, all_proved
 from lyapcheck.check.refusal import require
@@ -121,14 +119,13 @@ class StableArm(Total):
 
     def text(self) -> str:
         """For which arm and gains; then the theorem."""
-        n = len(self.arm.mass)
-        energy = polynomial_text(self.arm.potential, variable_names(n, 0))
+        energy = potential_text(self.arm.potential, len(self.arm.mass), 0, "energy of gravity", "U_g")
         gains = ", ".join(f"{name} = {diagonal_text(values)}" for name, values in self.gains)
         numbers = ", ".join(f"{name} = {number_text(value)}" for name, value in self.numbers)
         return (
             f"{Stable(self.argument).conclusion} with {gains}{f' and {numbers}' if numbers else ''} "
             f"on the arm with {mass_text(self.arm.mass, ())}, B = {diagonal_text(self.arm.viscous)}, "
-            f"{written_out([f'U_g = {energy}'], 'energy of gravity', self.arm.potential, ())}: "
+            f"{energy}: "
             f"{Stable(self.argument).text()}"
         )
 

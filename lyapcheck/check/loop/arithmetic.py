@@ -29,7 +29,6 @@ class Span:
 
     @classmethod
     def of(cls, value: arb) -> Span:
-        """The span of a ball."""
         return cls(value.lower(), value.upper())
 
     def __add__(self, other: Span) -> Span:

@@ -109,7 +109,6 @@ class Posture:
         self.turns = [_rotation(of, *joint) for joint in zip(links, sines, cosines, strict=True)]
 
     def mass(self) -> Rows:
-        """M(q), (n, n), kg·m²."""
         of, n = self.of, self.n
         rows: Rows = [[ZERO] * n for _ in range(n)]
         for m in range(n):
@@ -138,7 +137,6 @@ class Posture:
         return result
 
     def _with(self, own: Body, k: int, body: Body) -> Body:
-        """A body and that of the next joint k."""
         of, p = self.of, self.links[k].origin
         moment = of.apply(self.turns[k], body.moment)
         place = of.scaled(body.mass, p)

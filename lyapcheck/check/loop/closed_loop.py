@@ -116,7 +116,6 @@ class ClosedLoop:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return self.arm.n
 
     @cached_property
@@ -126,7 +125,6 @@ class ClosedLoop:
 
     @cached_property
     def friction(self) -> tuple[Range, ...]:
-        """The range of each diagonal entry of B."""
         return self.viscous or tuple((b, b) for b in self.arm.viscous)
 
     @cached_property
@@ -136,7 +134,6 @@ class ClosedLoop:
 
     @property
     def mass(self) -> list[list[Uncertain]]:
-        """M as harmonics, by powers of the parameters."""
         return self.inertia.mass
 
     @property
@@ -152,7 +149,6 @@ class ClosedLoop:
 
     @property
     def Lambda(self) -> tuple[Fraction, ...]:
-        """Diagonal of Λ."""
         return self.coupling or (Fraction(1),) * self.n
 
     @cached_property
@@ -171,7 +167,6 @@ class ClosedLoop:
         return tuple(sorted({signs.index(-1) for signs in turns if -1 in signs}))
 
     def symmetric_under(self, signs: Sequence[int]) -> bool:
-        """Whether M(σq) = Σ M(q) Σ."""
         joints = range(self.n)
         return all(
             mirrored(part, signs) == {k: (sign * a, sign * b) for k, (a, b) in part.items()}

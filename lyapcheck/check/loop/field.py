@@ -117,7 +117,6 @@ class Field:
         return True
 
     def over(self, box: Box, of: Arithmetic) -> list[Value]:
-        """The polynomials over a box of the angles and the parameters."""
         count = len(self.angles)
         return self.at(box[:count], [of.value(ball(side)) for side in box[count:]], of)
 
@@ -170,11 +169,9 @@ class Polynomial:
     def over(
         self, wide: Values, centre: Values, offset: list[Value], parameters: Sequence[Value], of: Arithmetic
     ) -> Value:
-        """The values over a box of angles and parameters."""
         return self.put_together(lambda part: part.over(wide, centre, offset, of), parameters, of)
 
     def put_together(self, value_of: Callable[[Part], Value], parameters: Sequence[Value], of: Ring) -> Value:
-        """The values from those of each part."""
         total = of.value(arb(0))
         for powers, part in self.parts:
             value = value_of(part)
@@ -194,7 +191,6 @@ class Part:
         self.slopes = [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
 
     def over(self, wide: Values, centre: Values, offset: list[Value], of: Arithmetic) -> Value:
-        """The values over a box of angles."""
         natural = combined(self.terms, wide, of)
         if not self.slopes:
             return natural

@@ -76,12 +76,10 @@ class Inertia:
         return field.throughout(shows, most)
 
     def times(self, q: Sequence[Fraction], parameters: Sequence[Fraction], x: Sequence[arb]) -> list[arb]:
-        """M(q)x in balls."""
         rows = self.at(q, parameters)
         return [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows]
 
     def at(self, q: Sequence[Fraction], parameters: Sequence[Fraction]) -> list[list[arb]]:
-        """M in balls at one posture and one choice of the parameters."""
         return [[value_at(entry, q, parameters) for entry in row] for row in self.mass]
 
     def coriolis(

@@ -63,7 +63,6 @@ class Evaluator:
         return self.of.positive_definite(self.schur(sides, errors, box[last:]))
 
     def schur(self, sides: Box, errors: Box, uncertain: Box) -> Rows:
-        """P, the entries on and below the diagonal."""
         filled, known = self._filled(uncertain), self.errors(errors)
         B = filled[len(filled) - self.loop.n :]
         return form(*self._arm(sides, uncertain, filled), known, B, self.of)
@@ -89,7 +88,6 @@ class Evaluator:
         )
 
     def _coupled(self, form: Callable[[Side], Value], errors: Box) -> list[Value]:
-        """Λh or Λh'."""
         values = [form(side) for side in errors]
         return (
             [x * scale for x, scale in zip(values, self.coupling, strict=True)] if self.coupling else values

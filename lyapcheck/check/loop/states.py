@@ -37,7 +37,6 @@ class Arm:
 
     @property
     def n(self) -> int:
-        """Number of joints."""
         return len(self.viscous)
 
 
@@ -61,7 +60,6 @@ class State:
 
     @property
     def at_origin(self) -> bool:
-        """Whether e and w are both zero."""
         return not any(self.e) and not any(self.w)
 
 
@@ -138,7 +136,6 @@ class _Point:
         return eps0 / (1 + r), eps0 * _dot(self.e, self.w) / (r * (1 + r) * (1 + r))
 
     def inertia_times_acceleration(self) -> list[arb]:
-        """Mẇ of (11)."""
         coriolis = _times(self.mass_rate, self.w)
         forces = []
         for i, w in enumerate(self.w):

@@ -106,7 +106,6 @@ class Stage:
 
     @property
     def size(self) -> int:
-        """Components of w."""
         return int(self.cost.nrows())
 
 
@@ -218,7 +217,6 @@ class Shown:
     forms: tuple[Forms, ...]
 
     def holds(self, chains: Sequence[Sequence[Stage]], vectors: int) -> bool:
-        """Whether the forms show it for the costs of every chain."""
         n, count = len(self.prices), vectors * (3 * vectors + 1) // 2
         fits = len(self.forms) == len(chains) and all(len(stages) == n for stages in chains)
         return fits and all(
@@ -247,13 +245,11 @@ def _upright(axis: Sequence[Fraction]) -> list[list[Fraction]]:
 
 
 def _cross(a: Sequence[Fraction]) -> list[list[Fraction]]:
-    """The matrix of a × ·."""
     x, y, z = a
     return [[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]]
 
 
 def _blocks(a: Matrix, b: Matrix, c: Matrix, d: Matrix) -> list[list[Fraction]]:
-    """[[a, b], [c, d]]."""
     upper = [[*left, *right] for left, right in zip(a, b, strict=True)]
     return upper + [[*left, *right] for left, right in zip(c, d, strict=True)]
 
@@ -296,7 +292,6 @@ def coriolis_power(
 
 
 def _turned(of: Algebra, sine: Entry, cosine: Entry, twist: Vector) -> list[Entry]:
-    """From the frame of a joint at q = 0 to that at another angle."""
     result = list(twist)
     for k in (0, 3):
         result[k] = of.dot((cosine, sine), twist[k : k + 2])

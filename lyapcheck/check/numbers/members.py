@@ -62,6 +62,11 @@ def _creators() -> dict[str, Callable[[int | None], Member]]:
     return {file.name: import_module(f"{functions.__name__}.{file.name}").create for file in files}
 
 
+def member_text(name: str, m: int | None) -> str:
+    """``tanh``, ``hyperbolic_2``."""
+    return name if m is None else f"{name}_{m}"
+
+
 def require_single(name: str, m: int | None) -> None:
     """Refuse an m for a function that has a single member.
 

@@ -122,7 +122,6 @@ def _point(low: End, high: End, step: int) -> Fraction:
 
 
 def _inside(poly: fmpq_poly, low: End, high: End) -> int:
-    """The number of distinct roots strictly between low and high."""
     if poly.degree() <= 0:
         return 0
     at_high = 1 if high is not None and sign_at(poly, high) == 0 else 0
@@ -181,7 +180,6 @@ class Enclosure:
 
     @classmethod
     def exact(cls, value: Fraction | int) -> Enclosure:
-        """The enclosure of a number that is known exactly."""
         return cls(Fraction(value), Fraction(value))
 
     @classmethod
@@ -192,17 +190,14 @@ class Enclosure:
         return cls(dyadic(ball.lower()), dyadic(ball.upper()))
 
     def to_arb(self) -> arb:
-        """A ball that contains the whole interval."""
         return ball_of(self.lower).union(ball_of(self.upper))
 
     @property
     def width(self) -> Fraction:
-        """``upper - lower``."""
         return self.upper - self.lower
 
     @property
     def mid(self) -> Fraction:
-        """The middle of the interval."""
         return (self.lower + self.upper) / 2
 
     @property

@@ -39,11 +39,9 @@ class Algebra:
         self._tidy = tidy
 
     def value(self, a: Entry) -> Entry:
-        """The entry as a value of the arithmetic."""
         return self.lift(a) if isinstance(a, Fraction) else a
 
     def times(self, a: Entry, b: Entry) -> Entry:
-        """a b."""
         if isinstance(b, Fraction):
             a, b = b, a
         if not isinstance(a, Fraction) or isinstance(b, Fraction):
@@ -53,7 +51,6 @@ class Algebra:
         return b if a == 1 else -b if a == -1 else self.lift(a) * b
 
     def plus(self, a: Entry, b: Entry) -> Entry:
-        """a + b."""
         if isinstance(a, Fraction) and isinstance(b, Fraction):
             return a + b
         if isinstance(a, Fraction):
@@ -63,7 +60,6 @@ class Algebra:
         return a + b
 
     def minus(self, a: Entry, b: Entry) -> Entry:
-        """a − b."""
         if isinstance(b, Fraction):
             return self.plus(a, -b)
         if isinstance(a, Fraction):
@@ -71,46 +67,37 @@ class Algebra:
         return a - b
 
     def dot(self, x: Vector, y: Vector) -> Entry:
-        """xᵀy."""
         total: Entry = ZERO
         for a, b in zip(x, y, strict=True):
             total = self.plus(total, self.times(a, b))
         return total if self._tidy is None or isinstance(total, Fraction) else self._tidy(total)
 
     def cross(self, x: Vector, y: Vector) -> list[Entry]:
-        """x × y."""
         return [self.minus(self.times(x[j], y[k]), self.times(x[k], y[j])) for j, k in LEVI_CIVITA]
 
     def add(self, *vectors: Vector) -> list[Entry]:
-        """The sum of vectors."""
         total = list(vectors[0])
         for vector in vectors[1:]:
             total = [self.plus(a, b) for a, b in zip(total, vector, strict=True)]
         return total
 
     def scaled(self, factor: Entry, x: Vector) -> list[Entry]:
-        """The multiple of a vector."""
         return [self.times(factor, a) for a in x]
 
     def apply(self, a: Matrix, x: Vector) -> list[Entry]:
-        """A x."""
         return [self.dot(row, x) for row in a]
 
     def product(self, a: Matrix, b: Matrix) -> list[list[Entry]]:
-        """A B."""
         columns = transposed(b)
         return [[self.dot(row, column) for column in columns] for row in a]
 
     def congruent(self, a: Matrix, b: Matrix) -> list[list[Entry]]:
-        """A B Aᵀ."""
         return self.product(self.product(a, b), transposed(a))
 
     def outer(self, x: Vector, y: Vector) -> list[list[Entry]]:
-        """x yᵀ."""
         return [self.scaled(a, y) for a in x]
 
     def sum(self, *matrices: Matrix) -> list[list[Entry]]:
-        """The sum of matrices."""
         return [self.add(*rows) for rows in zip(*matrices, strict=True)]
 
     def axial(self, a: Matrix) -> list[Entry]:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from importlib import import_module
 from pkgutil import iter_modules
 
-from lyapcheck.check.expressions.defined import Undefined
+from lyapcheck.check.expressions.signs import Undefined
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.errors import InputError
 from lyapcheck.output.escapes import printable
@@ -14,13 +12,12 @@ from lyapcheck.robots.bodies import impossible_state
 from lyapcheck.robots.chain_bounds import bodily
 from lyapcheck.robots.choice import Choice
 from lyapcheck.robots.dynamics import Chain
-from lyapcheck.robots.fields import Number
+from lyapcheck.robots.fields import Number, of_joints
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.urdf.chain import choose_chain, held, options
-from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of
+from lyapcheck.robots.urdf.numbers import gravity_numbers, joint_numbers, link_numbers, motor_of, rotors
 from lyapcheck.robots.urdf.parts import Triple, UrdfJoint, UrdfLink, UrdfNotes, read_parts
 from lyapcheck.robots.urdf.rotations import Roundings
-from lyapcheck.robots.urdf.rotors import rotors
 from lyapcheck.robots.urdf.tree import Tree, build_tree, moved_bodies, moved_links, tensor
 from lyapcheck.robots.urdf.xml import Element
 
@@ -61,16 +58,30 @@ def read_urdf(
     roundings = Roundings()
     bodies = moved_bodies(tree, chain, choice.fixed, roundings)
     for body, links in zip(bodies, moved_links(tree, chain), strict=True):
-        if not is_positive_semidefinite(body.inertia):
-            _refuse_body(links, notes)
+        for link in () if is_positive_semidefinite(body.inertia) else links:
+            if not is_positive_semidefinite(tensor(link)):
+                key, rule = f"link {link.name}: inertia", "must be positive semidefinite"
+                repair = "check the signs and the point about which it is given (the centre of mass)"
+                notes.fail(link.element, key, "", rule, repair)
     if notes.problems:
         raise InputError(notes.problems)
     told = (*remarks, *roundings.sentences(), *_remarks(tree, chain, choice, notes), *rotors(root, chain))
-    read = _Read(path, root, tree, chain, bodies, told, source or path.name)
-    model = _model(read, gravity or gravity_numbers(EARTH))
-    broken = impossible_state(model)
-    if broken:
-        _refuse_massless(tree, chain, broken, root, notes)
+    fall = gravity or gravity_numbers(EARTH)
+    file, stem = printable(source or path.name), printable(path.name.partition(".")[0] or path.stem)
+    motors = [motor_of(joint, file) for joint in chain]
+    numbers = {f"gravity_{letter}": x for letter, x in zip("xyz", fall, strict=True) if x.value}
+    model = RobotModel(
+        name=stem,
+        title=f"{root.attributes.get('name', stem)[:80]} (URDF)",
+        dynamics=Chain(bodies, tuple(entry.value for entry in fall)),
+        **of_joints(motors),
+        numbers=numbers | link_numbers(tree, file) | joint_numbers(tree, motors, file),
+        remarks=told,
+    )
+    if broken := impossible_state(model):
+        bare = _bare(tree, moved_links(tree, chain))
+        repair = f"every joint must move some inertia{': ' if bare else ''}{bare}; check masses and inertias"
+        notes.fail(root, "robot", "", broken, repair)
         raise InputError(notes.problems)
     return model
 
@@ -124,55 +135,6 @@ def _bare(tree: Tree, bodies: list[list[UrdfLink]]) -> str:
 def _places(links: list[UrdfLink]) -> str:
     more = f" and {len(links) - _SHOWN} more" if len(links) > _SHOWN else ""
     return ", ".join(f"{link.name} (line {link.element.line})" for link in links[:_SHOWN]) + more
-
-
-def _refuse_body(links: list[UrdfLink], notes: UrdfNotes) -> None:
-    for link in links:
-        if not is_positive_semidefinite(tensor(link)):
-            repair = "check the signs and the point about which it is given (the centre of mass)"
-            notes.fail(
-                link.element, f"link {link.name}: inertia", "", "must be positive semidefinite", repair
-            )
-
-
-def _refuse_massless(
-    tree: Tree, chain: tuple[UrdfJoint, ...], broken: str, robot: Element, notes: UrdfNotes
-) -> None:
-    bare = _bare(tree, moved_links(tree, chain))
-    repair = f"every joint must move some inertia{': ' if bare else ''}{bare}; check masses and inertias"
-    notes.fail(robot, "robot", "", broken, repair)
-
-
-@dataclass(frozen=True)
-class _Read:
-    path: Path
-    root: Element
-    tree: Tree
-    chain: tuple[UrdfJoint, ...]
-    bodies: tuple[RigidLink, ...]
-    remarks: tuple[str, ...]
-    source: str
-
-
-def _model(read: _Read, gravity: tuple[Number, ...]) -> RobotModel:
-    file, stem = printable(read.source), printable(read.path.name.partition(".")[0] or read.path.stem)
-    motors = [motor_of(joint, file) for joint in read.chain]
-    numbers = {f"gravity_{letter}": x for letter, x in zip("xyz", gravity, strict=True) if x.value}
-    numbers |= link_numbers(read.tree, file) | joint_numbers(read.tree, read.chain, motors, file)
-    nothing = (None,) * len(read.chain)
-    return RobotModel(
-        name=stem,
-        title=f"{read.root.attributes.get('name', stem)[:80]} (URDF)",
-        joints=tuple(joint.name for joint in read.chain),
-        dynamics=Chain(read.bodies, tuple(entry.value for entry in gravity)),
-        viscous=tuple(motor.viscous for motor in motors),
-        coulomb=tuple(motor.coulomb for motor in motors),
-        torque_limit=tuple(motor.torque_limit for motor in motors),
-        encoder=nothing,
-        gravity_bound=nothing,
-        numbers=numbers,
-        remarks=read.remarks,
-    )
 
 
 def _remarks(tree: Tree, chain: tuple[UrdfJoint, ...], choice: Choice, notes: UrdfNotes) -> tuple[str, ...]:

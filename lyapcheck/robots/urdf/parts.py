@@ -11,8 +11,7 @@ from typing import TypeVar
 from lyapcheck.errors import Problem, nearest
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.fields import LARGEST
-from lyapcheck.robots.urdf.words import ATTRIBUTES, CHILDREN, INERTIA, MIRRORED, VERSIONS, Words
-from lyapcheck.robots.urdf.xml import Element
+from lyapcheck.robots.urdf.xml import ATTRIBUTES, CHILDREN, INERTIA, MIRRORED, VERSIONS, Element, Words
 
 # --- Reading the attributes of URDF elements: exact decimals, and every problem at once.
 
@@ -36,7 +35,6 @@ class UrdfNotes:
         self.quaternions = False
 
     def fail(self, element: Element, key: str, value: str, rule: str, repair: str) -> None:
-        """Note one problem at the line of an element."""
         shown = value if len(value) <= _LONGEST else value[: _LONGEST - 3] + "…"
         self.problems.append(Problem(self.file, element.line, key, printable(shown), rule, repair))
 
@@ -173,7 +171,6 @@ class UrdfLink:
 
     @property
     def described(self) -> bool:
-        """Whether the file has an ``<inertial>`` for it."""
         return self.element.tag == "inertial"
 
 

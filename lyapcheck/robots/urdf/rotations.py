@@ -44,12 +44,10 @@ class Roundings:
     mended: list[str] = field(default_factory=list)
 
     def note(self, place: str) -> None:
-        """Something at that place is rounded."""
         if place not in self.rounded:
             self.rounded.append(place)
 
     def sentences(self) -> tuple[str, ...]:
-        """What a reader has to know about them."""
         result = []
         if self.snapped:
             worst = max(self.snapped, key=lambda place: self.snapped[place])
@@ -148,7 +146,6 @@ def _middle(ball: arb) -> Fraction:
 
 
 def _turn(axis: int, sine: Fraction, cosine: Fraction) -> Rotation:
-    """The rotation about a coordinate axis."""
     rows = [[ZERO] * 3 for _ in range(3)]
     j, k = (axis + 1) % 3, (axis + 2) % 3
     rows[axis][axis] = Fraction(1)

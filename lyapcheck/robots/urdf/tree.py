@@ -35,7 +35,6 @@ class Tree:
     above: dict[str, UrdfJoint]
 
     def path(self, link: str) -> list[UrdfJoint]:
-        """All joints from the root to a link."""
         result: list[UrdfJoint] = []
         while link != self.root:
             result.append(self.above[link])
@@ -44,7 +43,6 @@ class Tree:
 
     @cached_property
     def below(self) -> dict[str, list[UrdfJoint]]:
-        """The joints that hang on each link."""
         result: dict[str, list[UrdfJoint]] = {}
         for joint in self.joints.values():
             result.setdefault(joint.parent, []).append(joint)
@@ -136,7 +134,6 @@ class _Pose:
     place: tuple[Fraction, ...]
 
     def then(self, rotation: Rotation, place: Sequence[Fraction]) -> _Pose:
-        """The pose of what stands so in this frame."""
         moved = OF.add(self.place, OF.apply(self.rotation, place))
         return _Pose(tidy(OF.product(self.rotation, rotation)), tuple(moved))
 
@@ -193,7 +190,6 @@ def _body(
 
 
 def _point(m: Fraction, place: Sequence[Fraction]) -> list[list[Fraction]]:
-    """The inertia of a mass at a place."""
     square = OF.dot(place, place)
     return [[m * (square * UNIT[i][k] - place[i] * place[k]) for k in range(3)] for i in range(3)]
 
