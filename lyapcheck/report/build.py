@@ -25,13 +25,11 @@ from lyapcheck.report.drawings import (
     draw_comparisons,
     draw_damping,
     draw_family,
-    draw_sensitivity,
     draw_set,
     draw_sides,
 )
-from lyapcheck.report.experiment import printed_experiment
 from lyapcheck.report.findings import findings, light, own_findings, small_path
-from lyapcheck.report.jobs import Done, derive_job, done, gains_job, map_job, proofs_job, with_the_map
+from lyapcheck.report.jobs import Done, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
@@ -66,29 +64,25 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         with main_unnamed():
             jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
-    of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
-    study = None if subject.own else printed_experiment(of_the_report, model)
-    cells, for_sets = jobs.map.result().result
-    parts = [with_the_map(job.result().result, for_sets) for job in jobs.sets]
+    parts = [job.result().result for job in jobs.sets]
     proofs, small = jobs.proofs.result().result
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
         certificates |= made
     certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
-    certificates |= {one.path: one.certificate for one in cells if one.certificate}
     rows = [row for part in proofs for row in part.rows]
     if subject.own:
         known = {row.certificate for row in rows}
         rows, fresh = as_the_gate_judges(rows, gate)
         gone = known - {row.certificate for row in rows}
         certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
-    figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
+    figures |= draw_sides(small) | draw_comparisons(epsilon, runs)
     claims = tuple(row for row in rows if row.proof == "published")
     if subject.own:
         weighed = own_findings(gate, epsilon, claims)
     else:
-        weighed = findings(notes, claims, {name: light(one) for name, one in small.items()}, epsilon, study)
+        weighed = findings(notes, claims, {name: light(one) for name, one in small.items()}, epsilon)
     packages = frozenset[str]().union(*(job.result().packages for job in jobs.labels))
     return Report(
         notes=notes,
@@ -102,9 +96,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         claims=claims,
         others=tuple(row for row in rows if row.proof != "published"),
         runs=runs,
-        sensitivity=study,
         findings=weighed,
-        map=tuple(cells),
         figures=dict(sorted(figures.items())),
         certificates=dict(sorted(certificates.items())),
         versions={name: version(name) for name in sorted(packages)},
@@ -132,7 +124,6 @@ class Jobs:
         sets: ε₀ and simulation of each gain set.
         proofs: the claims of the paper and of the other proofs, with small witnesses.
         derived: what SymPy derives.
-        map: the map over m and k_v, computed where that is asked for.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.
     """
@@ -140,7 +131,6 @@ class Jobs:
     sets: list[Job]
     proofs: Job
     derived: Job
-    map: Job
     labels: dict[Job, str]
     drawings: dict[Job, Callable[[Any], Files]]
 
@@ -159,8 +149,7 @@ def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
     named = [(file.path, name) for file, name in subject.sets]
     sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
     derived = start("derivation", derive_job, subject.ms, subject.robot)
-    cells = start("map", map_job, subject.robot, subject.of_family, subject.map)
-    return Jobs(sets, proofs, derived, cells, labels, dict.fromkeys(sets, draw_set))
+    return Jobs(sets, proofs, derived, labels, dict.fromkeys(sets, draw_set))
 
 
 def _drawn(jobs: Jobs, progress: Progress) -> Files:
@@ -191,7 +180,7 @@ def render(report: Report, formats: Sequence[str] = USUAL, appendix: bool = Fals
     """Every file of a report by its name; figures and certificates are shared by the formats.
 
     Args:
-        appendix: whether the PDF goes on with claims, gate, runs and the experiment one by one.
+        appendix: whether the PDF goes on with claims, gate and runs one by one.
     """
     files: dict[str, str | bytes] = {}
     answer = ReportAnswer(report)

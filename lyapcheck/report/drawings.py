@@ -10,7 +10,6 @@ from lyapcheck.report.model import KINDS
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
-    from lyapcheck.report.experiment import StudyRow
     from lyapcheck.report.figures.style import Files
     from lyapcheck.report.jobs import GainData
     from lyapcheck.report.model import EpsilonRow, RunRow
@@ -59,15 +58,13 @@ def draw_set(data: GainData) -> Files:
     }
 
 
-def draw_comparisons(
-    epsilon: Sequence[EpsilonRow], runs: Sequence[RunRow], sensitivity: StudyRow | None
-) -> Files:
+def draw_comparisons(epsilon: Sequence[EpsilonRow], runs: Sequence[RunRow]) -> Files:
     """Gain sets side by side; a comparison that has nothing to compare is left out."""
     from lyapcheck.report.figures.motion import epsilon_plot, indices_plot
 
     figures: Files = {}
     if runs:
-        figures |= indices_plot([run.name for run in runs], _indices(runs, sensitivity)).files("indices")
+        figures |= indices_plot([run.name for run in runs], _indices(runs)).files("indices")
     known = [row for row in epsilon if any(row.eps0(kind) is not None for kind in KINDS)]
     if known:
         values = {kind: [_float(row.eps0(kind)) for row in known] for kind in KINDS}
@@ -91,25 +88,10 @@ def draw_damping(gate: Sequence[GateResult]) -> Files:
     return damping_plot(list(rows), values, limits).files("damping")
 
 
-def draw_sensitivity(study: StudyRow | None) -> Files:
-    """The printed numbers beside the spread, and what each assumption does alone; nothing without a study."""
-    from lyapcheck.report.figures.sensitivity import alone_plot, spread_plot
-
-    if study is None:
-        return {}
-    words = {one.name: one.words for one in study.assumed}
-    return {
-        **spread_plot(study.sets).files("spread"),
-        **alone_plot(study.sets, words).files("assumptions"),
-    }
-
-
-def _indices(runs: Sequence[RunRow], sensitivity: StudyRow | None) -> dict[str, list[float | None]]:
+def _indices(runs: Sequence[RunRow]) -> dict[str, list[float | None]]:
     """The L2 index of each run by where it is from; a source without any number is left out."""
-    bench = {one.name: one.numbers[0].nominal for one in (sensitivity.sets if sensitivity else ())}
     bars = {
         "simulation of (11)": [run.L2 for run in runs],
-        "bench with dry friction": [bench.get(run.name) for run in runs],
         "measured in the paper": [run.printed["L2"] if run.printed else None for run in runs],
     }
     return {source: values for source, values in bars.items() if any(value is not None for value in values)}

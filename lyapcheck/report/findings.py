@@ -8,13 +8,6 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.words import advice
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.experiment import (
-    answer_words,
-    beside_words,
-    hangs_words,
-    quantity_words,
-    together_words,
-)
 from lyapcheck.report.model import Finding, WitnessRow, applies, behind
 from lyapcheck.report.notes import Note
 from lyapcheck.report.text import witness_words
@@ -22,12 +15,9 @@ from lyapcheck.report.text import witness_words
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.claims.smallest import RefutedBelow
-    from lyapcheck.report.experiment import NumberRow, StudyRow
     from lyapcheck.report.model import EpsilonRow
     from lyapcheck.report.notes import Notes
 
-SAME = 0.02
-"""An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
 LIGHTER = {"Section 4": "C", "Section 5": "D"}
 """What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``."""
 Small = Mapping[str, WitnessRow]
@@ -38,15 +28,12 @@ def findings(
     claims: Sequence[ClaimRow],
     small: Small,
     epsilon: Sequence[EpsilonRow] = (),
-    sensitivity: StudyRow | None = None,
 ) -> tuple[Finding, ...]:
-    """About the paper: refuted claims by weight, ε₀ that (18) allows and a state refutes, the experiment.
+    """About the paper: refuted claims by weight, and ε₀ that (18) allows and a state refutes.
 
     A refuted claim breaks the proof if the proposition rests on it.
     """
     result = [*_refuted(notes, claims, small), *_contradicted(epsilon)]
-    if sensitivity is not None:
-        result += _experiment(sensitivity)
     return tuple(sorted(result, key=lambda finding: finding.weight))
 
 
@@ -176,25 +163,3 @@ def _contradicted(epsilon: Sequence[EpsilonRow]) -> Iterator[Finding]:
 
 def _member(m: int | None) -> tuple[int, ...]:
     return () if m is None else (m,)
-
-
-def _experiment(study: StudyRow) -> Iterator[Finding]:
-    """What the bench does with the nominal arm, and whether any assumed arm does what is printed."""
-    for one in study.sets:
-        for number in one.numbers:
-            text = _apart(number, study)
-            if text:
-                subject = f"{quantity_words(number)} of {one.name}"
-                yield Finding("D", subject, (), _member(one.m), subject, text)
-    if study.together and study.together.worst > SAME:
-        subject = "indices of all gains"
-        yield Finding("D", subject, (), (), subject, together_words(study, study.together))
-
-
-def _apart(number: NumberRow, study: StudyRow) -> str:
-    """Empty where the nominal arm is near what is printed, and for torques: these are claims of the paper."""
-    if number.quantity == "L2" and abs((number.nominal or 0.0) / number.printed - 1) > SAME:
-        return f"{beside_words(number)}; {hangs_words(number, study)}; {answer_words(number)}"
-    if number.quantity in ("settling", "final_error") and number.answer == "no":
-        return f"{beside_words(number)}; {answer_words(number)}"
-    return ""

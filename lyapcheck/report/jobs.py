@@ -19,17 +19,14 @@ from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive import Derivation
-    from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.report.model import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
 
     Proofs = tuple[list["ProofData"], dict[str, RefutedBelow]]
     """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
-    Map = tuple[list[MapCell], dict[str, Certificate]]
 
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
@@ -262,31 +259,6 @@ def derive_job(ms: Sequence[int], robot: str) -> Derivation:
     from lyapcheck.robots import load
 
     return derivation([m for m in ms if m <= LARGEST_M], min(load(robot).n, MOST_JOINTS))
-
-
-def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> Map:
-    """The map over m and k_v, computed or that of the study; by gain sets the certificates that it has."""
-    from lyapcheck.check.verify import each_once
-    from lyapcheck.report.gain_map import for_the_sets, gain_map, kept_map
-    from lyapcheck.robots import load
-
-    model = load(robot)
-    with each_once():
-        sets = {m: one for m, one in sets.items() if not without_friction(one, model)}
-        cells = gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
-        return cells, for_the_sets(cells, sets)
-
-
-def with_the_map(part: GainData, known: Mapping[str, Certificate]) -> GainData:
-    """The same, resting on what the map proves where that is as good to the digits shown."""
-    from lyapcheck.check.kinds.decreasing import Decreasing
-
-    path, one = part.epsilon.certificates.get("certified"), known.get(part.epsilon.name)
-    if path is None or one is None or not isinstance(one.statement, Decreasing):
-        return part
-    if rounded(one.statement.eps0, up=False) != part.epsilon.certified:
-        return part
-    return replace(part, certificates={**part.certificates, path: one.text()})
 
 
 def _run_row(run: Run, rest: float | None) -> RunRow:

@@ -71,13 +71,10 @@ def badges(report: Report) -> tuple[Badge, ...]:
     parts = (passed, "passes", "pass"), (failed, "does not", "do not")
     words = [f"{_members(rows)} {one if len(rows) == 1 else more}" for rows, one, more in parts if rows]
     tables = Badge("tables", f"{', '.join(words)}; {slips} misprints", tone)
-    differs = report.weighing("D")
-    if report.sensitivity is None:
-        experiment = Badge("experiment", "not compared", "open")
-    else:
-        experiment = Badge(
-            "experiment", "not explained" if differs else "explained", "warn" if differs else "good"
-        )
+    wrong = len(report.weighing("D"))
+    experiment = Badge("experiment", "nothing refuted", "open")
+    if wrong:
+        experiment = Badge("experiment", f"{wrong} statement{'s' if wrong > 1 else ''} refuted", "warn")
     word, all_shown = sampled_word(report) or ("not asked", False)
     computer = Badge(
         "on a computer", word, "good" if all_shown else "open" if word == "not asked" else "warn"

@@ -24,8 +24,6 @@ OURS = {
     ("kernel/coq.py", "_record"): "a record of the package",
     ("kernel/coq.py", "_definitions"): "the library of the package",
     ("rechecking/trusted.py", "_imported"): "source of the package",
-    ("report/gain_map.py", "kept_map"): "a study of the package",
-    ("report/experiment.py", "printed_experiment"): "a study of the package",
     ("report/figures/style.py", "_with_palette"): "a picture in memory",
     ("report/notes.py", "published_notes"): "a proof of the package",
     ("report/page/shell.py", "raw"): "style and script of the package",

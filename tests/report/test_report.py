@@ -21,6 +21,7 @@ import pytest
 from PIL import Image
 
 from lyapcheck.answers.gate.judge import judged_sets
+from lyapcheck.answers.table import build_table
 from lyapcheck.check.files import gather
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.numbers.polynomials import Enclosure
@@ -40,7 +41,7 @@ from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_plot, indices_plot
 from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
-from lyapcheck.report.jobs import done, map_job
+from lyapcheck.report.jobs import done
 from lyapcheck.report.model import EpsilonRow, RunRow, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
@@ -284,7 +285,7 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path):
 
 def test_a_report_names_the_packages_that_its_computations_loaded():
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        before = pool.submit(done, map_job, "reyes-kelly2", {}, False).result()
+        before = pool.submit(done, build_table, (1,)).result()
         after = pool.submit(done, exec, "import sympy").result()
     assert {"lyapcheck", "python-flint"} <= before.packages
     assert after.packages - before.packages == {"sympy"}
