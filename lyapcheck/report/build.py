@@ -26,9 +26,8 @@ from lyapcheck.report.drawings import (
     draw_damping,
     draw_family,
     draw_set,
-    draw_sides,
 )
-from lyapcheck.report.findings import findings, light, own_findings, small_path
+from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import Done, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
@@ -65,24 +64,20 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
             jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
     parts = [job.result().result for job in jobs.sets]
-    proofs, small = jobs.proofs.result().result
+    proofs = jobs.proofs.result().result
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
         certificates |= made
-    certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
     rows = [row for part in proofs for row in part.rows]
     if subject.own:
         known = {row.certificate for row in rows}
         rows, fresh = as_the_gate_judges(rows, gate)
         gone = known - {row.certificate for row in rows}
         certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
-    figures |= draw_sides(small) | draw_comparisons(epsilon, runs)
+    figures |= draw_comparisons(epsilon, runs)
     claims = tuple(row for row in rows if row.proof == "published")
-    if subject.own:
-        weighed = own_findings(gate, epsilon, claims)
-    else:
-        weighed = findings(notes, claims, {name: light(one) for name, one in small.items()}, epsilon)
+    weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
     packages = frozenset[str]().union(*(job.result().packages for job in jobs.labels))
     return Report(
         notes=notes,
@@ -122,7 +117,7 @@ class Jobs:
 
     Args:
         sets: ε₀ and simulation of each gain set.
-        proofs: the claims of the paper and of the other proofs, with small witnesses.
+        proofs: the claims of the paper and of the other proofs.
         derived: what SymPy derives.
         labels: of each job, for who waits.
         drawings: of each job, what makes its figures out of its result.

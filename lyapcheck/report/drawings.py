@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.report.model import KINDS
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.report.figures.style import Files
     from lyapcheck.report.jobs import GainData
     from lyapcheck.report.model import EpsilonRow, RunRow
@@ -21,18 +20,6 @@ def draw_family(ms: Sequence[int]) -> Files:
     from lyapcheck.report.figures.constants import family_plot
 
     return family_plot([(f"m = {m}", hyperbolic(m)) for m in ms]).files("family")
-
-
-def draw_sides(small: Mapping[str, RefutedBelow]) -> Files:
-    """Both sides of what fails, over the letter that is worth moving."""
-    from lyapcheck.report.figures.heat import sides_plot
-    from lyapcheck.report.findings import sides_name
-
-    files: Files = {}
-    for witness in small.values():
-        if name := sides_name(witness):
-            files |= sides_plot(witness).files(name)
-    return files
 
 
 def draw_set(data: GainData) -> Files:

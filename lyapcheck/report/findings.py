@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.words import advice
@@ -14,26 +14,23 @@ from lyapcheck.report.text import witness_words
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.report.model import EpsilonRow
     from lyapcheck.report.notes import Notes
 
 LIGHTER = {"Section 4": "C", "Section 5": "D"}
 """What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``."""
-Small = Mapping[str, WitnessRow]
 
 
 def findings(
     notes: Notes,
     claims: Sequence[ClaimRow],
-    small: Small,
     epsilon: Sequence[EpsilonRow] = (),
 ) -> tuple[Finding, ...]:
     """About the paper: refuted claims by weight, and ε₀ that (18) allows and a state refutes.
 
     A refuted claim breaks the proof if the proposition rests on it.
     """
-    result = [*_refuted(notes, claims, small), *_contradicted(epsilon)]
+    result = [*_refuted(notes, claims), *_contradicted(epsilon)]
     return tuple(sorted(result, key=lambda finding: finding.weight))
 
 
@@ -50,7 +47,7 @@ def own_findings(
     return tuple(sorted(result, key=lambda finding: finding.weight))
 
 
-def _refuted(notes: Notes, claims: Sequence[ClaimRow], small: Small) -> Iterator[Finding]:
+def _refuted(notes: Notes, claims: Sequence[ClaimRow]) -> Iterator[Finding]:
     """One finding a note with refuted claims, and one a refuted claim without a note."""
     refuted: dict[str, list[ClaimRow]] = {}
     for row in claims:
@@ -61,41 +58,37 @@ def _refuted(notes: Notes, claims: Sequence[ClaimRow], small: Small) -> Iterator
     for note in notes.findings:
         names = tuple(name for name in note.claims if name in refuted)
         seen = [row for name in names for row in refuted[name]]
-        if not seen and not (note.ask and any(name in small for name in note.claims)):
+        if not seen:
             continue
         done.update(names)
         weight = "A" if carrying & set(names) else _lighter(seen)
-        yield _finding(weight, names or note.claims, seen, note, small)
+        yield _finding(weight, names, seen, note)
     for name, rows in refuted.items():
         if name not in done:
             weight = "A" if name in carrying else _lighter(rows)
-            yield _finding(weight, (name,), rows, Note((name,), rows[0].comment), small)
+            yield _finding(weight, (name,), rows, Note((name,), rows[0].comment))
 
 
-def _finding(
-    weight: str, names: tuple[str, ...], rows: Sequence[ClaimRow], note: Note, small: Small
-) -> Finding:
-    own = next((small[name] for name in names if name in small), None)
-    witness = own or _ordinary(min(rows, key=_length))
+def _finding(weight: str, names: tuple[str, ...], rows: Sequence[ClaimRow], note: Note) -> Finding:
     return Finding(
         weight=weight,
         subject=f"claim {names[0]}",
         claims=names,
-        ms=_ms(rows) if rows else (note.ask["m"],),
+        ms=_ms(rows),
         title=note.title,
-        text=witness_words(rows[0]) if rows else "",
+        text=witness_words(rows[0]),
         printed=note.printed,
         argument=note.argument,
         fails=note.fails,
         consequence=note.consequence,
         repair=note.repair,
-        witness=witness,
-        figure=(own.figure if own else "") or note.figure,
+        witness=_ordinary(min(rows, key=_length)),
+        figure=note.figure,
     )
 
 
 def _lighter(rows: Sequence[ClaimRow]) -> str:
-    parts = (weight for part, weight in LIGHTER.items() if rows and rows[0].section.startswith(part))
+    parts = (weight for part, weight in LIGHTER.items() if rows[0].section.startswith(part))
     return next(parts, "B")
 
 
@@ -103,26 +96,9 @@ def _ms(rows: Sequence[ClaimRow]) -> tuple[int, ...]:
     return tuple(sorted({row.m for row in rows if row.m is not None}))
 
 
-def light(own: RefutedBelow) -> WitnessRow:
-    """A small witness as findings show it."""
-    data = own.data
-    sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return WitnessRow(own.m, own.n, data["point"], *sides, small_path(own.id), True, sides_name(own))
-
-
-def sides_name(own: RefutedBelow) -> str:
-    """The drawing of both sides; empty where no letter is worth moving."""
-    return f"sides_{own.id.replace('.', '_')}" if own.moved else ""
-
-
 def _length(row: ClaimRow) -> int:
     """Of the numbers of a witness, written out: the roundest is the shortest."""
     return sum(map(len, (row.decision.witness or {}).get("point", {}).values()))
-
-
-def small_path(claim: str) -> str:
-    """Where the certificate of a small witness stands in a report."""
-    return f"certificates/small/{claim}.json"
 
 
 def _ordinary(row: ClaimRow) -> WitnessRow | None:
@@ -130,7 +106,7 @@ def _ordinary(row: ClaimRow) -> WitnessRow | None:
     if data is None or "point" not in data:
         return None
     sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return WitnessRow(row.m, row.n, data["point"], *sides, row.certificate, False, "")
+    return WitnessRow(row.m, row.n, data["point"], *sides, row.certificate)
 
 
 def _rejected(gate: Sequence[GateResult], stable: Collection[str]) -> Iterator[Finding]:

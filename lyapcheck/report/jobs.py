@@ -19,14 +19,10 @@ from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive import Derivation
-    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
-
-    Proofs = tuple[list["ProofData"], dict[str, RefutedBelow]]
-    """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
 
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
@@ -49,8 +45,6 @@ OTHERS = {
     SAMPLED: (),
 }
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
-CHAIN = "Section 3"
-"""The part of the paper whose refuted claims deserve a small witness."""
 MODULES = {"python-flint": "flint"}
 """How a package is imported, where that is not its name."""
 SHOWN = 6
@@ -136,32 +130,20 @@ def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only
     return ProofData(tuple(sorted(rows, key=lambda row: order.index(row.id))), certificates)
 
 
-def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> Proofs:
-    """Every claim; what is refuted in the paper again with few joints and numbers of the arm at hand.
+def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> list[ProofData]:
+    """Every claim, those of the paper first.
 
     About an arm of one's own: only proofs that say something about it, and nothing about the paper.
 
     One proof after the other: what several of them state is searched for once, and then in the store.
     """
-    from lyapcheck.claims.smallest import smallest_witnesses
     from lyapcheck.control.gains import read_gain_file
-    from lyapcheck.robots import load
 
     wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
     if own:
         chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
-        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], {}
-    proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
-    wanted: dict[str, list[int]] = {}
-    for row in proofs[0].rows:
-        if row.verdict == "refuted" and row.section.startswith(CHAIN):
-            wanted.setdefault(row.id, []).extend([] if row.m is None else [row.m])
-    sets = {one.m: one for one in file.gains if one.m is not None and one.m in ms}
-    for note in notes.findings:
-        if note.ask and sets and not wanted.keys() & set(note.claims):
-            wanted |= {name: [note.ask["m"]] for name in note.claims}
-            sets.setdefault(note.ask["m"], next(iter(sets.values())))
-    return proofs, smallest_witnesses(PROOF, wanted, load(robot), sets)
+        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen]
+    return [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:

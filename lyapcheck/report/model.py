@@ -38,8 +38,6 @@ class WitnessRow:
         left, right: both sides, each between two decimals.
         operator: of the relation that fails.
         certificate: its path in the report.
-        small: whether it was searched for as small as it is.
-        figure: name of the drawing of both sides, if there is one.
     """
 
     m: int | None
@@ -49,8 +47,6 @@ class WitnessRow:
     operator: str
     right: tuple[str, str]
     certificate: str | None
-    small: bool
-    figure: str
 
 
 @dataclass(frozen=True)
@@ -67,7 +63,7 @@ class Finding:
         printed: the statement in LaTeX, as printed.
         argument, fails, consequence, repair: the text's, why it is wrong, what follows, what helps.
         witness: where it fails.
-        figure: name of the drawing of both sides.
+        figure: name of a drawing that shows it.
     """
 
     weight: str

@@ -85,6 +85,7 @@ def _boxes(steps: Sequence[VerdictBox], first: int) -> list[Markup]:
 FOLDED = ("C", "D")
 _ARROW = re.compile(r"\s*\\;\s*(?=\\(?:Rightarrow|longrightarrow))")
 """Where a formula may go on in the next line."""
+DAMPING = "λmax(K_v) of each gain set, and λmin(B)/(√n γ): the largest that the condition admits."
 NEAR = 0.05
 """Sides that differ by less than this share of each other are told apart by their difference."""
 
@@ -143,19 +144,11 @@ def _card(report: Report, finding: Finding) -> Markup:
     parts = [[element("dt", term), element("dd", sentence(text))] for term, text in finding.about.items()]
     lines = [latex(line) for line in _ARROW.split(finding.printed)] if finding.printed else []
     printed = element("div", lines, class_="printed") if lines else None
-    drawn = figure(report, finding.figure, _caption(report, finding)) if finding.figure else None
+    drawn = figure(report, finding.figure, DAMPING) if finding.figure else None
     numbers = [_witness(finding.witness) if finding.witness else element("p", finding.text), drawn]
     left = element("div", printed, element("dl", parts), class_="said")
     right = element("div", numbers, _again(finding), class_="shown")
     return element("article", head, element("div", left, right, class_="two"), class_=f"card {tone}")
-
-
-def _caption(report: Report, finding: Finding) -> str:
-    note = next((n for n in report.notes.findings if set(n.claims) & set(finding.claims)), None)
-    left, right = (note.left, note.right) if note else ("left side", "right side")
-    if not finding.figure.startswith("sides"):
-        return f"{left} of each gain set, and {right}: the largest that the condition admits."
-    return f"Solid: {left}. Dashed: {right}. Shaded: where the statement fails."
 
 
 def _witness(witness: WitnessRow) -> Markup:
@@ -165,10 +158,9 @@ def _witness(witness: WitnessRow) -> Markup:
     if low * high > 0 and witness.operator != "=":
         ratio = low / high
         sides += f" (ratio {ratio:.3g})" if abs(ratio - 1) > NEAR else f" ({abs(ratio - 1):.2%} apart)"
-    title = "A small witness" if witness.small else "A witness"
     return element(
         "div",
-        element("p", element("b", title), ": ", sentence(where), rest, "."),
+        element("p", element("b", "A witness"), ": ", sentence(where), rest, "."),
         element("p", sides, class_="sides"),
         class_="witness",
     )
@@ -179,9 +171,7 @@ def _again(finding: Finding) -> Markup | None:
     if not finding.claims:
         return None
     ms = f" --m {','.join(map(str, finding.ms))}" if finding.ms else ""
-    small = finding.witness is not None and finding.witness.small and finding.witness.n
-    size = f" --n {finding.witness.n}" if small and finding.witness and finding.witness.n != 3 else ""
-    command = f"lyapcheck check published.py --only {finding.claims[0]}{ms}{size}"
+    command = f"lyapcheck check published.py --only {finding.claims[0]}{ms}"
     path = finding.witness.certificate if finding.witness else None
     link = element("a", "its certificate", href=path) if path else None
     return element("p", element("code", command), [" ", link] if link else None, class_="again")
