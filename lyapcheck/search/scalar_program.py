@@ -10,7 +10,7 @@ from flint import fmpq
 
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.controlled_arm import DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners

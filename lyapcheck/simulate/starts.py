@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.breach import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.many import Runs, simulate_many
 from lyapcheck.simulate.results import torque_limits
 from lyapcheck.simulate.run import Breach
 from lyapcheck.simulate.task import Gains, Task, gains_for

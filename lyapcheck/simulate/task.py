@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
+
 LONGEST = 3600.0
 """Seconds of motion that one run may cover."""
 

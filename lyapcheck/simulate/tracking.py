@@ -18,10 +18,9 @@ from lyapcheck.errors import InputError, Problem, argument_problem
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import Monitor, fall_monitor, joint_monitor, limit_monitor, rate_monitor
-from lyapcheck.simulate.course import Course, Loop
+from lyapcheck.simulate.closed_loop import Course, Loop
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
-from lyapcheck.simulate.reference import Reference, Suprema
-from lyapcheck.simulate.reference.base import SECONDS
+from lyapcheck.simulate.reference import SECONDS, Reference, Suprema
 from lyapcheck.simulate.results import BAND, imbalance, l2_of, motion_of
 from lyapcheck.simulate.run import Motion
 from lyapcheck.simulate.task import FASTEST, Setup, Task, gains_for, task_for

@@ -12,7 +12,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from lyapcheck.errors import InputError
-from lyapcheck.simulate.reference import MinimumJerk, Recorded, Reference, Sine, read_reference
+from lyapcheck.simulate.reference import MinimumJerk, Recorded, Reference, Sine
+from lyapcheck.simulate.reference_file import read_reference
 
 RAD = math.pi / 180
 

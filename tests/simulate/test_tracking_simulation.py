@@ -241,7 +241,7 @@ def test_the_largest_torque_comes_near_its_bound():
 @pytest.mark.slow
 def test_a_run_read_back_is_followed_again(tmp_path):
     """The CSV of a run is a recording; the arm that starts on it follows it to what the spline can do."""
-    from lyapcheck.simulate.reference import read_reference
+    from lyapcheck.simulate.reference_file import read_reference
 
     run = run_of(TABLE2[0], JERK)
     (tmp_path / "run.csv").write_text(runs_csv([run]), encoding="utf-8")
@@ -283,7 +283,8 @@ def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
     """The proof that a promise broke is about the same dV/dt and τ as the samples show."""
     from lyapcheck.check.loop.states import State, rate
     from lyapcheck.check.numbers.balls import precision
-    from lyapcheck.simulate.confirm import Sample, exceeds, reference_term, rises, torques
+    from lyapcheck.simulate.breach import exceeds, reference_term, rises, torques
+    from lyapcheck.simulate.run import Sample
 
     run, controlled = run_of(eps0=0.3, points=21, stop=False), ControlledArm(TABLE2[0], robots.load("buap3"))
     m = run

@@ -21,9 +21,7 @@ from lyapcheck.control.judgement import judged_statement
 from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, unphysical
 from lyapcheck.search.scalar_program import REFUSED, norm_epsilon
 
 MAX_BOXES = 5_000

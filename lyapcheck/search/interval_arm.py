@@ -22,7 +22,7 @@ from lyapcheck.check.numbers.harmonics import (
 )
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import Family
-from lyapcheck.intervals.interval import TINY, Interval, cosine, sine, widened
+from lyapcheck.search.interval import TINY, Interval, cosine, sine, widened
 
 Place = tuple[int, int, int]
 Columns = dict[Harmonic, tuple[Interval, Interval]]

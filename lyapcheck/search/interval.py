@@ -166,7 +166,8 @@ def _nearest(value: Fraction | int) -> float:
 # --- Elementary functions and norms over intervals.
 #
 # The sin and cos of the platform are taken to be right within 2⁻⁴⁹ relatively (eight units in the last
-# place), a family within what `lyapcheck.intervals.arm` says. Tests compare them with balls at many points.
+# place), a family within what `lyapcheck.search.interval_arm` says. Tests compare them with balls at many
+# points.
 
 
 LIBRARY_SLACK = 2.0**-49

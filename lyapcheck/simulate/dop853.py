@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from scipy.integrate import DOP853 as TABLE
 
 from lyapcheck._types import Array
-from lyapcheck.simulate.batch.right_side import RightSide
-from lyapcheck.simulate.batch.seen import Seen, Step
+from lyapcheck.simulate.seen import RightSide, Seen, Step
 
 Counts = NDArray[np.int32]
 TOO_MANY_STEPS, STEP_TOO_SMALL, OUT_OF_RANGE = 1, 2, 3

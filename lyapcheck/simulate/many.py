@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress, silent
-from lyapcheck.errors import InputError, Problem, argument_error
-from lyapcheck.simulate.batch.integrator import FAILURES, InitialValueProblems, Paths, integrated
-from lyapcheck.simulate.batch.right_side import RightSide
 from lyapcheck.simulate.breach import LEAST_ENERGY
+from lyapcheck.simulate.dop853 import FAILURES, InitialValueProblems, Paths, integrated
 from lyapcheck.simulate.integrate import MAX_STEPS
 from lyapcheck.simulate.results import LEAST_STEP, bands
-from lyapcheck.simulate.task import FARTHEST, FASTEST, gains_for, task_for
+from lyapcheck.simulate.seen import RightSide
+from lyapcheck.simulate.task import gains_for
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -81,15 +79,14 @@ def simulate_many(
     T: float = 5.0,
     *,
     w0: Any = 0.0,
-    parameters: Mapping[str, Any] | None = None,
-    eps0: float | None = None,
+    eps0: float = 0.0,
     points: int = POINTS,
     tolerance: float = TOLERANCE,
     max_steps: int = MAX_STEPS,
     motions: bool = False,
     on_progress: Progress | None = None,
 ) -> Runs:
-    """Move an arm along (11) from many starts, with many gains, or with many values of its parameters.
+    """Move an arm along (11) from many starts, or with many gains.
 
     ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w for R runs, each with its own steps of the method
     DOP853. Their right side is compiled where there is a C compiler, else evaluated by NumPy from the same
@@ -97,13 +94,12 @@ def simulate_many(
 
     Args:
         gain_set: the controller, or R of them, of any families.
-        model: the arm.
+        model: the arm, at its nominal numbers.
         q_d: goals in rad, (n,) or (R, n).
         starts: initial positions in rad, (n,) or (R, n).
         T: seconds.
         w0: initial rates in rad/s, a number, (n,) or (R, n).
-        parameters: values of uncertain parameters by name, a number or (R,); nominal where not given.
-        eps0: the ε₀ of V; 0 if missing, and then V is the energy.
+        eps0: the ε₀ of V; with 0 V is the energy.
         points: samples of each run, evenly spaced, both ends included; indices do not depend on them.
         tolerance: relative error allowed per step; the absolute one is a hundredth of it.
         max_steps: a budget for each run.
@@ -114,7 +110,7 @@ def simulate_many(
         Arrays with one row a run. A run that could not be finished is marked, and does not stop the others.
 
     Raises:
-        InputError: a task the arm cannot be given.
+        InputError: gains for another number of joints.
 
     Soundness: floating point throughout: evidence, never a proof, and never part of a verdict. The error
     of a path is estimated by running again at a smaller tolerance; a peak that begins and ends within a
@@ -123,20 +119,13 @@ def simulate_many(
     References: (6), (11), (12), (20) of ``reyes2019family``; ``hairer1993solving``.
     """
     sets = list(gain_set) if isinstance(gain_set, Sequence) else [gain_set]
-    n, squared = model.n, 0.0 if eps0 is None else eps0
-    task_for(n, (0.0,) * n, None, None, T, eps0=squared, points=points)
-    rates = np.full(n, w0) if np.ndim(w0) == 0 else w0
-    asked = {"q_d": (q_d, FARTHEST), "starts": (starts, FARTHEST), "w0": (rates, FASTEST)}
-    rows = {name: _rows(name, value, n, most) for name, (value, most) in asked.items()}
-    uncertain = {name: _values(model, name, value) for name, value in (parameters or {}).items()}
-    count = _length({**rows, **uncertain, "gain sets": np.empty(len(sets))})
-    goals, first, speeds = (np.broadcast_to(rows[name], (count, n)) for name in rows)
+    n = model.n
+    count = max(len(sets), *(len(np.atleast_2d(x)) for x in (q_d, starts, w0)))
+    goals, first, speeds = (np.broadcast_to(np.asarray(x, float), (count, n)) for x in (q_d, starts, w0))
     gains = [gains_for(one, n) for one in sets] * (count if len(sets) == 1 else 1)
-    nominal = {name: np.array([float(number.value)]) for name, number in model.parameters.items()}
-    arm = [np.broadcast_to(column, count) for column in (nominal | uncertain).values()]
-    friction = np.tile([float(number.value) for number in model.viscous], (count, 1))
     control = [np.array([gain.kp for gain in gains]), np.array([gain.kv for gain in gains])]
-    numbers = np.column_stack([goals, *control, friction, *arm, np.full(count, squared)])
+    arm = [float(number.value) for number in (*model.viscous, *model.parameters.values())]
+    numbers = np.column_stack([goals, *control, np.tile([*arm, eps0], (count, 1))])
     y0 = np.hstack([first, speeds, np.zeros((count, 2))])
 
     families: dict[Any, list[int]] = {}
@@ -192,62 +181,3 @@ def _motions(side: RightSide, paths: Paths, parameters: Array) -> dict[str, Arra
     n, y, columns = side.model.n, paths.y, np.ascontiguousarray(parameters.T)
     V = np.stack([side.watched(y[:, k].T, columns)[n] for k in range(y.shape[1])], axis=1)
     return {"q": y[:, :, :n], "w": y[:, :, n : 2 * n], "V": V}
-
-
-# --- What is wrong with a request, said at once.
-
-
-def _rows(name: str, value: Any, n: int, most: float) -> Array:
-    try:
-        rows = np.atleast_2d(np.asarray(value, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise argument_error(name, value, "is no table of numbers", f"give rows of {n} numbers") from None
-    if rows.ndim != 2 or rows.shape[1] != n:
-        rule = f"has shape {rows.shape}, but the arm has {n} joints"
-        raise argument_error(name, "", rule, f"give one row of {n} values, or one such row a run")
-    _finite(name, rows, most)
-    return rows
-
-
-def _values(model: RobotModel, name: str, value: Any) -> Array:
-    if name not in model.parameters:
-        known = ", ".join(model.parameters) or "none"
-        raise argument_error("parameter", name, f"{model.name} has no such parameter", f"use one of: {known}")
-    column = np.atleast_1d(np.asarray(value, dtype=np.float64))
-    _finite(name, column, math.inf)
-    return column
-
-
-def _finite(name: str, values: Array, most: float) -> None:
-    bad = ~(np.isfinite(values) & (np.abs(values) <= most))
-    if not bad.any():
-        return
-    problems = [
-        Problem(
-            "argument", None, f"{name}[{', '.join(map(str, place))}]", f"{values[tuple(place)]:g}", *_RULE
-        )
-        for place in np.argwhere(bad)[:_SHOWN]
-    ]
-    raise InputError(problems)
-
-
-_SHOWN = 20
-"""Bad values named in one message."""
-
-_RULE = (
-    "every value must be finite and of a size that an arm can have",
-    f"give angles in rad up to {FARTHEST:g} and rates in rad/s up to {FASTEST:g}",
-)
-
-
-def _length(columns: Mapping[str, Array]) -> int:
-    """How many runs there are: every column has one row, or this many."""
-    sizes = {name: len(column) for name, column in columns.items()}
-    runs = max(sizes.values())
-    wrong = {name: size for name, size in sizes.items() if size not in (1, runs)}
-    if wrong:
-        rule = f"gives {', '.join(map(str, wrong.values()))} rows, but there are {runs} runs"
-        raise argument_error(", ".join(wrong), "", rule, "give one row for all runs, or one a run")
-    if not runs or 0 in sizes.values():
-        raise argument_error("starts", "", "is empty", "give at least one run")
-    return runs
