@@ -22,9 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.constants.constant import SupremumTask
+from lyapcheck.constants.constant import AffineForms, SupremumTask
 from lyapcheck.constants.spectrum import ROUNDING, ArmHarmonics, eigenvalues, largest_norm
-from lyapcheck.constants.torus import AffineForms
 
 # --- Upper bounds of ‖C(q,x)x‖² = Σ_i (xᵀS_i x)² over unit vectors x: a quartic form as a quadratic one.
 #

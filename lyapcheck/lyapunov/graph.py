@@ -15,8 +15,7 @@ from typing import Any
 import casadi as ca
 
 from lyapcheck.family import Family
-from lyapcheck.family.arithmetic import Arithmetic, graphs
-from lyapcheck.family.base import Forms
+from lyapcheck.family.base import Arithmetic, Forms, graphs
 from lyapcheck.lyapunov.along import AtState
 from lyapcheck.robots.plant import Plant
 

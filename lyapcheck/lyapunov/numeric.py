@@ -12,10 +12,10 @@ import numpy as np
 
 from lyapcheck import store
 from lyapcheck._types import Array
-from lyapcheck.compiled.loop import Loop, loop
 from lyapcheck.family import Family
-from lyapcheck.family.arithmetic import Arithmetic, arrays
+from lyapcheck.family.base import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt
+from lyapcheck.lyapunov.loop import Loop, loop
 from lyapcheck.robots.plant import Plant
 
 BLOCK = 8192

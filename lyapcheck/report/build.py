@@ -21,24 +21,24 @@ from lyapcheck.files.reader import holds
 from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
-from lyapcheck.report.drawings import (
-    draw_comparisons,
-    draw_damping,
-    draw_family,
-    draw_set,
-)
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import Done, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
 from lyapcheck.report.page.shell import render as page
+from lyapcheck.report.plots_of_runs import (
+    draw_comparisons,
+    draw_damping,
+    draw_family,
+    draw_set,
+)
 from lyapcheck.temporary import pending, temporary_folder, work_in
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
-    from lyapcheck.report.figures.style import Files
     from lyapcheck.report.notes import Notes
+    from lyapcheck.report.plots import Files
 
 Job = Future[Done]
 

@@ -14,9 +14,8 @@ from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Secti
 from lyapcheck.output.typst import markup
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
 from lyapcheck.report.model import WEIGHTS, Finding, Report
-from lyapcheck.report.sampled import sampled_section
 from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
-from lyapcheck.report.verdict import badges, chain, route, sentences
+from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.robots import RobotModel
 from lyapcheck.temporary import temporary_folder
 

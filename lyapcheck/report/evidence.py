@@ -9,8 +9,8 @@ from dataclasses import replace
 from lyapcheck.answers.tune.answer import Effect, effect_section
 from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
-from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.model import KINDS, EpsilonRow, Report, RunRow
+from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.text import fixed, joined
 
 DIGITS = 12

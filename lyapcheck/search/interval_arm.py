@@ -129,7 +129,7 @@ def _times(coefficient: Fraction, column: Interval) -> Interval:
 # --- h and h' of a family over intervals: hulls of end values and of the extremes in between.
 #
 # In doubles the member m loses 4m + 8 units in the last place of h. Of h' it loses as many of the size of its
-# terms, which is at most 4m, and cancels where |sinh x| > 1 alone; see `lyapcheck.family.hyperbolic_numeric`.
+# terms, which is at most 4m, and cancels where |sinh x| > 1 alone; see `lyapcheck.family.members.hyperbolic`.
 
 
 _BORDER = 0.88

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.compiled.loop import Loop, loop
 from lyapcheck.family import Family
-from lyapcheck.family.arithmetic import Arithmetic, arrays
+from lyapcheck.family.base import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt, total
+from lyapcheck.lyapunov.loop import Loop, loop
 from lyapcheck.lyapunov.numeric import forms_in, question
 from lyapcheck.robots import RobotModel
 

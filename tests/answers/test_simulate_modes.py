@@ -17,7 +17,7 @@ from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.cli.main import main
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.starts import Starts, sweep
+from lyapcheck.simulate.many import Starts, sweep
 from lyapcheck.simulate.task import PAPER_TASK
 from tests.helpers.shares import one_in
 

@@ -48,11 +48,10 @@ SAID = {
     "rechecking.command": (3, SORTING),
     "report.compare": (5, SORTING),
     "report.evidence": (1, HEADING),
-    "report.figures.constants": (1, HEADING),
+    "report.plots_of_constants": (1, HEADING),
     "report.model": (3, SORTING),
     "report.page.claims": (1, SORTING),
-    "report.sampled": (1, "a sentence that promises alone may say"),
-    "report.verdict": (2, GATHERED),
+    "report.verdict": (3, "gathered, and a sentence that promises alone may say"),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
 """Modules in which verdicts are written down: how often, and what for."""

@@ -35,17 +35,15 @@ from lyapcheck.promise import Promise
 from lyapcheck.report.build import build, render, write
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
-from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_plot, indices_plot
-from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import done
 from lyapcheck.report.model import EpsilonRow, RunRow, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
-from lyapcheck.report.sampled import sampled_section
+from lyapcheck.report.plots import Plot
+from lyapcheck.report.plots_of_runs import draw_errors, draw_torques, epsilon_plot, file_stem, indices_plot
 from lyapcheck.report.text import span_words, witness_words
-from lyapcheck.report.verdict import badges, chain, route, sentences
+from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Grade, Verdict
 
 VOID = {"meta", "link", "img", "br", "input"}

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.compiled.compiler import OFF, compiler
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.lyapunov.compiler import OFF, compiler
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.numeric import NumericModel

@@ -9,10 +9,10 @@ from pathlib import PurePosixPath
 from lyapcheck.output.document import Block, Figure, Section
 from lyapcheck.output.html import blocks, fold
 from lyapcheck.output.mathml import Markup, element
-from lyapcheck.report.drawings import file_stem
 from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import Report
-from lyapcheck.report.sampled import sampled_section
+from lyapcheck.report.plots_of_runs import file_stem
+from lyapcheck.report.verdict import sampled_section
 
 # --- Figures inside the page, in the colours of the page.
 

@@ -16,8 +16,8 @@ from sympy.printing.c import C99CodePrinter
 
 from lyapcheck import store
 from lyapcheck._types import Array
-from lyapcheck.compiled.compiler import compiler, library, machine, over_shares, prelude
-from lyapcheck.family.arithmetic import Arithmetic
+from lyapcheck.family.base import Arithmetic
+from lyapcheck.lyapunov.compiler import compiler, library, machine, over_shares, prelude
 
 LANES = 64
 """Lanes worked on together."""
@@ -109,7 +109,7 @@ def source(sizes: Sequence[int], outputs: int, formula: Formula) -> str | None:
     numbers = {"GROUPS": len(sizes), "INPUTS": ends[-1], "OUTPUTS": outputs, "LANES": LANES}
     defines = [f"#define {name} {value}" for name, value in numbers.items()]
     defines.append(f"static const int SIZES[] = {{{', '.join(map(str, sizes))}}};")
-    text = files("lyapcheck.compiled").joinpath("loop.c").read_text(encoding="utf-8")
+    text = files("lyapcheck.lyapunov").joinpath("loop.c").read_text(encoding="utf-8")
     return "\n".join([prelude(), *defines, text.replace("BODY", body)])
 
 

@@ -11,7 +11,7 @@ from lyapcheck.answers.table import Table
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import Family
 from lyapcheck.family.asymptotes import asymptotes, limits
-from lyapcheck.report.figures.style import COLOURS, DASHES, Plot, panels, png, styled, svg
+from lyapcheck.report.plots import COLOURS, DASHES, Plot, panels, png, styled, svg
 
 
 def family_plot(families: Sequence[tuple[str, Family]]) -> Plot:
