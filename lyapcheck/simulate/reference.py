@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import comb
-from typing import Any
+from pathlib import Path
+from typing import cast
 
 import numpy as np
 from flint import acb, arb
@@ -16,6 +16,10 @@ from flint import acb, arb
 from lyapcheck._types import Array
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.errors import InputError, near
+from lyapcheck.files.decimals import NotFinite
+from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.toml import open_document
 
 SECONDS = 5.0
 """Duration of a run of which nothing else is said."""
@@ -51,8 +55,6 @@ class Reference(ABC):
     n: int
     duration: float = SECONDS
     """s, how long a run takes of which nothing else is said."""
-    span: float | None = None
-    """s, where the trajectory ends; none if it goes on for ever."""
 
     @abstractmethod
     def at(self, t: Array) -> Array:
@@ -211,109 +213,135 @@ class MinimumJerk(Reference):
         return f"minimum jerk from {angles(self.start)} to {angles(self.end)} in {float(self.seconds):g} s"
 
 
-# --- A recorded motion, made smooth by a spline.
+# --- Reference files (TOML): one trajectory, described in a few lines.
+#
+# kind = "sine"                    # q_di = offset + amplitude sin(2π frequency t + phase)
+# amplitude = [20, 30, 40]         # degrees
+# frequency = [0.5, 0.5, 0.25]     # Hz
+# phase = [0, 90, 0]               # degrees, 0 if missing
+# offset = [0, 45, 0]              # degrees, 0 if missing
+#
+# kind = "minimum-jerk"
+# from = [0, 0, 0]                 # degrees
+# to = [45, 45, 90]                # degrees
+# duration = 2                     # s
 
 
-DEGREES = {"cubic": 3, "quintic": 5}
-"""Splines with two and with four continuous derivatives."""
+FARTHEST = Fraction(36_000)
+"""Degrees: a hundred turns of a joint."""
+FASTEST = Fraction(1000)
+"""Hz."""
+LONGEST = Fraction(3600)
+"""s"""
+QUICKEST = Fraction(1, 1000)
+"""s, the shortest motion from one posture to another."""
 
-HALVINGS = 3
-"""How often the pieces of the spline are halved before their control points are taken for bounds."""
-_SHARE = 2.0**-45
-"""More than what some thirty roundings do to a sum, relative to the sum of its absolute terms."""
 
-
-class Recorded(Reference):
-    """The interpolating spline through samples, with not-a-knot ends (``scipy.interpolate``).
+def read_reference(path: str | Path, joints: int | None = None) -> Reference:
+    """The trajectory that a reference file describes.
 
     Args:
-        t: (N,) s, increasing; the first is taken for 0.
-        q: (N, n) rad.
-        spline: ``cubic``, q_d of class C², or ``quintic``, of class C⁴.
-        name: of the file.
+        path: of the TOML file.
+        joints: of the arm; any number if missing.
+
+    Raises:
+        InputError: everything that is wrong with the file, or with the recording it names.
     """
-
-    kind = "recorded"
-
-    def __init__(self, t: Array, q: Array, spline: str = "cubic", name: str = "samples") -> None:
-        self.n = q.shape[1]
-        self.name, self.spline, self.samples = name, spline, t.size
-        path = _spline(t - t[0], q, DEGREES[spline])
-        self._parts: tuple[Any, ...] = (path, path.derivative(), path.derivative(2))
-        self._together = _stacked(self._parts)
-        self.span = self.duration = float(t[-1] - t[0])
-
-    def at(self, t: Array) -> Array:
-        """See `Reference.at`; past its end a recording has no value, and the last one is given."""
-        return np.asarray(self._together(np.minimum(t, self.duration)))
-
-    def suprema(self) -> Suprema:
-        """See `Reference.suprema`.
-
-        In Bernstein form a polynomial is a convex combination of its control points, so the largest of these
-        bounds it, joint by joint and in norm.
-        """
-        (rate, speed), (acceleration, acceleration_norm) = (_bounds(part) for part in self._parts[1:])
-        return Suprema(rate, acceleration, speed, acceleration_norm)
-
-    @property
-    def sentence(self) -> str:
-        """See `Reference.sentence`."""
-        return f"{self.samples} samples of {self.name} over {self.span:g} s, {self.spline} spline"
+    document = open_document(Path(path), str(path))
+    notes = Notes(document.name, document.line)
+    fields = RowFields(document.data, (), notes)
+    kind = fields.text("kind", required=True)
+    maker = _KINDS.get(kind)
+    if maker is None:
+        if kind:
+            meant = near(kind, _KINDS) or "sine"
+            fields.fail("kind", f"must be one of {', '.join(_KINDS)}", f'write kind = "{meant}"')
+        raise InputError(notes.problems)
+    result = maker(fields)
+    fields.close()
+    if result is not None and joints is not None and result.n != joints:
+        rule = f"moves {result.n} joints, but the arm has {joints}"
+        fields.fail("kind", rule, f"give {joints} values, one a joint")
+    if notes.problems or result is None:
+        raise InputError(notes.problems)
+    return result
 
 
-def _spline(t: Array, q: Array, degree: int) -> Any:
-    """The spline as polynomials between its knots, coefficients (degree + 1, pieces, n)."""
-    from scipy.interpolate import PPoly, make_interp_spline
+class RowFields(Fields):
+    """Fields with rows of numbers of any sign."""
 
-    joints = [PPoly.from_spline(make_interp_spline(t, column, k=degree)) for column in q.T]
-    knots = joints[0].x
-    live = np.diff(knots) > 0  # a spline repeats its end knots
-    coefficients = np.stack([joint.c[:, live] for joint in joints], axis=-1)
-    return PPoly(coefficients, np.append(knots[:-1][live], knots[-1]))
+    def row(self, key: str, low: Fraction, high: Fraction, unit: str, required: bool = True) -> Row | None:
+        """A list of numbers between two bounds, ``None`` when absent or bad."""
+        value = self.raw(key, required)
+        if value is None:
+            return None
+        example = f"write {key} = [0, 0, 0]"
+        if not isinstance(value, list) or not value:
+            self.fail(key, "must be a list of numbers, one a joint", example)
+            return None
+        return self._inside(key, value, low, high, unit)
 
+    def seconds(self, key: str, low: Fraction, high: Fraction) -> Fraction | None:
+        """A time, required; ``None`` when bad."""
+        value = self.raw(key, required=True)
+        row = None if value is None else self._inside(key, [value], low, high, "s", single=True)
+        return None if row is None else row[0]
 
-def _stacked(parts: Sequence[Any]) -> Any:
-    """Piecewise polynomials with the same knots as one, with values (len(parts), n)."""
-    from scipy.interpolate import PPoly
+    def _inside(
+        self, key: str, values: list[object], low: Fraction, high: Fraction, unit: str, single: bool = False
+    ) -> Row | None:
+        kept = []
+        for i, value in enumerate(values):
+            path = (*self.path, key) if single else (*self.path, key, i)
+            plain = isinstance(value, int | Fraction) and not isinstance(value, bool)
+            exact = Fraction(cast("Fraction", value)) if plain else None
+            if exact is not None and low <= exact <= high:
+                kept.append(exact)
+                continue
+            rule = f"must be a number from {float(low):g} to {float(high):g} {unit}"
+            if isinstance(value, NotFinite):
+                rule = value.rule
+            self.notes.fail(path, value, rule, f"give a plain decimal in {unit}")
+        return tuple(kept) if len(kept) == len(values) else None
 
-    degree = len(parts[0].c)
-    padded = [np.concatenate((np.zeros((degree - len(p.c), *p.c.shape[1:])), p.c)) for p in parts]
-    return PPoly(np.stack(padded, axis=-2), parts[0].x)
-
-
-def _bounds(path: Any) -> tuple[tuple[Fraction, ...], Fraction]:
-    """Bounds of each component of a piecewise polynomial, and of its norm, from above."""
-    points, error = _control_points(path)
-    for _ in range(HALVINGS):
-        points = _halved(points)
-    size = np.abs(points)
-    each = [_up(float(x)) for x in size.max(axis=(0, 1)) + error]
-    norm = float(np.max(np.linalg.norm(size, axis=-1)) + np.linalg.norm(error))
-    return tuple(each), _up(norm)
-
-
-def _control_points(path: Any) -> tuple[Array, Array]:
-    """(degree + 1, pieces, n) control points, and how far rounding may have moved them, (n,)."""
-    powers, widths = path.c[::-1], np.diff(path.x)
-    degree = len(powers) - 1
-    scaled = powers * widths[None, :, None] ** np.arange(degree + 1)[:, None, None]
-    table = np.array([[comb(k, j) / comb(degree, j) for j in range(degree + 1)] for k in range(degree + 1)])
-    points = np.einsum("kj,jpn->kpn", table, scaled)
-    terms = np.einsum("kj,jpn->kpn", table, np.abs(scaled))
-    return points, _SHARE * terms.max(axis=(0, 1))
-
-
-def _halved(points: Array) -> Array:
-    """The control points of both halves of every piece (de Casteljau)."""
-    row, left, right = points, [points[0]], [points[-1]]
-    while len(row) > 1:
-        row = (row[:-1] + row[1:]) / 2
-        left.append(row[0])
-        right.append(row[-1])
-    return np.concatenate((np.stack(left), np.stack(right[::-1])), axis=1)
+    def same_length(self, rows: dict[str, Row | None]) -> bool:
+        """Whether all rows are there and of one length; notes those of another length than the first."""
+        lists = {key: self.data.get(key) for key in rows}
+        given = {key: value for key, value in lists.items() if isinstance(value, list) and value}
+        first = next(iter(given), "")
+        for key, row in given.items():
+            if len(row) != len(given[first]):
+                rule = f"has {len(row)} values where {first} has {len(given[first])}"
+                self.fail(key, rule, f"give {len(given[first])} values, one a joint")
+        return None not in rows.values() and len({len(row) for row in given.values()}) == 1
 
 
-def _up(value: float) -> Fraction:
-    """A little above, exactly: more than the last roundings do, and than squares that underflow in a norm."""
-    return Fraction(value * (1.0 + 2.0**-40) + 2.0**-500)
+def _sine(fields: RowFields) -> Reference | None:
+    amplitude = fields.row("amplitude", -FARTHEST, FARTHEST, "degrees")
+    frequency = fields.row("frequency", Fraction(0), FASTEST, "Hz")
+    rows = {"amplitude": amplitude, "frequency": frequency}
+    zeros = (Fraction(0),) * len(amplitude or frequency or ())
+    for key in ("phase", "offset"):
+        given = fields.row(key, -FARTHEST, FARTHEST, "degrees", required=False)
+        rows[key] = given if key in fields.data else zeros
+    if not fields.same_length(rows):
+        return None
+    return Sine(*(row for row in rows.values() if row is not None))
+
+
+def _minimum_jerk(fields: RowFields) -> Reference | None:
+    start, end = (fields.row(key, -FARTHEST, FARTHEST, "degrees") for key in ("from", "to"))
+    seconds = fields.seconds("duration", QUICKEST, LONGEST)
+    fit = fields.same_length({"from": start, "to": end})
+    if not fit or start is None or end is None or seconds is None:
+        return None
+    return MinimumJerk(start, end, seconds)
+
+
+_KINDS: dict[str, Callable[[RowFields], Reference | None]] = {
+    "sine": _sine,
+    "minimum-jerk": _minimum_jerk,
+}
+
+
+# --- A recorded motion, made smooth by a spline.

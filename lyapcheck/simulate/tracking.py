@@ -126,20 +126,17 @@ def request_for(
             argument_problem("band", f"{math.degrees(band):g}", rule, "give degrees, for instance 1")
         )
     if reference is not None:
-        problems += _reference_problems(n, reference, seconds)
+        problems += _reference_problems(n, reference)
     if problems:
         raise InputError(problems)
     return task
 
 
-def _reference_problems(n: int, reference: Reference, T: float) -> Iterator[Problem]:
+def _reference_problems(n: int, reference: Reference) -> Iterator[Problem]:
     write = "write another reference file"
     if reference.n != n:
         rule = f"moves {reference.n} joints, but the arm has {n}"
         yield argument_problem("reference", reference.kind, rule, write)
-    if reference.span is not None and reference.span < T:
-        rule = f"is longer than the recording, which ends at {reference.span:.6g} s"
-        yield argument_problem("T", f"{T:g}", rule, "give a shorter time")
     speed = reference.suprema().speed
     if speed > FASTEST:
         rule = f"moves at {float(speed):.3g} rad/s, more than {FASTEST:g} rad/s"
@@ -201,8 +198,6 @@ class Tracking(Course[TrackingRun]):
         band: rad.
         points: samples of the run.
     """
-
-    easier = 100.0  # only W feels the kinks of a recorded q̈_d, and it is no more than a check
 
     def __init__(
         self,

@@ -98,19 +98,6 @@ def test_tracking_in_words(lyapcheck, single, wave):
     assert "| shoulder |" in page
 
 
-def test_a_recording_lasts_as_long_as_it_was_recorded(lyapcheck, single, tmp_path):
-    rows = "\n".join(f"{k / 10},{k * k / 10},0" for k in range(9))
-    (tmp_path / "motion.csv").write_text(f"t [s],q1 [deg],q2 [deg]\n{rows}\n", encoding="utf-8")
-    file = tmp_path / "recorded.toml"
-    file.write_text('kind = "recorded"\nfile = "motion.csv"\n', encoding="utf-8")
-    done = lyapcheck(single, "--reference", file, "--format", "json")
-    assert done.returncode == 0
-    assert {result["time"] for result in json.loads(done.stdout)["results"]} == {0.8}
-    longer = lyapcheck(single, "--reference", file, "--time", 2)
-    assert longer.returncode == 2
-    assert "--time = 2: is longer than the recording, which ends at 0.8 s" in longer.stderr
-
-
 @pytest.mark.slow
 def test_figures_of_tracking_have_their_data_beside_them(lyapcheck, single, wave, tmp_path):
     place = tmp_path / "plots"

@@ -334,7 +334,7 @@ def run(
     """
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners, corners_text, outside
-    from lyapcheck.simulate.reference_file import read_reference
+    from lyapcheck.simulate.reference import read_reference
 
     gain_file, name, model = gains_on_arm(file, robot)
     wrong = Complaints()
