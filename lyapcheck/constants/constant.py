@@ -239,11 +239,7 @@ class SupremumTask:
     cost: int = 1
 
     def solve(
-        self,
-        max_boxes: int,
-        gap: float,
-        on_progress: Progress | None = None,
-        known: Fraction | None = None,
+        self, max_boxes: int, gap: float, on_progress: Progress | None = None, known: Fraction | None = None
     ) -> ConstantResult:
         """The constant between the value at a state and a bound over all of them.
 

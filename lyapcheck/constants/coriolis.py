@@ -38,7 +38,6 @@ from lyapcheck.constants.spectrum import ROUNDING, ArmHarmonics, eigenvalues, la
 
 
 Pair = tuple[int, int]
-
 _STEPS, _STEPS_OF_MANY, _MANY = 30, 10, 4
 """Subgradient steps; those of many joints cost more and are needed less."""
 _TINY = 1e-300

@@ -3,12 +3,4 @@
 from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import hyperbolic, named, names
 
-__all__ = [
-    "Family",
-    "FamilyConstants",
-    "NumericForms",
-    "SymbolicForms",
-    "hyperbolic",
-    "named",
-    "names",
-]
+__all__ = ["Family", "FamilyConstants", "NumericForms", "SymbolicForms", "hyperbolic", "named", "names"]

@@ -18,7 +18,6 @@ from lyapcheck.temporary import temporary_folder
 
 OFF = "LYAPCHECK_NO_COMPILER"
 """Set to 1, this environment variable keeps lyapcheck from compiling anything."""
-
 X86 = platform.machine() in ("x86_64", "AMD64")
 FLAGS = (
     "-std=gnu11",

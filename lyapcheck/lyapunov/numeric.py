@@ -20,10 +20,8 @@ from lyapcheck.robots.plant import Plant
 
 BLOCK = 8192
 """States evaluated together by NumPy: all intermediate columns of a small arm then stay in the cache."""
-
 LARGE = 32_768
 """From here on a compiled loop is worth its compilation of about a second, which happens once a computer."""
-
 OUTPUTS: dict[str, tuple[int, Callable[[AtState, Any], list[Any]]]] = {
     "value": (1, lambda at, eps0: [at.value(eps0)]),
     "rate": (1, lambda at, eps0: [at.rate(eps0)]),

@@ -27,12 +27,7 @@ from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
 from lyapcheck.report.page.shell import render as page
-from lyapcheck.report.plots_of_runs import (
-    draw_comparisons,
-    draw_damping,
-    draw_family,
-    draw_set,
-)
+from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
 from lyapcheck.temporary import pending, temporary_folder, work_in
 
 if TYPE_CHECKING:
@@ -41,7 +36,6 @@ if TYPE_CHECKING:
     from lyapcheck.report.plots import Files
 
 Job = Future[Done]
-
 WORKERS = 2
 
 

@@ -22,9 +22,7 @@ LIGHTER = {"Section 4": "C", "Section 5": "D"}
 
 
 def findings(
-    notes: Notes,
-    claims: Sequence[ClaimRow],
-    epsilon: Sequence[EpsilonRow] = (),
+    notes: Notes, claims: Sequence[ClaimRow], epsilon: Sequence[EpsilonRow] = ()
 ) -> tuple[Finding, ...]:
     """About the paper: refuted claims by weight, and ε₀ that (18) allows and a state refutes.
 

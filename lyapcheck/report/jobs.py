@@ -38,12 +38,7 @@ BOUNDS = ("F.h.square", "F.h.bounded", "F.h.slope", "F.h.endless")
 """Its claims that put h_m into the class for every real m ≥ 1."""
 SAMPLED = "sampled.py"
 """The loop on a computer, from printed numbers."""
-OTHERS = {
-    "scalar.py": (),
-    "tracking.py": (),
-    CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS),
-    SAMPLED: (),
-}
+OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS), SAMPLED: ()}
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 MODULES = {"python-flint": "flint"}
 """How a package is imported, where that is not its name."""

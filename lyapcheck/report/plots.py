@@ -12,12 +12,9 @@ from lyapcheck.output.escapes import csv_text
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """Okabe and Ito's palette, strongest contrasts first."""
-
 DASHES = ("-", "--", "-.", ":")
 """A line style for each curve as well, for grey prints."""
-
 DOTS_PER_INCH = 200
-
 SETTINGS = {
     "svg.hashsalt": "lyapcheck",
     "svg.fonttype": "none",

@@ -24,8 +24,6 @@ from lyapcheck.search.interval_arm import ArmBox, combine
 
 SURELY = 1e-9
 """What a pivot has to exceed, beside its value in the middle: rounding is not directed."""
-
-
 SMALL = 1.0
 """Length of sides, rad, below which slopes are tried."""
 

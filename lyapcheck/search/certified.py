@@ -33,10 +33,7 @@ from lyapcheck.search.link_bounds import linked_epsilon
 
 
 def certify(
-    problem: SchurProblem,
-    max_boxes: int,
-    on_progress: Progress | None = None,
-    deadline: float = math.inf,
+    problem: SchurProblem, max_boxes: int, on_progress: Progress | None = None, deadline: float = math.inf
 ) -> CoverOutcome:
     """Look for a tree of boxes that proves dV/dt < 0 everywhere for one ε₀, or say why there is none.
 
@@ -58,7 +55,6 @@ HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
 """Shares of the falsified ε₀ that are tried first, in turn; where boxes are few, the last one at once."""
 SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
 """Those that are tried one after the other where not even the first of these is proved."""
-
 _CHECKING = 0.8
 """The share of the work done when the checker begins."""
 ENOUGH = Fraction(9, 10)

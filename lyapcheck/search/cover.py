@@ -215,7 +215,6 @@ def _size(problem: SchurProblem, entry: Uncertain) -> float:
 
 Prover = Callable[[Boxes], NDArray[np.bool_]]
 Chooser = Callable[[Boxes], Indices]
-
 CHUNK = 32768
 """Boxes that are judged at a time."""
 FEW = 512
@@ -225,7 +224,6 @@ PROBE_BITS = 5
 MIXING = np.multiply.accumulate(np.full(128, 0x9E3779B97F4A7C15, dtype=np.uint64))
 SMALLEST = 1e-5
 """Half width below which a box that is not proved ends the search."""
-
 RESISTS = "a state resisted"
 EXHAUSTED = "the budget of boxes is spent"
 LATE = "the time is up"

@@ -211,7 +211,6 @@ def _units(low: Array, high: Array) -> tuple[Array, Array]:
 
 Shares = tuple[tuple[float, ...], ...]
 """Of U, then of Q_2, …, Q_n: the cost of each entry in units of b, of mean 1."""
-
 ERROR_COSTS_MULTIPLIERS = (-2, -1, 0, 1)
 """Of l, as powers of √2."""
 SAMPLES, KEPT, NEIGHBOURS, STEPS = 2_000, 20, 15, 6

@@ -39,7 +39,6 @@ from lyapcheck.search.worst_states import (
 
 SAMPLES = 20_000
 STARTS = 30
-
 DIGITS = 9
 """Significant digits of a state; the optimum is flat, so that more would not sharpen ε₀."""
 _EPS_DIGITS = 7
@@ -180,7 +179,6 @@ def confirmed(controlled: ControlledArm, eps0: Fraction, kind: str, state: State
 
 ROUNDS = 4
 """How often the worst corner is looked for at a new witness."""
-
 Corner = dict[str, Fraction]
 """Values by name: parameters of M, and ``viscous 0`` … for the friction of each joint."""
 

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array
 
 Number = float | int | Fraction
-
 _SLACK = 2.0**-51
 _TINY = 1e-300
 
@@ -188,10 +187,7 @@ def widened(low: Array, high: Array, slack: float = LIBRARY_SLACK, least: Array 
         least: what it may be wrong beside that.
     """
     with np.errstate(invalid="ignore"):
-        return Interval(
-            down(low - (np.abs(low) * slack + least)),
-            up(high + (np.abs(high) * slack + least)),
-        )
+        return Interval(down(low - (np.abs(low) * slack + least)), up(high + (np.abs(high) * slack + least)))
 
 
 def sine(x: Interval) -> Interval:

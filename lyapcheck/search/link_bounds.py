@@ -33,11 +33,7 @@ _MARGIN = 1e-6
 
 
 def linked_epsilon(
-    controlled: ControlledArm,
-    ceiling: Fraction,
-    max_boxes: int,
-    deadline: float,
-    progress: Progress,
+    controlled: ControlledArm, ceiling: Fraction, max_boxes: int, deadline: float, progress: Progress
 ) -> tuple[DecreaseProof | None, int, str]:
     """The proof of the largest share of a ceiling, by bounds along the links; boxes looked at; why no more.
 

@@ -19,20 +19,14 @@ from lyapcheck.simulate.task import Setup
 
 RATE_NOISE = 1e-12
 """dV/dt below this share of its largest size is not worth a look in balls."""
-
 ROUNDING = 1e-12
 """How far a torque may be above its bound, relative to it."""
-
 V_NOISE = 1e-9
 """How far V may rise between samples, relative to its largest value, before it counts as a rise."""
-
 LEAST_ENERGY = 1e-9
 """J: below this, energies are the integrator's absolute tolerance and not the arm's."""
-
 CANDIDATES = 100
 """Samples that are judged in balls before a promise counts as kept."""
-
-
 Monitor = Callable[[Setup, Motion], Breach | None]
 """What was run, and its motion, to the first breach of one promise."""
 

@@ -184,10 +184,8 @@ def closed_loop(gains: Gains, model: RobotModel) -> Loop:
 
 TOLERANCE = 1e-11
 """Relative tolerance of the first integration; the one handed back is ten times tighter."""
-
 CREEP = 1e-3
 """rad/s: dry friction is f tanh(w/creep), so that a joint that should stick creeps."""
-
 POINTS = 2001
 """Samples of a run: every 2.5 ms of the paper's five seconds."""
 

@@ -27,10 +27,8 @@ if TYPE_CHECKING:
 
 TOLERANCE = 1e-12
 """Relative tolerance per step; the paper's runs then err by less than 1e-8."""
-
 POINTS = 501
 """Samples of a run: every 10 ms of the paper's five seconds."""
-
 _NUMBERS_AT_ONCE, _RUNS_AT_ONCE = 8_000_000, 1000
 """Numbers of paths held at once (64 MB), and runs: more do not stay in the cache, fewer waste calls."""
 
@@ -191,7 +189,6 @@ def _motions(side: RightSide, paths: Paths, parameters: Array) -> dict[str, Arra
 
 MOST_RUNS = 100_000
 """Runs of one gain set; so many of the paper's arm take about ten seconds."""
-
 SHARES = (0.0, 0.05, 0.5, 0.95, 1.0)
 """The quantiles that are shown."""
 

@@ -23,7 +23,6 @@ from lyapcheck.files.toml import open_document
 
 SECONDS = 5.0
 """Duration of a run of which nothing else is said."""
-
 BITS = 128
 _PLACES = 10**12
 
@@ -338,10 +337,7 @@ def _minimum_jerk(fields: RowFields) -> Reference | None:
     return MinimumJerk(start, end, seconds)
 
 
-_KINDS: dict[str, Callable[[RowFields], Reference | None]] = {
-    "sine": _sine,
-    "minimum-jerk": _minimum_jerk,
-}
+_KINDS: dict[str, Callable[[RowFields], Reference | None]] = {"sine": _sine, "minimum-jerk": _minimum_jerk}
 
 
 # --- A recorded motion, made smooth by a spline.

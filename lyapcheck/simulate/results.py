@@ -92,10 +92,8 @@ def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
 
 SETTLING_BAND = 0.02
 """Settled means within 2 % of the step; the paper prints settling times but not its band."""
-
 BAND = math.radians(1.0)
 """rad: close enough to a reference."""
-
 LEAST_STEP = 1e-9
 """rad: a smaller initial error is no step, and nothing is measured by it."""
 

@@ -111,11 +111,8 @@ PARTS = 4
 CUTS, ROUNDS, SHARP = 20, 12, 1e-13
 """Golden sections of the part of a largest torque; steps towards a zero in one, and when it is found."""
 GOLDEN = (0.3819660112501051, 0.6180339887498949)
-
 Whole = NDArray[np.intp]
 Flags = NDArray[np.bool_]
-
-
 Curve = Callable[[Array | float], Array]
 
 

@@ -180,8 +180,6 @@ def tracking_loop(gains: Gains, model: RobotModel) -> Loop:
 
 SHARE = Fraction(1, 2)
 """ε₀ as a share of the largest one for which Θ' is positive definite: there the form is singular."""
-
-
 UNBOUNDED = "h is unbounded, and Θ' needs its bound γ"
 NO_EPS0 = "no ε₀ > 0 makes Θ' positive definite; λmin(B) and λmin(K_p) must be positive"
 

@@ -36,13 +36,10 @@ if TYPE_CHECKING:
 
 BENCH = Bench()
 """The settings of the published experiment."""
-
 MOST_SUBSTEPS = 400
 """Steps of Runge–Kutta in a period; an arm that needs more is stiff, and moved by an implicit method."""
-
 TOLERANCE = 1e-8
 """Relative, of the implicit method's first integration."""
-
 RUNAWAY = 1e6
 """rad/s: a joint faster than this means that the sampled loop is unstable."""
 

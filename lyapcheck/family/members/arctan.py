@@ -14,7 +14,6 @@ from lyapcheck.family.registry import require_none
 
 _SERIES_TERMS = 13
 _SERIES_END = 0.25
-
 _HUGE = 2.0**27
 """Beyond it 1 + x² rounds to x²."""
 

@@ -153,10 +153,7 @@ def findings_section(report: Report) -> Markup:
     """Everything that is not confirmed, the heaviest first."""
     title, nothing = "Findings", "Everything that was decided is confirmed."
     if report.own:
-        title, nothing = (
-            "What to mend",
-            "No condition is broken, and no Property of the arm is refuted.",
-        )
+        title, nothing = ("What to mend", "No condition is broken, and no Property of the arm is refuted.")
     groups = [_group(report, weight) for weight in WEIGHTS if report.weighing(weight)]
     return element("section", element("h2", title), groups or element("p", nothing), id="findings")
 
