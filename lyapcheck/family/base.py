@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
@@ -91,29 +91,9 @@ class SymbolicForms:
     potential: Any
 
 
-class Forms(Protocol):
-    """h(x), h'(x), U(x) and h(x)/x in one arithmetic; each may be worked out when it is asked for."""
-
-    @property
-    def h(self) -> Any:
-        """h(x)."""
-
-    @property
-    def dh(self) -> Any:
-        """h'(x)."""
-
-    @property
-    def potential(self) -> Any:
-        """U(x)."""
-
-    @property
-    def secant(self) -> Any:
-        """h(x)/x, continued by h'(0) at 0."""
-
-
 @dataclass(frozen=True)
 class NumericForms:
-    """h, h', U and h(x)/x in one arithmetic."""
+    """h, h', U and h(x)/x in one arithmetic, the last continued by h'(0) at 0."""
 
     h: Any
     dh: Any
@@ -170,7 +150,7 @@ class Family(ABC):
         return self.values(x, "secant")
 
     def values(self, x: ArrayLike, form: str) -> Doubles:
-        """One of ``Forms`` at each element; NaN stays NaN."""
+        """One of ``NumericForms`` at each element; NaN stays NaN."""
         import numpy as np
 
         x = np.asarray(x, dtype=float)
@@ -179,14 +159,14 @@ class Family(ABC):
         return np.where(np.isnan(x), x, values)
 
     @abstractmethod
-    def numeric(self, of: Arithmetic, x: Any) -> Forms:
-        """h, h', U and h(x)/x in any arithmetic, accurate to a few units in the last place."""
+    def numeric(self, of: Arithmetic, x: Any) -> Any:
+        """What `NumericForms` has, perhaps worked out when asked for, to a few units in the last place."""
 
     @abstractmethod
     def sympy(self, x: Any) -> SymbolicForms:
         """h, h' and U at a SymPy expression."""
 
-    def casadi(self, x: Any) -> Forms:
+    def casadi(self, x: Any) -> Any:
         """The same, elementwise, at a CasADi SX expression."""
         return self.numeric(graphs(), x)
 

@@ -27,13 +27,13 @@ from lyapcheck.derive.lyapunov import (
     terms_15,
     value_13,
 )
-from lyapcheck.family.base import Arithmetic, Forms
+from lyapcheck.family.base import Arithmetic
 from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.dynamics import ArmAtAngles
 from lyapcheck.robots.plant import Plant
 
 Vector = Sequence[Any]
-FormsAt = Callable[[Any], Forms]
+FormsAt = Callable[[Any], Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +139,7 @@ class AtState:
         return [[named[min(i, j), max(i, j)] for j in range(n)] for i in range(n)]
 
     @cached_property
-    def at_e(self) -> list[Forms]:
+    def at_e(self) -> list[Any]:
         """The family at e."""
         return [self.forms(x) for x in self.e]
 

@@ -7,7 +7,7 @@ import shutil
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
 from multiprocessing import get_context
@@ -22,7 +22,7 @@ from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
 from lyapcheck.report.findings import findings, own_findings
-from lyapcheck.report.jobs import Done, derive_job, done, gains_job, proofs_job
+from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
@@ -57,8 +57,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         with main_unnamed():
             jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
-    parts = [job.result().result for job in jobs.sets]
-    proofs = jobs.proofs.result().result
+    proofs, *parts, derived = (job.result().result for job in jobs)
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
@@ -72,14 +71,14 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     figures |= draw_comparisons(epsilon, runs)
     claims = tuple(row for row in rows if row.proof == "published")
     weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
-    packages = frozenset[str]().union(*(job.result().packages for job in jobs.labels))
+    packages = frozenset[str]().union(*(job.result().packages for job in jobs))
     return Report(
         notes=notes,
         own=subject.own,
         robot=model,
         ms=subject.ms,
         table=build_table(subject.ms),
-        derived=jobs.derived.result().result,
+        derived=derived,
         gate=gate,
         epsilon=epsilon,
         claims=claims,
@@ -105,54 +104,33 @@ def _gate(subject: Subject) -> GateAnswer:
     )
 
 
-@dataclass(frozen=True)
-class Jobs:
-    """What was handed to the processes, each in the order of the report.
-
-    Args:
-        sets: ε₀ and simulation of each gain set.
-        proofs: the claims of the paper and of the other proofs.
-        derived: what SymPy derives.
-        labels: of each job, for who waits.
-        drawings: of each job, what makes its figures out of its result.
-    """
-
-    sets: list[Job]
-    proofs: Job
-    derived: Job
-    labels: dict[Job, str]
-    drawings: dict[Job, Callable[[Any], Files]]
-
-
-def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
-    """The longest first, so that no process is left with one at the end."""
+def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> dict[Job, str]:
+    """The claims, ε₀ and run of each gain set, and what SymPy derives; each with its name for who waits."""
     labels: dict[Job, str] = {}
 
-    def start(label: str, work: Callable[..., Any], *arguments: Any) -> Job:
-        job = pool.submit(done, work, *arguments)
-        labels[job] = label
-        return job
+    def start(label: str, work: Callable[..., Any], *arguments: Any) -> None:
+        labels[pool.submit(done, work, *arguments)] = label
 
     about = (subject.ms, subject.robot, subject.gain_files[0].path)
-    proofs = start("claims", proofs_job, *about, notes, subject.own)
-    named = [(file.path, name) for file, name in subject.sets]
-    sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
-    derived = start("derivation", derive_job, subject.ms, subject.robot)
-    return Jobs(sets, proofs, derived, labels, dict.fromkeys(sets, draw_set))
+    start("claims", proofs_job, *about, notes, subject.own)  # the longest first
+    for file, name in subject.sets:
+        start(name, gains_job, file.path, name, subject.robot, SEED)
+    start("derivation", derive_job, subject.ms, subject.robot)
+    return labels
 
 
-def _drawn(jobs: Jobs, progress: Progress) -> Files:
+def _drawn(jobs: Mapping[Job, str], progress: Progress) -> Files:
     """The figures of all jobs, each drawn when it is done; the first that fails stops the others."""
     figures: Files = {}
-    progress(0.0, f"{len(jobs.labels)} computations on {WORKERS} processes")
+    progress(0.0, f"{len(jobs)} computations on {WORKERS} processes")
     try:
-        for done, job in enumerate(as_completed(jobs.labels), start=1):
+        for done, job in enumerate(as_completed(jobs), start=1):
             result = job.result().result
-            progress(done / len(jobs.labels), f"{jobs.labels[job]} done")
-            if job in jobs.drawings:
-                figures |= jobs.drawings[job](result)
+            progress(done / len(jobs), f"{jobs[job]} done")
+            if isinstance(result, GainData):
+                figures |= draw_set(result)
     except BaseException:
-        for job in jobs.labels:
+        for job in jobs:
             job.cancel()
         raise
     return figures

@@ -300,29 +300,15 @@ def track(
 ) -> TrackingRun:
     """Move an arm along a reference under (21).
 
-    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with e = q_d(t) − q and w = q̇ − q̇_d. The
-    integration is done twice, the second time ten times tighter; the second is handed back and their
-    difference is its ``accuracy``.
+    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with e = q_d(t) − q and w = q̇ − q̇_d, integrated
+    twice as `lyapcheck.simulate.closed_loop.simulate` does.
 
-    Args:
-        gain_set: the controller, of any family, or the path of a gain file with one gain set.
-        model: the arm, its name or its file; uncertain parameters are at their nominal values.
+    Args, and what is raised, as there, but for:
         reference: q_d(t).
-        q0: (n,) start in rad; home if missing.
         velocity: (n,) initial q̇ in rad/s; rest if missing.
         T: seconds; what the reference asks for if missing.
         eps0: the ε₀ of V; half of the largest for which Θ' is positive definite at v_d if missing.
         band: rad, for the time from which on each |e_i| stays within it.
-        points: samples handed back, evenly spaced, both ends included.
-        tolerance: relative tolerance of the first integration.
-        max_steps: a budget for each integration.
-        stop: end the run at the first state that breaks a promise.
-        on_progress: receives the fraction done.
-
-    Raises:
-        InputError: a request the arm or the reference cannot meet.
-        SimulationFailed: the integrator gave up; carries what was reached.
-        PromiseBroken: a promise was broken; carries the run up to that state.
 
     Examples:
         >>> from fractions import Fraction as F

@@ -60,16 +60,9 @@ def experiment(
 
     The arm is (1) with dry friction f_c tanh(w/creep) added, and with a load unknown to the controller.
 
-    Args:
-        gain_set: the controller, of any family, or the path of a gain file with one gain set.
-        model: the arm, its name or its file; uncertain parameters and friction at nominal values.
-        q_d: (n,) goal in rad.
-        q0: (n,) start in rad; home if missing.
-        w0: (n,) initial rates in rad/s; rest if missing.
+    Args as of `lyapcheck.simulate.closed_loop.simulate`, but for:
         T: seconds, cut to whole periods.
-        eps0: the ε₀ of V; 0 if missing, and then V is the energy.
         bench: the loop as it is run.
-        on_progress: receives the fraction done.
 
     Returns:
         One sample a period, overshoots of what lies between; ``tau`` is the torque held from then on, ``dV``
