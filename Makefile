@@ -5,13 +5,12 @@ BIN := .venv/bin
 # As commands do: the matrices are small, and threads of BLAS only wait for each other.
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: report screenshots site study test test-slow test-robots test-mujoco test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
+.PHONY: report screenshots site test test-slow test-robots test-mujoco test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
 	@echo "make site       the documents as a site, in build/site/"
 	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
-	@echo "make study      the printed experiment on every assumed arm, a minute or two; the report reads it"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
 	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio and MuJoCo; downloads 1 GB; writes reports/robots.md"
@@ -37,10 +36,6 @@ site:
 
 screenshots: .venv/.ready
 	$(BIN)/python -m tests.report.screenshots
-
-study: .venv/.ready
-	$(BIN)/python -m studies.gain_map
-	$(BIN)/python -m studies.printed_experiment
 
 test: .venv/.ready
 	$(BIN)/pytest -n 2 --dist loadfile -m "not slow"

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from lyapcheck.robots.registry import names as robot_names
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
-    from lyapcheck.simulate.reference.file import read_reference
+    from lyapcheck.simulate.reference import read_reference
     from lyapcheck.simulate.run import Run
     from lyapcheck.simulate.tracking import TrackingRun
     from lyapcheck.simulate.tracking import track as run_tracking
@@ -165,7 +165,7 @@ _HOMES = {
     "paper_gain_file": "control.gains",
     "read_gain_file": "control.gains",
     "read_plan": "answers.sweep",
-    "read_reference": "simulate.reference.file",
+    "read_reference": "simulate.reference",
     "recheck": "check.recheck",
     "robot_constants": "constants.arm",
     "robot_names": "robots.registry:names",

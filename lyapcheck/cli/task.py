@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.bench import Bench
+    from lyapcheck.simulate.many import Starts
     from lyapcheck.simulate.reference import Reference
-    from lyapcheck.simulate.starts import Starts
     from lyapcheck.simulate.task import Task
 
 MOST_DEGREES = 36_000.0
@@ -212,7 +212,7 @@ def starts_of(runs: int, spread: float | None, seed: int | None) -> Starts:
     Raises:
         InputError: every problem with them at once.
     """
-    from lyapcheck.simulate.starts import MOST_RUNS, Starts
+    from lyapcheck.simulate.many import MOST_RUNS, Starts
 
     problems = []
     size, number = SPREAD if spread is None else spread, 0 if seed is None else seed

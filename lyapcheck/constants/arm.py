@@ -13,16 +13,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
-from lyapcheck._types import Progress
+import numpy as np
+from flint import arb, ctx
+
+from lyapcheck._types import SEED, Array, Progress, silent
+from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.constants.chain import chain_constant
+from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.constants.constant import ConstantResult, SupremumTask, from_distances
 from lyapcheck.constants.coriolis import coriolis_task
 from lyapcheck.constants.spectrum import ArmHarmonics, gravity_task, lambda_max_task, lambda_min_task
+from lyapcheck.constants.storage import storage_proof
+from lyapcheck.errors import argument_error
 from lyapcheck.lyapunov.scalar import RobotBounds
-from lyapcheck.robots.dynamics import FEW_JOINTS
+from lyapcheck.robots.chain import ChainInMotion
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.plant import Plant
 
 GAP = 1e-3
@@ -48,7 +57,7 @@ def arm_constants(
         The constants; where the budget did not suffice their enclosures are wider than ``GAP``.
 
     Soundness: floating point with residuals and bounds of its error beforehand, see
-        `lyapcheck.constants.torus` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
+        `lyapcheck.constants.constant` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
         and balls, see `lyapcheck.constants.storage`; the inside ends are bounds at the state given.
     """
     fixed, makers = model.fixed(), _makers(model.n)
@@ -136,3 +145,141 @@ def robot_constants(model: Plant, max_boxes: int | None = None) -> RobotConstant
         lambda_min_at=smallest.state,
         lambda_max_at=largest.state,
     )
+
+
+# --- Constants of a chain of links of any length: a posture from one side, storage forms from the other.
+
+
+# --- The posture at which a constant of a chain is reached, as local searches find it; its value in balls.
+
+
+STARTS = 24
+STEPS = 300
+DIGITS = 10**7
+BITS = 128
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A posture q, rad, a direction x (none for gravity), and what the constant is there, rounded safely."""
+
+    q: tuple[Fraction, ...]
+    x: tuple[Fraction, ...]
+    value: Fraction
+
+
+def extreme(plant: Plant, name: str) -> Extreme:
+    """Where λmin(M), λmax(M), k_c, k_g or a k_gi of a chain is reached: quasi-Newton steps, many starts.
+
+    Soundness: the value is taken in balls at the rational posture; that it is the extreme one is not.
+    """
+    from scipy.optimize import minimize
+
+    chain = plant.dynamics
+    assert isinstance(chain, Chain)
+    n, directed = plant.n, not name.startswith("k_g")
+    sign, merit = _merit(plant, name)
+    rng = np.random.default_rng(SEED)
+    turns = rng.uniform(-np.pi, np.pi, (STARTS, n))
+    starts = np.hstack([turns * (np.arange(STARTS) > 0)[:, None], rng.normal(size=(STARTS, n))])
+    best = max(starts, key=lambda start: abs(merit(start)[0]))
+    for start in [*starts, None]:
+        # steps end at slopes below 1e-5: relative to what was found, or all of them are for an arm of 0.1 kg
+        size = abs(merit(best)[0]) or 1.0
+        begin = best if start is None else start
+        found = minimize(merit, begin, args=(size,), jac=True, options={"maxiter": STEPS}).x
+        best = min(best, found, key=lambda point: merit(point)[0])
+    q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
+    x = best[n:] / np.linalg.norm(best[n:])
+    q_exact, x_exact = _short(q), _short(x) if directed else ()
+    return Extreme(q_exact, x_exact, _in_balls(chain, name, q_exact, x_exact, sign))
+
+
+def _merit(plant: Plant, name: str) -> tuple[int, Callable[..., tuple[float, Array]]]:
+    """1 for a supremum, −1 for an infimum; what is to be small at (q, x), by a size, and its slopes."""
+    import casadi as ca
+
+    from lyapcheck.robots import graph
+
+    n = plant.n
+    z = ca.SX.sym("z", 2 * n)
+    q, x = z[:n], z[n:]
+    square, sign = ca.dot(x, x), -1 if name == "lambda_min" else 1
+    if name in ("lambda_min", "lambda_max"):
+        value = ca.dot(x, graph.mass(plant, q) @ x) / square
+    elif name == "k_c":
+        turned = graph.coriolis(plant, q, x) @ x
+        value = ca.dot(turned, turned) / square**2
+    else:
+        torque = graph.gravity(plant, q)
+        counted = torque if name == "k_g" else torque[int(name.removeprefix("k_g")) - 1]
+        value = ca.dot(counted, counted)
+    aim = -sign * value
+    function = ca.Function("merit", [z], [aim, ca.densify(ca.gradient(aim, z))])
+
+    def merit(point: Array, size: float = 1.0) -> tuple[float, Array]:
+        result: Any = function(point)
+        return float(result[0]) / size, np.array(result[1])[:, 0] / size
+
+    return sign, merit
+
+
+def _in_balls(
+    chain: Chain, name: str, q: tuple[Fraction, ...], x: tuple[Fraction, ...], sign: int
+) -> Fraction:
+    """The constant there, on the safe side."""
+    with ctx.workprec(BITS):
+        angles, direction = [to_arb(a) for a in q], [to_arb(a) for a in x]
+        sines, cosines = [a.sin() for a in angles], [a.cos() for a in angles]
+        posture = ChainInMotion(chain.links, chain.fall, sines, cosines, Algebra(to_arb))
+        if name.startswith("k_g"):
+            torque = posture.gravity()
+            counted = torque if name == "k_g" else [torque[int(name.removeprefix("k_g")) - 1]]
+            return Enclosure.from_arb(_norm(counted)).lower
+        if name == "k_c":
+            turned = _times(posture.coriolis(direction), direction)
+            return Enclosure.from_arb(_norm(turned) / _norm(direction) ** 2).lower
+        moved, size = _times(posture.mass(), direction), _norm(direction)
+        if sign > 0:
+            return Enclosure.from_arb(_norm(moved) / size).lower
+        form = sum((a * b for a, b in zip(direction, moved, strict=True)), arb(0))
+        return Enclosure.from_arb(form / size**2).upper
+
+
+def _times(rows: list[list[arb]], x: list[arb]) -> list[arb]:
+    return [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows]
+
+
+def _norm(x: list[arb]) -> arb:
+    square = sum((a * a for a in x), arb(0))
+    # a sum of squares that may be 0 has a ball that reaches below
+    return square.sqrt() if square > 0 else square.abs_upper().sqrt().union(arb(0))
+
+
+def _short(values: Array) -> tuple[Fraction, ...]:
+    return tuple(Fraction(round(float(x) * DIGITS), DIGITS) for x in values)
+
+
+def chain_constant(plant: Plant, name: str, on_progress: Progress = silent) -> ConstantResult:
+    """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
+
+    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts.
+    """
+    on_progress(0.0, "posture")
+    inner, chain = extreme(plant, name), plant.chain
+    assert chain is not None
+    outer = from_distances(plant, name)
+    still = name.startswith("k_g") and inner.value == 0
+    shown = storage_proof(chain, name, still=True) if still else None
+    if shown is None:
+        on_progress(0.1, "forms along the links")
+        shown = storage_proof(chain, name)
+    if shown is not None:
+        outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
+    if outer is None:
+        raise argument_error(
+            name, "", "has no bound: no body has the inertia of some link", "correct the inertias"
+        )
+    low, high = sorted((inner.value, outer))
+    unit = "N·m" if name.startswith("k_g") else "kg·m²"
+    return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)

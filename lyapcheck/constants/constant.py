@@ -2,19 +2,158 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 from math import inf, nextafter, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array, Progress
+from lyapcheck.check.numbers.harmonics import Harmonics
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.constants.storage import BoundWithProof
-from lyapcheck.constants.torus import PI_ABOVE, AffineForms, Torus
 from lyapcheck.robots.plant import Plant
+
+# --- Trigonometric polynomials over boxes of angles: a linear part around the middle, and what it leaves.
+#
+# Over a box with half widths r a harmonic cos(k·q) or sin(k·q) turns by at most d = Σ |k_i| r_i from its
+# value in the middle. It moves by at most d within [−1, 1], and by at most d²/2 from its linear part.
+# Harmonics that turn far are bounded by the former, those that hardly turn by their slope and what is
+# sharper than the square.
+#
+# Soundness: floating point with the error bounded beforehand: every value is trusted within ``SLACK`` times
+# the sum of the sizes of all coefficients, far more than the rounding of sines, products and sums amounts to.
+
+
+def _sheared(multiples: Array, sizes: Array) -> tuple[Array, Array]:
+    """Multiples of the coordinates q_i ± q_{i+1} in place of q_{i+1}, wherever the sums get shorter by that.
+
+    On a torus such a change of coordinates is one to one.
+    """
+    n = multiples.shape[1]
+    back = np.eye(n)
+    for i, sign in product(range(n - 1), (-1.0, 1.0)):
+        other = multiples.copy()
+        other[:, i] += sign * multiples[:, i + 1]
+        if sizes @ np.abs(other[:, i]) < 0.9 * (sizes @ np.abs(multiples[:, i])):
+            shear = np.eye(n)
+            shear[i + 1, i] = sign
+            multiples, back = other, back @ shear
+    return multiples, back
+
+
+PI_ABOVE = 3.1415926535897936
+SLACK = 1e-12
+_NEAR = 0.5
+"""Harmonics that turn by less than this many radians over half a box are bounded by their slope."""
+
+
+@dataclass(frozen=True)
+class AffineForms:
+    """Polynomials on boxes: middle + Σ_i t_i linear_i with |t_i| ≤ 1, up to the radius.
+
+    Args:
+        value: in the middles of the boxes, (boxes, entries).
+        middle: of what the polynomials reach, (boxes, entries).
+        linear: slopes times half widths, one an angle that matters, (boxes, angles, entries).
+        radius: what that leaves, (boxes, entries).
+    """
+
+    value: Array
+    middle: Array
+    linear: Array
+    radius: Array
+
+    def corners(self) -> Array:
+        """middle + Σ_i ± linear_i for all signs, (boxes, 2 to the number of angles, entries).
+
+        A convex function of the entries is largest at one of them.
+        """
+        result = self.middle[:, None]
+        for i in range(self.linear.shape[1]):
+            step = self.linear[:, None, i]
+            result = np.concatenate([result + step, result - step], axis=1)
+        return result
+
+
+class Torus:
+    """Several polynomials on boxes of the coordinates that they depend on: angles, or sums of angles.
+
+    Args:
+        entries: the polynomials.
+        n: number of joints.
+    """
+
+    def __init__(self, entries: Sequence[Harmonics], n: int) -> None:
+        self.n = n
+        sums = [
+            {(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries
+        ]
+        keys = sorted({key for entry in sums for key in entry}) or [((0,) * n, 0)]
+        coefficients = np.array([[float(entry.get(key, 0)) for entry in sums] for key in keys])
+        self._coefficients: Array = coefficients.reshape(len(keys), len(entries))
+        self._sizes: Array = np.abs(self._coefficients)
+        self.slack: Array = SLACK * self._sizes.sum(axis=0)
+        # q = back p, where back is whole and of determinant ±1
+        multiples = np.array([k for k, _ in keys], dtype=np.float64)
+        self._multiples, self._back = _sheared(multiples, self._sizes.sum(axis=1))
+        self._sine = np.array([sine for _, sine in keys]) > 0
+        self._frequency: Array = np.abs(self._multiples)
+        used = self._sizes.any(axis=1)
+        self.angles = tuple(np.flatnonzero(self._frequency[used].any(axis=0)).tolist())
+
+    def _harmonics(self, p: Array) -> tuple[Array, Array]:
+        """cos(k·p) and sin(k·p) at coordinates (count, n), and their slopes by the angle k·p."""
+        angle = p @ self._multiples.T
+        sine, cosine = np.sin(angle), np.cos(angle)
+        return np.where(self._sine, sine, cosine), np.where(self._sine, cosine, -sine)
+
+    @property
+    def lost(self) -> float:
+        """What rounding can take from the size of all polynomials together."""
+        return float(2 * np.sum(self.slack))
+
+    def at(self, states: Array) -> Array:
+        """Values at states, given by their coordinates (count, n); up to ``slack``."""
+        return np.asarray(self._harmonics(states)[0] @ self._coefficients)
+
+    def on(self, middle: Array, half: Array) -> AffineForms:
+        """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
+        values, turned = self._harmonics(middle)
+        turn = half @ self._frequency.T
+        near = turn < _NEAR
+        low, high = np.maximum(values - turn, -1.0), np.minimum(values + turn, 1.0)
+        # v cos d + u sin d at the distance d, v the value and u the slope: what is left of it without u d
+        most = np.minimum(turn, _NEAR)
+        least = np.cos(most)
+        bent = np.abs(values) * 0.5 * (1 - least) + np.abs(turned) * (most - np.sin(most))
+        middles = np.where(near, values * 0.5 * (1 + least), 0.5 * (low + high))
+        radius = np.where(near, bent, 0.5 * (high - low)) @ self._sizes + self.slack
+        linear = np.zeros((len(middle), 0, len(self.slack)))
+        if half.any():
+            slopes = (turned * self._multiples[:, i] for i in self.angles)
+            parts = [
+                (np.where(near, slope, 0.0) @ self._coefficients) * half[:, [i]]
+                for i, slope in zip(self.angles, slopes, strict=True)
+            ]
+            linear = np.stack(parts, axis=1) if parts else linear
+        value, middle = values @ self._coefficients, middles @ self._coefficients
+        return AffineForms(value, middle, linear, radius * (1.0 + 1e-9))
+
+    def angles_at(self, p: Array) -> Array:
+        """The joint angles of coordinates (n,), rad, each within one turn around 0."""
+        q = self._back @ p
+        return np.asarray(q - 2 * np.pi * np.round(q / (2 * np.pi)))
+
+    def influence(self, half: Array, weight: Array) -> Array:
+        """How much of the reach each angle causes, roughly, (boxes, n); ``weight`` is one number an entry."""
+        turn = half @ self._frequency.T
+        share = (np.minimum(turn, 2.0) / np.maximum(turn, 1e-300)) * (self._sizes @ weight)
+        return np.asarray(half * (share @ self._frequency))
+
 
 # --- What is known of the constants of an arm for all angles before any box: from its links.
 
@@ -93,11 +232,7 @@ class SupremumTask:
     cost: int = 1
 
     def solve(
-        self,
-        max_boxes: int,
-        gap: float,
-        on_progress: Progress | None = None,
-        known: Fraction | None = None,
+        self, max_boxes: int, gap: float, on_progress: Progress | None = None, known: Fraction | None = None
     ) -> ConstantResult:
         """The constant between the value at a state and a bound over all of them.
 

@@ -22,9 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.constants.constant import SupremumTask
+from lyapcheck.constants.constant import AffineForms, SupremumTask
 from lyapcheck.constants.spectrum import ROUNDING, ArmHarmonics, eigenvalues, largest_norm
-from lyapcheck.constants.torus import AffineForms
 
 # --- Upper bounds of ‖C(q,x)x‖² = Σ_i (xᵀS_i x)² over unit vectors x: a quartic form as a quadratic one.
 #
@@ -39,7 +38,6 @@ from lyapcheck.constants.torus import AffineForms
 
 
 Pair = tuple[int, int]
-
 _STEPS, _STEPS_OF_MANY, _MANY = 30, 10, 4
 """Subgradient steps; those of many joints cost more and are needed less."""
 _TINY = 1e-300

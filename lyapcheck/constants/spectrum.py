@@ -15,8 +15,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.check.numbers.harmonics import Harmonics, christoffel, derivative, harmonics
-from lyapcheck.constants.constant import SupremumTask
-from lyapcheck.constants.torus import AffineForms, Torus
+from lyapcheck.constants.constant import AffineForms, SupremumTask, Torus
 from lyapcheck.robots import trig
 from lyapcheck.robots.plant import Plant
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.errors import argument_error
-from lyapcheck.family.arithmetic import Arithmetic, arrays, graphs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -19,6 +20,66 @@ if TYPE_CHECKING:
     from lyapcheck.check.expressions.expression import Tree
 
     Doubles = NDArray[Any]
+
+# --- The operations beyond + - * / that formulas need, for NumPy arrays, CasADi graphs and written code.
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """One kind of number: how to branch on it and how to take its elementary functions."""
+
+    where: Callable[[Any, Any, Any], Any]
+    fabs: Callable[[Any], Any]
+    smaller: Callable[[Any, Any], Any]
+    larger: Callable[[Any, Any], Any]
+    sqrt: Callable[[Any], Any]
+    log: Callable[[Any], Any]
+    arctan: Callable[[Any], Any]
+    nearest: Callable[[Any], Any]
+    """The nearest whole number (any of two at a tie)."""
+    sin: Callable[[Any], Any]
+    cos: Callable[[Any], Any]
+    expm1: Callable[[Any], Any]
+    log1p: Callable[[Any], Any]
+    copysign: Callable[[Any, Any], Any]
+    lift: Callable[[Any], Any] = float
+    """An exact number as a value."""
+    names: Callable[[Sequence[Any]], list[Any]] = list
+    """Values that are used more than once: as they are, but where formulas are written down."""
+
+    def name(self, value: Any) -> Any:
+        """A value that is used more than once."""
+        return self.names([value])[0]
+
+
+PLAIN = ("sqrt", "log", "sin", "cos", "expm1", "log1p", "copysign")
+"""Functions that NumPy and CasADi call by the same names."""
+
+
+@cache
+def arrays() -> Arithmetic:
+    """NumPy arrays of doubles."""
+    import numpy as np
+
+    own: dict[str, Any] = {"where": np.where, "fabs": np.abs, "smaller": np.minimum, "larger": np.maximum}
+    own |= {"arctan": np.arctan, "nearest": np.rint}
+    return Arithmetic(**own, **{name: getattr(np, name) for name in PLAIN})
+
+
+@cache
+def graphs() -> Arithmetic:
+    """CasADi SX expressions."""
+    import casadi as ca
+
+    own: dict[str, Any] = {
+        "where": ca.if_else,
+        "fabs": ca.fabs,
+        "smaller": ca.fmin,
+        "larger": ca.fmax,
+        "arctan": ca.atan,
+    }
+    own["nearest"] = lambda a: ca.floor(a + 0.5)
+    return Arithmetic(**own, **{name: getattr(ca, name) for name in PLAIN})
 
 
 @dataclass(frozen=True)
@@ -30,29 +91,9 @@ class SymbolicForms:
     potential: Any
 
 
-class Forms(Protocol):
-    """h(x), h'(x), U(x) and h(x)/x in one arithmetic; each may be worked out when it is asked for."""
-
-    @property
-    def h(self) -> Any:
-        """h(x)."""
-
-    @property
-    def dh(self) -> Any:
-        """h'(x)."""
-
-    @property
-    def potential(self) -> Any:
-        """U(x)."""
-
-    @property
-    def secant(self) -> Any:
-        """h(x)/x, continued by h'(0) at 0."""
-
-
 @dataclass(frozen=True)
 class NumericForms:
-    """h, h', U and h(x)/x in one arithmetic."""
+    """h, h', U and h(x)/x in one arithmetic, the last continued by h'(0) at 0."""
 
     h: Any
     dh: Any
@@ -109,7 +150,7 @@ class Family(ABC):
         return self.values(x, "secant")
 
     def values(self, x: ArrayLike, form: str) -> Doubles:
-        """One of ``Forms`` at each element; NaN stays NaN."""
+        """One of ``NumericForms`` at each element; NaN stays NaN."""
         import numpy as np
 
         x = np.asarray(x, dtype=float)
@@ -118,14 +159,14 @@ class Family(ABC):
         return np.where(np.isnan(x), x, values)
 
     @abstractmethod
-    def numeric(self, of: Arithmetic, x: Any) -> Forms:
-        """h, h', U and h(x)/x in any arithmetic, accurate to a few units in the last place."""
+    def numeric(self, of: Arithmetic, x: Any) -> Any:
+        """What `NumericForms` has, perhaps worked out when asked for, to a few units in the last place."""
 
     @abstractmethod
     def sympy(self, x: Any) -> SymbolicForms:
         """h, h' and U at a SymPy expression."""
 
-    def casadi(self, x: Any) -> Forms:
+    def casadi(self, x: Any) -> Any:
         """The same, elementwise, at a CasADi SX expression."""
         return self.numeric(graphs(), x)
 

@@ -49,23 +49,3 @@ def require_none(name: str, m: object) -> None:
 def hyperbolic(m: int) -> Family:
     """The paper's family, member m: h = sinh^(2m-1) cosh / (1 + sinh^(2m))."""
     return named("hyperbolic", m)
-
-
-def tanh() -> Family:
-    """h = tanh x, which is the hyperbolic family at m = 1."""
-    return named("tanh")
-
-
-def arctan() -> Family:
-    """h = arctan x."""
-    return named("arctan")
-
-
-def algebraic() -> Family:
-    """h = x/√(1 + x²)."""
-    return named("algebraic")
-
-
-def linear() -> Family:
-    """h = x: the linear PD, unbounded."""
-    return named("linear")

@@ -36,9 +36,7 @@ from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
-from lyapcheck.search.cover import cover
-from lyapcheck.search.cuts import Splitter
-from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.cover import SchurProblem, Splitter, cover
 
 FUEL = 30
 """How often a box of angles may be halved until M(q) ≻ 0 shows."""

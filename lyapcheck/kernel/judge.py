@@ -86,8 +86,7 @@ def graded(outcome: Outcome, result: Iterable[Kernel]) -> Outcome:
     """The outcome, with the grade ``kernel`` where Coq's kernel accepted the certificate."""
     pairs = zip(outcome.checked, result, strict=True)
     return replace(
-        outcome,
-        checked=tuple(replace(own, grade=GRADE) if one.accepted else own for own, one in pairs),
+        outcome, checked=tuple(replace(own, grade=GRADE) if one.accepted else own for own, one in pairs)
     )
 
 

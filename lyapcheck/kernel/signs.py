@@ -161,7 +161,7 @@ def _generators(variables: Sequence[Variable], signs: Signs) -> tuple[list[str],
         if name != "sqrt" or not argument.isdigit():
             raise NotPrinted(f"an identity of signs with {name}")
         k = len(plain)
-        low = _below(signs, k)
+        low = Fraction(int(Enclosure.from_arb(signs.algebra.constants()[k]).lower * 16), 16)
         plain.append(f"(sqrt {argument})")
         shifted.append(f"(sqrt {argument} - {rational(low)})")
         lines.append(
@@ -171,11 +171,6 @@ def _generators(variables: Sequence[Variable], signs: Signs) -> tuple[list[str],
         )
         roots.append(f"Q{k}")
     return plain, shifted, "".join(lines), roots
-
-
-def _below(signs: Signs, index: int) -> Fraction:
-    """The number by which `Signs` has shifted a root."""
-    return Fraction(int(Enclosure.from_arb(signs.algebra.constants()[index]).lower * 16), 16)
 
 
 def _gap(relation: Relation, signs: Signs, plain: Sequence[str]) -> tuple[str, str]:

@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.bound_every_n import BoundEveryN, CoveredTerms, terms
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.statement import Proof
-from lyapcheck.kernel.spare import spare
+from lyapcheck.kernel.gate import spare
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, letters_of, rational
 
 

@@ -15,8 +15,7 @@ from typing import Any
 import casadi as ca
 
 from lyapcheck.family import Family
-from lyapcheck.family.arithmetic import Arithmetic, graphs
-from lyapcheck.family.base import Forms
+from lyapcheck.family.base import Arithmetic, graphs
 from lyapcheck.lyapunov.along import AtState
 from lyapcheck.robots.plant import Plant
 
@@ -55,7 +54,7 @@ def lyapunov_graph(model: Plant, family: Family) -> LyapunovGraph:
 
 
 def at_symbols(
-    model: Plant, q: Any, e: Any, w: Any, kp: Any, kv: Any, forms: Callable[[Any], Forms], kink: float = 0.0
+    model: Plant, q: Any, e: Any, w: Any, kp: Any, kv: Any, forms: Callable[[Any], Any], kink: float = 0.0
 ) -> AtState:
     """A state in CasADi symbols.
 

@@ -12,18 +12,16 @@ import numpy as np
 
 from lyapcheck import store
 from lyapcheck._types import Array
-from lyapcheck.compiled.loop import Loop, loop
 from lyapcheck.family import Family
-from lyapcheck.family.arithmetic import Arithmetic, arrays
+from lyapcheck.family.base import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt
+from lyapcheck.lyapunov.loop import Loop, loop
 from lyapcheck.robots.plant import Plant
 
 BLOCK = 8192
 """States evaluated together by NumPy: all intermediate columns of a small arm then stay in the cache."""
-
 LARGE = 32_768
 """From here on a compiled loop is worth its compilation of about a second, which happens once a computer."""
-
 OUTPUTS: dict[str, tuple[int, Callable[[AtState, Any], list[Any]]]] = {
     "value": (1, lambda at, eps0: [at.value(eps0)]),
     "rate": (1, lambda at, eps0: [at.rate(eps0)]),

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from flint import arb
 
@@ -30,40 +30,12 @@ from lyapcheck.check.loop.closed_loop import ScalarForm
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 
+if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
+    from lyapcheck.family.base import FamilyConstants
+
 _PER_DEGREE = (Fraction(57295779513082, 10**12), Fraction(57295779513083, 10**12))
 """180/π = 57.2957795130823…, from below and from above."""
-
-
-class FamilyConstants(Protocol):
-    """γ, ρ and L of a family."""
-
-    @property
-    def gamma(self) -> Enclosure | None:
-        """sup h."""
-
-    @property
-    def rho(self) -> Enclosure:
-        """sup |h'|."""
-
-    @property
-    def L(self) -> Enclosure:
-        """sup h(x)/x."""
-
-
-class DiagonalGains(Protocol):
-    """Diagonal gains."""
-
-    @property
-    def kp(self) -> tuple[Fraction, ...]:
-        """Diagonal of K_p."""
-
-    @property
-    def kv(self) -> tuple[Fraction, ...]:
-        """Diagonal of K_v."""
-
-    @property
-    def angle_unit(self) -> str:
-        """``deg`` for gains per degree, else ``rad``."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +57,7 @@ class RobotBounds:
     lambda_min_M: Fraction | None = None
 
 
-def scalar_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm | None:
+def scalar_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm | None:
     """Θ' with every irrational constant replaced by a rational on the safe side; ``None`` if h is unbounded.
 
     Soundness: c and d enter det Θ' with a minus sign, so each is rounded up; G grows with √n γ and with L.
@@ -103,7 +75,7 @@ def scalar_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotB
     )
 
 
-def sharp_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm:
+def sharp_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm:
     """The form whose check at ε₀ proves dV/dt < 0 with less loss than ``scalar_form``, bounded h or not.
 
     Its drift is β_M (ρ + G) + k_c G instead of β_M (ρ + G) + k_c √n γ, and G < √n γ.
@@ -129,9 +101,7 @@ def sharp_form(gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBo
     )
 
 
-def published_limit(
-    gains: DiagonalGains, constants: FamilyConstants, bounds: RobotBounds
-) -> Enclosure | None:
+def published_limit(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) -> Enclosure | None:
     """The end of the interval (18) for ε₀, or ``None`` where (19) fails and the interval is empty.
 
     N [λmin(B) − √n γ λmax(K_v)] / (N [β_M (ρ+γ) + γ k_c] + ¼ [√n γ λmax(B) + n ρ γ λmax(K_v)]²) with

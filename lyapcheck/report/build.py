@@ -7,7 +7,7 @@ import shutil
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
 from multiprocessing import get_context
@@ -21,30 +21,21 @@ from lyapcheck.files.reader import holds
 from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
-from lyapcheck.report.drawings import (
-    draw_comparisons,
-    draw_damping,
-    draw_family,
-    draw_sensitivity,
-    draw_set,
-    draw_sides,
-)
-from lyapcheck.report.experiment import printed_experiment
-from lyapcheck.report.findings import findings, light, own_findings, small_path
-from lyapcheck.report.jobs import Done, derive_job, done, gains_job, map_job, proofs_job, with_the_map
+from lyapcheck.report.findings import findings, own_findings
+from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
 from lyapcheck.report.page.shell import render as page
+from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
 from lyapcheck.temporary import pending, temporary_folder, work_in
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
-    from lyapcheck.report.figures.style import Files
     from lyapcheck.report.notes import Notes
+    from lyapcheck.report.plots import Files
 
 Job = Future[Done]
-
 WORKERS = 2
 
 
@@ -66,45 +57,34 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         with main_unnamed():
             jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
-    of_the_report = (one for file in subject.gain_files for one in file.gains if one.m in (None, *subject.ms))
-    study = None if subject.own else printed_experiment(of_the_report, model)
-    cells, for_sets = jobs.map.result().result
-    parts = [with_the_map(job.result().result, for_sets) for job in jobs.sets]
-    proofs, small = jobs.proofs.result().result
+    proofs, *parts, derived = (job.result().result for job in jobs)
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
         certificates |= made
-    certificates |= {small_path(name): one.certificate.text() for name, one in small.items()}
-    certificates |= {one.path: one.certificate for one in cells if one.certificate}
     rows = [row for part in proofs for row in part.rows]
     if subject.own:
         known = {row.certificate for row in rows}
         rows, fresh = as_the_gate_judges(rows, gate)
         gone = known - {row.certificate for row in rows}
         certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
-    figures |= draw_sides(small) | draw_sensitivity(study) | draw_comparisons(epsilon, runs, study)
+    figures |= draw_comparisons(epsilon, runs)
     claims = tuple(row for row in rows if row.proof == "published")
-    if subject.own:
-        weighed = own_findings(gate, epsilon, claims)
-    else:
-        weighed = findings(notes, claims, {name: light(one) for name, one in small.items()}, epsilon, study)
-    packages = frozenset[str]().union(*(job.result().packages for job in jobs.labels))
+    weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
+    packages = frozenset[str]().union(*(job.result().packages for job in jobs))
     return Report(
         notes=notes,
         own=subject.own,
         robot=model,
         ms=subject.ms,
         table=build_table(subject.ms),
-        derived=jobs.derived.result().result,
+        derived=derived,
         gate=gate,
         epsilon=epsilon,
         claims=claims,
         others=tuple(row for row in rows if row.proof != "published"),
         runs=runs,
-        sensitivity=study,
         findings=weighed,
-        map=tuple(cells),
         figures=dict(sorted(figures.items())),
         certificates=dict(sorted(certificates.items())),
         versions={name: version(name) for name in sorted(packages)},
@@ -124,57 +104,33 @@ def _gate(subject: Subject) -> GateAnswer:
     )
 
 
-@dataclass(frozen=True)
-class Jobs:
-    """What was handed to the processes, each in the order of the report.
-
-    Args:
-        sets: ε₀ and simulation of each gain set.
-        proofs: the claims of the paper and of the other proofs, with small witnesses.
-        derived: what SymPy derives.
-        map: the map over m and k_v, computed where that is asked for.
-        labels: of each job, for who waits.
-        drawings: of each job, what makes its figures out of its result.
-    """
-
-    sets: list[Job]
-    proofs: Job
-    derived: Job
-    map: Job
-    labels: dict[Job, str]
-    drawings: dict[Job, Callable[[Any], Files]]
-
-
-def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> Jobs:
-    """The longest first, so that no process is left with one at the end."""
+def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> dict[Job, str]:
+    """The claims, ε₀ and run of each gain set, and what SymPy derives; each with its name for who waits."""
     labels: dict[Job, str] = {}
 
-    def start(label: str, work: Callable[..., Any], *arguments: Any) -> Job:
-        job = pool.submit(done, work, *arguments)
-        labels[job] = label
-        return job
+    def start(label: str, work: Callable[..., Any], *arguments: Any) -> None:
+        labels[pool.submit(done, work, *arguments)] = label
 
     about = (subject.ms, subject.robot, subject.gain_files[0].path)
-    proofs = start("claims", proofs_job, *about, notes, subject.own)
-    named = [(file.path, name) for file, name in subject.sets]
-    sets = [start(name, gains_job, path, name, subject.robot, SEED) for path, name in named]
-    derived = start("derivation", derive_job, subject.ms, subject.robot)
-    cells = start("map", map_job, subject.robot, subject.of_family, subject.map)
-    return Jobs(sets, proofs, derived, cells, labels, dict.fromkeys(sets, draw_set))
+    start("claims", proofs_job, *about, notes, subject.own)  # the longest first
+    for file, name in subject.sets:
+        start(name, gains_job, file.path, name, subject.robot, SEED)
+    start("derivation", derive_job, subject.ms, subject.robot)
+    return labels
 
 
-def _drawn(jobs: Jobs, progress: Progress) -> Files:
+def _drawn(jobs: Mapping[Job, str], progress: Progress) -> Files:
     """The figures of all jobs, each drawn when it is done; the first that fails stops the others."""
     figures: Files = {}
-    progress(0.0, f"{len(jobs.labels)} computations on {WORKERS} processes")
+    progress(0.0, f"{len(jobs)} computations on {WORKERS} processes")
     try:
-        for done, job in enumerate(as_completed(jobs.labels), start=1):
+        for done, job in enumerate(as_completed(jobs), start=1):
             result = job.result().result
-            progress(done / len(jobs.labels), f"{jobs.labels[job]} done")
-            if job in jobs.drawings:
-                figures |= jobs.drawings[job](result)
+            progress(done / len(jobs), f"{jobs[job]} done")
+            if isinstance(result, GainData):
+                figures |= draw_set(result)
     except BaseException:
-        for job in jobs.labels:
+        for job in jobs:
             job.cancel()
         raise
     return figures
@@ -191,7 +147,7 @@ def render(report: Report, formats: Sequence[str] = USUAL, appendix: bool = Fals
     """Every file of a report by its name; figures and certificates are shared by the formats.
 
     Args:
-        appendix: whether the PDF goes on with claims, gate, runs and the experiment one by one.
+        appendix: whether the PDF goes on with claims, gate and runs one by one.
     """
     files: dict[str, str | bytes] = {}
     answer = ReportAnswer(report)

@@ -1,4 +1,4 @@
-"""What supports a report: ε₀, constants, gate, runs, the printed experiment, and what all of it rests on."""
+"""What supports a report: ε₀, constants, gate, runs, and what all of it rests on."""
 
 from __future__ import annotations
 
@@ -9,20 +9,8 @@ from dataclasses import replace
 from lyapcheck.answers.tune.answer import Effect, effect_section
 from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
-from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.experiment import (
-    StudyRow,
-    answer_words,
-    at_once_words,
-    figure_gains_words,
-    printed_words,
-    quantity_words,
-    span,
-    tally_words,
-    together_words,
-    value_words,
-)
 from lyapcheck.report.model import KINDS, EpsilonRow, Report, RunRow
+from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.text import fixed, joined
 
 DIGITS = 12
@@ -65,7 +53,7 @@ def _weighted(row: EpsilonRow) -> str:
 
 
 def evidence(report: Report) -> Iterator[Section]:
-    """Constants, gate, runs and the printed experiment."""
+    """Constants, gate and runs."""
     constants = _told(replace(report.table, digits=DIGITS).document())
     drawn = figure(report, "family", "The bounded functions and their derivatives")
     yield Section("The family and its constants", (*constants, *drawn))
@@ -78,8 +66,6 @@ def evidence(report: Report) -> Iterator[Section]:
         effects = [_effect(m, row) for m, row in sorted(members.items())]
         section = effect_section(effects, first.target, first.time)
         yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
-    if report.sensitivity:
-        yield Section("The printed experiment and what is assumed", tuple(_study(report, report.sensitivity)))
 
 
 def _told(document: Document) -> Iterator[Block]:
@@ -125,27 +111,6 @@ def _effect(m: int, row: RunRow) -> Effect:
         row.top_speed,
         math.inf if row.rest is None else row.rest,
     )
-
-
-def _study(report: Report, study: StudyRow) -> Iterator[Block]:
-    said = [tally_words(study), *([together_words(study, study.together)] if study.together else [])]
-    said += [text for one in study.sets for text in (at_once_words(one), figure_gains_words(one))]
-    yield Bullets(tuple(said))
-    yield from figure(report, "spread", "What is printed against what the assumed arms do")
-    rows = tuple(
-        (
-            f"{one.name}: {quantity_words(entry)}",
-            printed_words(entry),
-            value_words(entry.nominal, entry.unit),
-            span(entry.typical),
-            answer_words(entry),
-        )
-        for one in study.sets
-        for entry in one.numbers
-    )
-    heads = ("number", "printed", "nominal arm", "middle 90 %", "does an arm do it?")
-    yield Table(heads, rows, align="lrrll")
-    yield from figure(report, "assumptions", "The L2 index when one assumption alone runs over its range")
 
 
 def rests(report: Report) -> Iterator[Section]:

@@ -19,17 +19,10 @@ from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive import Derivation
-    from lyapcheck.certificate import Certificate
-    from lyapcheck.claims.smallest import RefutedBelow
     from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.report.model import MapCell
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
-
-    Proofs = tuple[list["ProofData"], dict[str, RefutedBelow]]
-    """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
-    Map = tuple[list[MapCell], dict[str, Certificate]]
 
 REST = 0.7853981633974483
 """45° in rad: the step of every joint of an arm that the paper's experiment does not fit."""
@@ -45,15 +38,8 @@ BOUNDS = ("F.h.square", "F.h.bounded", "F.h.slope", "F.h.endless")
 """Its claims that put h_m into the class for every real m ≥ 1."""
 SAMPLED = "sampled.py"
 """The loop on a computer, from printed numbers."""
-OTHERS = {
-    "scalar.py": (),
-    "tracking.py": (),
-    CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS),
-    SAMPLED: (),
-}
+OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS), SAMPLED: ()}
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
-CHAIN = "Section 3"
-"""The part of the paper whose refuted claims deserve a small witness."""
 MODULES = {"python-flint": "flint"}
 """How a package is imported, where that is not its name."""
 SHOWN = 6
@@ -139,32 +125,20 @@ def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only
     return ProofData(tuple(sorted(rows, key=lambda row: order.index(row.id))), certificates)
 
 
-def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> Proofs:
-    """Every claim; what is refuted in the paper again with few joints and numbers of the arm at hand.
+def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> list[ProofData]:
+    """Every claim, those of the paper first.
 
     About an arm of one's own: only proofs that say something about it, and nothing about the paper.
 
     One proof after the other: what several of them state is searched for once, and then in the store.
     """
-    from lyapcheck.claims.smallest import smallest_witnesses
     from lyapcheck.control.gains import read_gain_file
-    from lyapcheck.robots import load
 
     wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
     if own:
         chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
-        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], {}
-    proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
-    wanted: dict[str, list[int]] = {}
-    for row in proofs[0].rows:
-        if row.verdict == "refuted" and row.section.startswith(CHAIN):
-            wanted.setdefault(row.id, []).extend([] if row.m is None else [row.m])
-    sets = {one.m: one for one in file.gains if one.m is not None and one.m in ms}
-    for note in notes.findings:
-        if note.ask and sets and not wanted.keys() & set(note.claims):
-            wanted |= {name: [note.ask["m"]] for name in note.claims}
-            sets.setdefault(note.ask["m"], next(iter(sets.values())))
-    return proofs, smallest_witnesses(PROOF, wanted, load(robot), sets)
+        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen]
+    return [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
@@ -262,31 +236,6 @@ def derive_job(ms: Sequence[int], robot: str) -> Derivation:
     from lyapcheck.robots import load
 
     return derivation([m for m in ms if m <= LARGEST_M], min(load(robot).n, MOST_JOINTS))
-
-
-def map_job(robot: str, sets: Mapping[int, GainSet], anew: bool) -> Map:
-    """The map over m and k_v, computed or that of the study; by gain sets the certificates that it has."""
-    from lyapcheck.check.verify import each_once
-    from lyapcheck.report.gain_map import for_the_sets, gain_map, kept_map
-    from lyapcheck.robots import load
-
-    model = load(robot)
-    with each_once():
-        sets = {m: one for m, one in sets.items() if not without_friction(one, model)}
-        cells = gain_map(model, sets, goal_of(model)) if anew else kept_map(model, sets)
-        return cells, for_the_sets(cells, sets)
-
-
-def with_the_map(part: GainData, known: Mapping[str, Certificate]) -> GainData:
-    """The same, resting on what the map proves where that is as good to the digits shown."""
-    from lyapcheck.check.kinds.decreasing import Decreasing
-
-    path, one = part.epsilon.certificates.get("certified"), known.get(part.epsilon.name)
-    if path is None or one is None or not isinstance(one.statement, Decreasing):
-        return part
-    if rounded(one.statement.eps0, up=False) != part.epsilon.certified:
-        return part
-    return replace(part, certificates={**part.certificates, path: one.text()})
 
 
 def _run_row(run: Run, rest: float | None) -> RunRow:

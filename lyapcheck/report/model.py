@@ -15,9 +15,8 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.answer import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
-    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.promise import Promise
-    from lyapcheck.report.experiment import StudyRow
     from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
 
@@ -39,8 +38,6 @@ class WitnessRow:
         left, right: both sides, each between two decimals.
         operator: of the relation that fails.
         certificate: its path in the report.
-        small: whether it was searched for as small as it is.
-        figure: name of the drawing of both sides, if there is one.
     """
 
     m: int | None
@@ -50,8 +47,6 @@ class WitnessRow:
     operator: str
     right: tuple[str, str]
     certificate: str | None
-    small: bool
-    figure: str
 
 
 @dataclass(frozen=True)
@@ -68,7 +63,7 @@ class Finding:
         printed: the statement in LaTeX, as printed.
         argument, fails, consequence, repair: the text's, why it is wrong, what follows, what helps.
         witness: where it fails.
-        figure: name of the drawing of both sides.
+        figure: name of a drawing that shows it.
     """
 
     weight: str
@@ -113,9 +108,7 @@ class Report:
         claims: decided claims of the paper, one row a claim and m.
         others: those of the proofs of what the paper concludes.
         runs: simulated runs, one a gain set, the PD baseline last.
-        sensitivity: the printed experiment on the arms that are assumed possible; none if there is none.
         findings: the heaviest first.
-        map: places over m and k_v; empty where no map was made.
         figures: SVG text, PNG and CSV by file name.
         certificates: by their paths, those that the checker has accepted.
         versions: of the packages that the computations loaded.
@@ -133,9 +126,7 @@ class Report:
     claims: tuple[ClaimRow, ...]
     others: tuple[ClaimRow, ...]
     runs: tuple[RunRow, ...]
-    sensitivity: StudyRow | None
     findings: tuple[Finding, ...]
-    map: tuple[MapCell, ...]
     figures: Mapping[str, str | bytes] = field(repr=False)
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
@@ -200,14 +191,12 @@ class Subject:
         ms: the members of the family.
         gain_files: the gains; sets of other members are left out, those without a member (PD) stay.
         own: whether arm or gains are others than the paper's: it is then about these alone.
-        map: whether the map over m and k_v is to be computed; that of the paper's arm is at hand.
     """
 
     robot: str
     ms: tuple[int, ...]
     gain_files: tuple[GainFile, ...]
     own: bool = False
-    map: bool = False
 
     @property
     def sets(self) -> list[tuple[GainFile, str]]:
@@ -218,46 +207,6 @@ class Subject:
             for item in file.gains
             if item.m is None or item.m in self.ms
         ]
-
-    @property
-    def of_family(self) -> dict[int, GainSet]:
-        """The first gain set of each member."""
-        result: dict[int, GainSet] = {}
-        for file in self.gain_files:
-            for item in file.gains:
-                if item.m in self.ms and item.family == "hyperbolic":
-                    result.setdefault(item.m, item)
-        return result
-
-
-# --- A place of the map over m and k_v.
-
-
-@dataclass(frozen=True)
-class MapCell:
-    """What is proved and simulated for one m and one k_v, the same in every joint.
-
-    Args:
-        kv: N·m, as written.
-        eps0: the ε₀ that is proved, 1/s; none without.
-        settling: of the slowest joint, s; none where one does not settle.
-        share: the largest share of a motor's torque; none where no motor has a limit.
-        within_19: whether (19) holds.
-        certificate: the text of that of the ε₀, if one is proved.
-    """
-
-    m: int
-    kv: str
-    eps0: str | None
-    settling: float | None
-    share: float | None
-    within_19: bool
-    certificate: str | None = field(default=None, repr=False)
-
-    @property
-    def path(self) -> str:
-        """Where its certificate stands in a report."""
-        return f"certificates/map/m{self.m}.kv{self.kv}.json"
 
 
 # --- What a report shows of a gain set: its four ε₀ and its run, to digits that machines agree on.

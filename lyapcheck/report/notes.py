@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from lyapcheck.control.gains import proofs_folder
 
@@ -47,10 +47,7 @@ class Note:
     fails: str = ""
     consequence: str = ""
     repair: str = ""
-    left: str = "left side"
-    right: str = "right side"
     figure: str = ""
-    ask: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

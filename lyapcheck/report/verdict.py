@@ -5,20 +5,23 @@ Everything here is computed from verdicts; a report that could not decide someth
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.document import Bullets, Paragraph, Section, Table
 from lyapcheck.promise import all_say
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.jobs import BOUNDS, CLASS
+from lyapcheck.report.jobs import BOUNDS, CLASS, SAMPLED
 from lyapcheck.report.model import Report, applies, behind, keeps_limits
 from lyapcheck.report.notes import Box
-from lyapcheck.report.sampled import sampled_word
 from lyapcheck.report.text import and_list
+from lyapcheck.verdicts import Verdict
 
 THIS_ARM = "arm.stable"
 """The claim that says the same of the arm and the gains at hand."""
@@ -71,13 +74,10 @@ def badges(report: Report) -> tuple[Badge, ...]:
     parts = (passed, "passes", "pass"), (failed, "does not", "do not")
     words = [f"{_members(rows)} {one if len(rows) == 1 else more}" for rows, one, more in parts if rows]
     tables = Badge("tables", f"{', '.join(words)}; {slips} misprints", tone)
-    differs = report.weighing("D")
-    if report.sensitivity is None:
-        experiment = Badge("experiment", "not compared", "open")
-    else:
-        experiment = Badge(
-            "experiment", "not explained" if differs else "explained", "warn" if differs else "good"
-        )
+    wrong = len(report.weighing("D"))
+    experiment = Badge("experiment", "nothing refuted", "open")
+    if wrong:
+        experiment = Badge("experiment", f"{wrong} statement{'s' if wrong > 1 else ''} refuted", "warn")
     word, all_shown = sampled_word(report) or ("not asked", False)
     computer = Badge(
         "on a computer", word, "good" if all_shown else "open" if word == "not asked" else "warn"
@@ -226,3 +226,51 @@ def _of_gains(row: GateResult) -> Badge:
     (said,) = GateAnswer((row,)).data()["results"]
     tones = {ACCEPTED: "good", REJECTED: "bad" if row.stable is None or not keeps_limits(row) else "warn"}
     return Badge(row.name, said["standing"], tones.get(row.verdict, "open"))
+
+
+# --- The loop on a computer in a report: a tile, and a card with what its claims suppose.
+
+
+def sampled_rows(report: Report, *, members: bool = False) -> list[ClaimRow]:
+    """The claims, or only those about a member as the paper ran it."""
+    names = {f"sampled.m{m}" for m in report.ms}
+    rows = [row for row in report.others if row.proof == Path(SAMPLED).stem]
+    return [row for row in rows if row.id in names] if members else rows
+
+
+def sampled_word(report: Report) -> tuple[str, bool] | None:
+    """For which m it is proved as it was run, and whether for all; ``None`` without such claims."""
+    rows = sampled_rows(report, members=True)
+    shown = [row for row in rows if row.verdict is Verdict.PROVED]
+    left = [row for row in rows if row not in shown]
+    asked = [row.decision.promise.asked for row in shown if row.decision.promise is not None]
+    periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
+    at, promises = " and".join(sorted(periods)), [row.decision.promise for row in shown]
+    stable = all_say(promises, f"stable{at} under suppositions") if shown else ""
+    parts = [f"{_suffixes(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
+    return ("; ".join(parts), not left) if rows else None
+
+
+def _suffixes(rows: list[ClaimRow]) -> str:
+    return f"m = {and_list([row.id.removeprefix('sampled.m') for row in rows])}"
+
+
+def sampled_section(report: Report) -> Iterator[Section]:
+    """Each claim and what became of it, and what all of them suppose."""
+    rows = sampled_rows(report)
+    if not rows:
+        return
+    first = next((row for row in rows if row.decision.granted), rows[0])
+    became = ("; ".join(filter(None, (row.decision.word, row.decision.reason))) for row in rows)
+    table = tuple((row.id, f"“{row.comment}”", word) for row, word in zip(rows, became, strict=True))
+    words = (
+        "The theorem is about a torque that changes all the time; a computer holds it between readings. "
+        "These claims are about gains of Table 2, with the friction and gravity that are printed, and any "
+        f"inertia. They suppose, here {first.id}:"
+    )
+    blocks = (
+        Paragraph(words),
+        Bullets(first.decision.granted),
+        Table(("claim", "the author's words", "became"), table, align="lll"),
+    )
+    yield Section("On the computer that runs it", blocks)

@@ -18,16 +18,12 @@ from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.check.loop.schur import Centred, Errors, form, of_error, transformed, triangle
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative
-from lyapcheck.intervals import Interval, inverse_one_plus, norm, unit_vector
-from lyapcheck.intervals.arm import ArmBox, combine
-from lyapcheck.search.cover import Chooser, Prover
-from lyapcheck.search.cuts import Splitter
-from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.cover import Chooser, Prover, SchurProblem, Splitter
+from lyapcheck.search.interval import Interval, inverse_one_plus, norm, unit_vector
+from lyapcheck.search.interval_arm import ArmBox, combine
 
 SURELY = 1e-9
 """What a pivot has to exceed, beside its value in the middle: rounding is not directed."""
-
-
 SMALL = 1.0
 """Length of sides, rad, below which slopes are tried."""
 

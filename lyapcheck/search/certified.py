@@ -1,4 +1,14 @@
-"""The largest ε₀ that branch and bound proves, approached from below a falsified one."""
+"""The largest ε₀ that branch and bound proves, approached from below a falsified one.
+
+P(q, e) of ``lyapcheck.check.loop`` must be positive definite for all q on the torus, all e, and all
+values of what is uncertain about the arm. Boxes are enclosed in intervals, kept if P ≻ 0, else halved.
+
+- **Infinity.** For ‖e‖ ≥ R the scalar form proves dV/dt < 0; boxes outside that ball are not looked at.
+- **Origin.** ê = e/‖e‖ has no value at e = 0; its enclosure [−1, 1]ⁿ covers every direction, so boxes that
+  touch e = 0 are proved for all of them, e = 0 (where ê counts as 0) included.
+- **Symmetry.** Errors that a change of signs turns into others are looked at once, and angles that M does not
+  depend on are held at 0.
+"""
 
 from __future__ import annotations
 
@@ -7,24 +17,44 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+import numpy as np
+
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
+from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS
+from lyapcheck.search.centred import judge_of
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
+from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, CoverOutcome, SchurProblem, cover
 from lyapcheck.search.link_bounds import linked_epsilon
-from lyapcheck.search.proof import DecreaseProof
-from lyapcheck.search.schur import SchurProblem
+
+
+def certify(
+    problem: SchurProblem, max_boxes: int, on_progress: Progress | None = None, deadline: float = math.inf
+) -> CoverOutcome:
+    """Look for a tree of boxes that proves dV/dt < 0 everywhere for one ε₀, or say why there is none.
+
+    Args:
+        problem: what must be positive definite.
+        deadline: by the computing time of `lyapcheck.computing`, s.
+
+    Soundness: the tree of the outcome is a proposal for ``lyapcheck.check.loop.proves``.
+    """
+    loop = problem.loop
+    if certifies(loop.tail, loop.eps0):
+        return CoverOutcome(True, 0, tree=".")
+    start = np.array(loop.start).T[None]
+    prove, sides = judge_of(problem)
+    return cover(start, prove, sides, max_boxes, on_progress, deadline)
+
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
 """Shares of the falsified ε₀ that are tried first, in turn; where boxes are few, the last one at once."""
 SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
 """Those that are tried one after the other where not even the first of these is proved."""
-
 _CHECKING = 0.8
 """The share of the work done when the checker begins."""
 ENOUGH = Fraction(9, 10)

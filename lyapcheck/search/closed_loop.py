@@ -18,12 +18,7 @@ if TYPE_CHECKING:
 
 
 def closed_loop_of(
-    gains: GainSet,
-    model: Plant,
-    eps0: Fraction,
-    *,
-    ranges: bool = False,
-    coupling: tuple[Fraction, ...] = (),
+    gains: GainSet, model: Plant, eps0: Fraction, *, ranges: bool = False, coupling: tuple[Fraction, ...] = ()
 ) -> ClosedLoop:
     """(11) with V of (13), or of y = w − εΛh where a diagonal of Λ is given, at one ε₀.
 

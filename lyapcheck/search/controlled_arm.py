@@ -3,28 +3,98 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from lyapcheck._types import Array
-from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
+from lyapcheck._types import SEED, Array
+from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
+from lyapcheck.check.kinds.inertia import Bisection, Links, MassAbove, MassAtCorners, PostureWitness
 from lyapcheck.check.loop.closed_loop import ClosedLoop, corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
+from lyapcheck.computing import shared_between
+from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves, refutes
 from lyapcheck.errors import argument_error
 from lyapcheck.family import Family, named
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.libraries import installed
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
-from lyapcheck.search.proof import DecreaseProof
 
 if TYPE_CHECKING:
+    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
+    from lyapcheck.check.kinds.decreasing import BoxTree
+    from lyapcheck.check.kinds.link_bounds import LinkBounds
+    from lyapcheck.check.statement import Proof, Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.robots.numeric import NumericModel
-    from lyapcheck.search.proof import RateData
+
+    RateData = BoxTree | LinkBounds
+    """What may show dV/dt < 0."""
+
+
+@dataclass(frozen=True)
+class DecreaseProof:
+    """A closed loop, and the data by which M ≻ 0 and dV/dt < 0 are to be shown for it.
+
+    ``judged`` is what the checker says, where it was asked.
+    """
+
+    loop: ClosedLoop
+    by: RateData
+    inertia: Bisection | Links | MassAtCorners
+    judged: JudgedStatement | None = field(default=None, kw_only=True, compare=False)
+
+    @property
+    def eps0(self) -> Fraction:
+        """ε₀."""
+        return self.loop.eps0
+
+    @property
+    def coupling(self) -> tuple[Fraction, ...]:
+        """Diagonal of Λ; empty for (13)."""
+        return self.loop.coupling
+
+    @property
+    def boxes(self) -> int:
+        """How many boxes the data consist of."""
+        return self.by.tree.count(".")
+
+    @property
+    def statement(self) -> Statement:
+        """What is proved."""
+        return statement_of(self.loop)
+
+    @property
+    def certificate(self) -> Proof:
+        """The proof as certificates bring it forward."""
+        return PositiveAndDecreasing(self.inertia, self.by)
+
+    def accepted(self, jobs: int = 1) -> DecreaseProof | None:
+        """The same with the verdict of the checker, in so many processes; ``None`` where it refuses."""
+        with shared_between(jobs):
+            judged = judged_statement(self.statement, [self.certificate])
+        return replace(self, judged=judged) if judged.shown == "proved" else None
+
+
+@dataclass(frozen=True)
+class ChainProof:
+    """The same of links whose M(q) is too long to be written out, judged by the checker."""
+
+    statement: ChainDecreasing
+    certificate: Proof
+    judged: JudgedStatement
+    coupling: tuple[Fraction, ...] = ()
+    boxes: int = 0
+
+    @property
+    def eps0(self) -> Fraction:
+        """ε₀."""
+        return self.statement.eps0
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,3 +257,47 @@ class ControlledArm:
 
         unit = math.degrees(1.0) if self.per_degree else 1.0
         return np.array([float(gain) * unit for gain in gains])
+
+
+# --- Whether an arm is physical: M(q) ≻ 0 as the checker shows it, or a posture at which it is not.
+
+
+POSTURES = 20_000
+DIGITS = 4
+
+
+def unphysical(controlled: ControlledArm) -> str:
+    """Why no V of this arm is a Lyapunov function, in one sentence; empty where M(q) ≻ 0 is proved."""
+    loop = controlled.loop(Fraction(1))
+    statement = MassAbove(loop.arm.mass, loop.parameters, Fraction(0))
+    if proves(statement, controlled.inertia_proof):
+        return ""
+    against = _against(controlled, loop.parameters)
+    if against is None or not refutes(statement, against):
+        return "M(q) is not shown to be positive definite; lyapcheck robot says what is known of the arm"
+    q = ", ".join(map(decimal_text, against.q))
+    return f"M(q) is not positive definite at q = ({q}) rad; correct the masses and inertias"
+
+
+def _against(
+    controlled: ControlledArm, parameters: tuple[tuple[Fraction, Fraction], ...]
+) -> PostureWitness | None:
+    """The nominal arm where M(q) is the least of many postures; ``None`` where that is positive.
+
+    None is looked for without NumPy.
+    """
+    if not installed("numpy"):
+        return None
+    import numpy as np
+
+    q = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (POSTURES, controlled.n))
+    q = np.round(q, DIGITS)
+    sizes, vectors = np.linalg.eigh(controlled.numeric.mass(q))
+    worst = int(np.argmin(sizes[:, 0]))
+    if not sizes[worst, 0] < 0:
+        return None
+    nominal = [number.value for number in controlled.ranged.parameters.values()]
+    if len(nominal) != len(parameters):
+        return None
+    angles, x = (tuple(Fraction(repr(float(v))) for v in row) for row in (q[worst], vectors[worst][:, 0]))
+    return PostureWitness(angles, tuple(nominal), x)

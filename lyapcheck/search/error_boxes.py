@@ -17,11 +17,10 @@ from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import Box
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.family import named
-from lyapcheck.intervals import Interval
-from lyapcheck.intervals.arm import dh_range, h_range
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, CoverOutcome
-from lyapcheck.search.cuts import Nodes, halve
+from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, CoverOutcome, Nodes, halve
+from lyapcheck.search.interval import Interval
+from lyapcheck.search.interval_arm import dh_range, h_range
 
 MULTIPLIERS = (-2, 0)
 """Of l, as powers of √2."""
@@ -212,7 +211,6 @@ def _units(low: Array, high: Array) -> tuple[Array, Array]:
 
 Shares = tuple[tuple[float, ...], ...]
 """Of U, then of Q_2, …, Q_n: the cost of each entry in units of b, of mean 1."""
-
 ERROR_COSTS_MULTIPLIERS = (-2, -1, 0, 1)
 """Of l, as powers of √2."""
 SAMPLES, KEPT, NEIGHBOURS, STEPS = 2_000, 20, 15, 6

@@ -17,10 +17,9 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.computing import computing_time
 from lyapcheck.constants.storage import energy_problem, prices_shown, propose, rate_problem
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
-from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import RESISTS
 from lyapcheck.search.error_boxes import ErrorBoxes, ErrorCosts, Shares
-from lyapcheck.search.proof import DecreaseProof
 
 SHARES = tuple(Fraction(n, 100) for n in (30, 50, 60, 70, 75, 80, 83, 85, 87, 90, 93, 95, 97))
 """Shares of the falsified ε₀ that are tried one after the other; then the middle below the one that fails."""
@@ -34,11 +33,7 @@ _MARGIN = 1e-6
 
 
 def linked_epsilon(
-    controlled: ControlledArm,
-    ceiling: Fraction,
-    max_boxes: int,
-    deadline: float,
-    progress: Progress,
+    controlled: ControlledArm, ceiling: Fraction, max_boxes: int, deadline: float, progress: Progress
 ) -> tuple[DecreaseProof | None, int, str]:
     """The proof of the largest share of a ceiling, by bounds along the links; boxes looked at; why no more.
 

@@ -25,12 +25,10 @@ from lyapcheck._types import SEED, Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.convex import solved
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.certified import MAX_BOXES
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.certified import MAX_BOXES, certify
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
+from lyapcheck.search.cover import SchurProblem
 from lyapcheck.search.sample import States, fast
-from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.worst_states import SOFTEST, resisting_program
 
 SAMPLES = 20_000

@@ -11,7 +11,6 @@ import numpy as np
 from lyapcheck._types import Array
 
 Field = Callable[[float, Array], Array]
-
 MAX_STEPS = 200_000
 """Steps of one integration; the paper's runs take about 500."""
 
@@ -112,13 +111,10 @@ def _step(solver: Any) -> str | None:
 
 PARTS = 4
 """Of each step of the integrator, at the ends of which extremes are looked for."""
-
 CUTS = 8
 """Of the interval that holds an extreme, in each round; two of them hold it in the next."""
-
 ROUNDS = 7
 """Then the interval is 4⁷ times shorter, and a smooth signal off its extreme by 4⁻¹⁴ of what it was."""
-
 Signals = Callable[[Trajectory], Array]
 """A solution at N times to (N, k) numbers of which the extremes matter."""
 

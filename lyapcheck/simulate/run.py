@@ -11,13 +11,27 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
-from lyapcheck.simulate.confirm import Sample
 from lyapcheck.simulate.task import Gains, Task
 
 if TYPE_CHECKING:
     from lyapcheck.control.sampling import LoopRecord
 
 LIMIT_CYCLE, FALLS = "limit cycle", "falls"
+Row = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A sample of a run: q and e in rad, w in rad/s, and q̇_d, q̈_d where the goal moves (empty: at rest).
+
+    For a moving goal w = q̇ − q̇_d.
+    """
+
+    q: Row
+    e: Row
+    w: Row
+    speed: Row = ()
+    acceleration: Row = ()
 
 
 @dataclass(frozen=True)

@@ -15,21 +15,17 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
+
 LONGEST = 3600.0
 """Seconds of motion that one run may cover."""
-
 SHORTEST = 1e-6
 """Seconds: less is a slip of units, and no arm moves in it."""
-
 LARGEST_EPS0 = 1e9
 """ε₀ of V: what arms admit is about 1, and squares of it must stay in range."""
-
 FASTEST = 1e3
 """rad/s: no arm turns faster, and a request beyond it is a slip of units."""
-
 FARTHEST = 1e3
 """rad: about 160 turns of a joint."""
-
 MOST_POINTS = 2_000_000
 """Samples of one run."""
 
@@ -119,7 +115,6 @@ def _vector_problems(
 
 
 _QUARTER = math.pi / 4
-
 PAPER_TASK = Task(q_d=(_QUARTER, _QUARTER, 2 * _QUARTER), q0=(0.0, 0.0, 0.0), w0=(0.0, 0.0, 0.0), T=5.0)
 """The published experiment: (45, 45, 90)° from rest at home, 5 s.
 

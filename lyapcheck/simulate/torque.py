@@ -31,7 +31,7 @@ from lyapcheck.lyapunov.scalar import scalar_form
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.simulate.breach import Monitor
-from lyapcheck.simulate.reference.base import BITS, above
+from lyapcheck.simulate.reference import BITS, above
 
 if TYPE_CHECKING:
     from lyapcheck.search.controlled_arm import ControlledArm

@@ -18,10 +18,9 @@ from lyapcheck.errors import InputError, Problem, argument_problem
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import Monitor, fall_monitor, joint_monitor, limit_monitor, rate_monitor
-from lyapcheck.simulate.course import Course, Loop
+from lyapcheck.simulate.closed_loop import Course, Loop
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
-from lyapcheck.simulate.reference import Reference, Suprema
-from lyapcheck.simulate.reference.base import SECONDS
+from lyapcheck.simulate.reference import SECONDS, Reference, Suprema
 from lyapcheck.simulate.results import BAND, imbalance, l2_of, motion_of
 from lyapcheck.simulate.run import Motion
 from lyapcheck.simulate.task import FASTEST, Setup, Task, gains_for, task_for
@@ -127,20 +126,17 @@ def request_for(
             argument_problem("band", f"{math.degrees(band):g}", rule, "give degrees, for instance 1")
         )
     if reference is not None:
-        problems += _reference_problems(n, reference, seconds)
+        problems += _reference_problems(n, reference)
     if problems:
         raise InputError(problems)
     return task
 
 
-def _reference_problems(n: int, reference: Reference, T: float) -> Iterator[Problem]:
+def _reference_problems(n: int, reference: Reference) -> Iterator[Problem]:
     write = "write another reference file"
     if reference.n != n:
         rule = f"moves {reference.n} joints, but the arm has {n}"
         yield argument_problem("reference", reference.kind, rule, write)
-    if reference.span is not None and reference.span < T:
-        rule = f"is longer than the recording, which ends at {reference.span:.6g} s"
-        yield argument_problem("T", f"{T:g}", rule, "give a shorter time")
     speed = reference.suprema().speed
     if speed > FASTEST:
         rule = f"moves at {float(speed):.3g} rad/s, more than {FASTEST:g} rad/s"
@@ -184,8 +180,6 @@ def tracking_loop(gains: Gains, model: RobotModel) -> Loop:
 
 SHARE = Fraction(1, 2)
 """ε₀ as a share of the largest one for which Θ' is positive definite: there the form is singular."""
-
-
 UNBOUNDED = "h is unbounded, and Θ' needs its bound γ"
 NO_EPS0 = "no ε₀ > 0 makes Θ' positive definite; λmin(B) and λmin(K_p) must be positive"
 
@@ -202,8 +196,6 @@ class Tracking(Course[TrackingRun]):
         band: rad.
         points: samples of the run.
     """
-
-    easier = 100.0  # only W feels the kinks of a recorded q̈_d, and it is no more than a check
 
     def __init__(
         self,
@@ -308,29 +300,15 @@ def track(
 ) -> TrackingRun:
     """Move an arm along a reference under (21).
 
-    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with e = q_d(t) − q and w = q̇ − q̇_d. The
-    integration is done twice, the second time ten times tighter; the second is handed back and their
-    difference is its ``accuracy``.
+    ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with e = q_d(t) − q and w = q̇ − q̇_d, integrated
+    twice as `lyapcheck.simulate.closed_loop.simulate` does.
 
-    Args:
-        gain_set: the controller, of any family, or the path of a gain file with one gain set.
-        model: the arm, its name or its file; uncertain parameters are at their nominal values.
+    Args, and what is raised, as there, but for:
         reference: q_d(t).
-        q0: (n,) start in rad; home if missing.
         velocity: (n,) initial q̇ in rad/s; rest if missing.
         T: seconds; what the reference asks for if missing.
         eps0: the ε₀ of V; half of the largest for which Θ' is positive definite at v_d if missing.
         band: rad, for the time from which on each |e_i| stays within it.
-        points: samples handed back, evenly spaced, both ends included.
-        tolerance: relative tolerance of the first integration.
-        max_steps: a budget for each integration.
-        stop: end the run at the first state that breaks a promise.
-        on_progress: receives the fraction done.
-
-    Raises:
-        InputError: a request the arm or the reference cannot meet.
-        SimulationFailed: the integrator gave up; carries what was reached.
-        PromiseBroken: a promise was broken; carries the run up to that state.
 
     Examples:
         >>> from fractions import Fraction as F

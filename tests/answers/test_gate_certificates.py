@@ -25,8 +25,7 @@ from lyapcheck.control.judgement import JudgedStatement, degrees_above
 from lyapcheck.errors import InputError
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
 

@@ -67,9 +67,7 @@ name = {joint}
 viscous = {{ value = 0.5, assumed = true, source = {source}, note = {note} }}
 """
 GAINS = "[[gains]]\nname = {name}\nm = 1\nkp = [3]\nkv = [0.2]\n"
-REFERENCE = 'kind = "recorded"\nfile = {file}\n'
-MOTION = "t [s],q1 [deg]\n" + "".join(f"{t / 10},{t}\n" for t in range(20))
-FILE = "=a|<script>$b$`.csv"
+REFERENCE = 'kind = "sine"\namplitude = [9]\nfrequency = [1]\n'
 
 
 def toml(text):
@@ -94,8 +92,7 @@ def folder(tmp_path_factory):
     sets = "\n".join(GAINS.format(name=toml(name)) for name in NASTY)
     (place / "gains.toml").write_text('robot = "arm.toml"\n' + sets)
     (place / "one.toml").write_text('robot = "arm.toml"\n' + GAINS.format(name=toml(" ".join(NASTY))))
-    (place / "reference.toml").write_text(REFERENCE.format(file=toml(FILE)))
-    (place / FILE).write_text(MOTION)
+    (place / "reference.toml").write_text(REFERENCE)
     return place
 
 
@@ -270,7 +267,6 @@ PLACES = {
         "viscous = {{ value = 1, assumed = true, note = {} }}\n",
     ),
     "urdf": ("arm.toml", 'title = "a"\nurdf = {}\n'),
-    "file": ("reference.toml", REFERENCE.replace("{file}", "{}")),
     "kind": ("reference.toml", "kind = {}\n"),
 }
 READERS = {

@@ -25,9 +25,9 @@ from lyapcheck.output.answer import Level
 from lyapcheck.output.document import Section, Table
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.many import Starts, sweep
 from lyapcheck.simulate.reference import MinimumJerk
 from lyapcheck.simulate.run import Run, SimulationFailed
-from lyapcheck.simulate.starts import Starts, sweep
 from lyapcheck.simulate.task import PAPER_TASK
 from lyapcheck.simulate.tracking import track
 from lyapcheck.simulate.trial import experiment

@@ -17,7 +17,7 @@ from lyapcheck.check.certificate import judge, parse, read
 from lyapcheck.cli.main import main
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.starts import Starts, sweep
+from lyapcheck.simulate.many import Starts, sweep
 from lyapcheck.simulate.task import PAPER_TASK
 from tests.helpers.shares import one_in
 
@@ -96,19 +96,6 @@ def test_tracking_in_words(lyapcheck, single, wave):
     assert "Reference: sine of (20, 30)°" in page
     assert "| within 5° from \\[s\\] |" in page
     assert "| shoulder |" in page
-
-
-def test_a_recording_lasts_as_long_as_it_was_recorded(lyapcheck, single, tmp_path):
-    rows = "\n".join(f"{k / 10},{k * k / 10},0" for k in range(9))
-    (tmp_path / "motion.csv").write_text(f"t [s],q1 [deg],q2 [deg]\n{rows}\n", encoding="utf-8")
-    file = tmp_path / "recorded.toml"
-    file.write_text('kind = "recorded"\nfile = "motion.csv"\n', encoding="utf-8")
-    done = lyapcheck(single, "--reference", file, "--format", "json")
-    assert done.returncode == 0
-    assert {result["time"] for result in json.loads(done.stdout)["results"]} == {0.8}
-    longer = lyapcheck(single, "--reference", file, "--time", 2)
-    assert longer.returncode == 2
-    assert "--time = 2: is longer than the recording, which ends at 0.8 s" in longer.stderr
 
 
 @pytest.mark.slow

@@ -38,7 +38,7 @@ from lyapcheck.files.loop import NOTHING
 from lyapcheck.output.formats import Format
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.starts import Starts
+from lyapcheck.simulate.many import Starts
 from lyapcheck.simulate.task import PAPER_TASK, task_for
 from lyapcheck.verdicts import Exit
 from tests.helpers.command import invoke

@@ -5,7 +5,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from lyapcheck import load_robot, paper_gain_file, read_gain_file
-from lyapcheck.simulate.batch import simulate_many
+from lyapcheck.simulate.many import simulate_many
 
 from .by_hand import batch
 from .measure import Disagreement, states_per_second

@@ -15,9 +15,9 @@ from lyapcheck.check.numbers.members import member
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.kernel.arms import _finer
 from lyapcheck.robots import load
-from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.cover import SchurProblem
 
 F = Fraction
 FUNCTIONS = [("hyperbolic", m) for m in (1, 2, 3, 6)] + [

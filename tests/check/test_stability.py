@@ -26,9 +26,9 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.cover import SchurProblem
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -312,9 +312,9 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path):
         "from lyapcheck import load_robot, paper_gain_file, read_gain_file\n"
         "from lyapcheck.check.loop import proof\n"
         "from lyapcheck.computing import shared_between\n"
-        "from lyapcheck.search.branch_and_bound import certify\n"
+        "from lyapcheck.search.certified import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
-        "from lyapcheck.search.schur import SchurProblem\n"
+        "from lyapcheck.search.cover import SchurProblem\n"
         "gains = read_gain_file(paper_gain_file('table2_shoulder_elbow')).gains[0]\n"
         "loop = ControlledArm(gains, load_robot('reyes-kelly2')).loop(Fraction(7, 10))\n"
         "proof.WORTH_SHARING = 0\n"

@@ -19,9 +19,9 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.cover import SchurProblem
 from lyapcheck.search.weights import Effort, weighted_epsilon
 from lyapcheck.search.worst_states import resisting_program
 from tests.helpers.shares import one_in

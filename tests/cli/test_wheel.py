@@ -89,20 +89,8 @@ def test_the_wheel_carries_everything_that_is_read_at_run_time(wheel):
         there = [name for name in listed if name]
         assert there
         assert {place + name.removeprefix(folder) for name in there} <= held
-    for name in studies():
-        assert f"lyapcheck/report/{name}.json" in held
     assert not [name for name in held if name.startswith(("tests/", "proofs/", "examples/", "formal/"))]
     assert not [name for name in held if name.endswith((".vo", ".glob", ".pyc"))]
-
-
-def studies():
-    """The results of studies that the code reads."""
-    texts = [path.read_text(encoding="utf-8") for path in (CHECKOUT / "lyapcheck" / "report").rglob("*.py")]
-    return {name for text in texts for name in re.findall(r'study_file\("(\w+)"\)', text)}
-
-
-def test_studies_are_found():
-    assert studies() == {"gain_map", "printed_experiment"}
 
 
 def test_python_finds_the_wheel_and_not_the_checkout(installed, elsewhere):

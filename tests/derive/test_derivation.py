@@ -13,8 +13,8 @@ import lyapcheck
 from lyapcheck import answers, robots
 from lyapcheck.answers.derive import rows
 from lyapcheck.derive import lyapunov
-from lyapcheck.derive.arm import written_arm
 from lyapcheck.derive.family import Member, S, X, member, positive_roots
+from lyapcheck.derive.lyapunov import written_arm
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Document
 from tests.family.same_function import hyperbolic_printed, same_function

@@ -27,7 +27,7 @@ def folders(top):
     return {path.name for path in inner if any("__pycache__" not in file.parts for file in path.rglob("*.*"))}
 
 
-@pytest.mark.parametrize("top", ["lyapcheck", "studies", "tests"])
+@pytest.mark.parametrize("top", ["lyapcheck", "tests"])
 def test_the_map_has_the_folders_that_there_are(top):
     """What is inside a folder stands in its row as ``inner/``: its folders, and all with modules in them."""
     mapped = set()

@@ -14,19 +14,17 @@ READERS = {
 }
 OURS = {
     ("answers/explain.py", "_cited"): "the bibliography of the package",
-    ("compiled/loop.py", "source"): "source of the package",
+    ("lyapunov/loop.py", "source"): "source of the package",
     ("export/controller.py", "texts"): "source of the package",
     ("cli/commands/export.py", "_free"): "what export has written before, whose size is looked at first",
-    ("compiled/compiler.py", "library"): "what the compiler has just written to a folder of ours",
+    ("lyapunov/compiler.py", "library"): "what the compiler has just written to a folder of ours",
     ("kernel/coq.py", "_compile_library"): "the library of the package",
     ("kernel/coq.py", "sources"): "the library of the package",
     ("kernel/coq.py", "golden"): "the library of the package",
     ("kernel/coq.py", "_record"): "a record of the package",
     ("kernel/coq.py", "_definitions"): "the library of the package",
     ("rechecking/trusted.py", "_imported"): "source of the package",
-    ("report/gain_map.py", "kept_map"): "a study of the package",
-    ("report/experiment.py", "printed_experiment"): "a study of the package",
-    ("report/figures/style.py", "_with_palette"): "a picture in memory",
+    ("report/plots.py", "_with_palette"): "a picture in memory",
     ("report/notes.py", "published_notes"): "a proof of the package",
     ("report/page/shell.py", "raw"): "style and script of the package",
     ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",
@@ -43,7 +41,7 @@ OF_THE_SYSTEM = {
     ("claims/script_process.py", "_only_ours"): "the null device",
     ("cli/main.py", "_require_output"): "the null device",
     ("cli/main.py", "_drop"): "the null device",
-    ("compiled/compiler.py", "_processor"): "/proc",
+    ("lyapunov/compiler.py", "_processor"): "/proc",
     ("process_tree.py", "_below"): "/proc",
 }
 KNOWN = READERS | OURS | WRITTEN | OF_THE_SYSTEM

@@ -30,8 +30,6 @@ BESIDE_PROOF = {
     "answers/bounds.py:_times": "degrees that the user gave, of simulated runs",
     "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
     "answers/robot/answer.py:constant_data": "the gap of numeric ends, for programs",
-    "report/gain_map.py:_cell": "k_v as it was given, and simulated numbers",
-    "report/page/gains.py:_cell": "one simulated run",
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
 SEEN = {

@@ -39,7 +39,6 @@ SAID = {
     "claims.procedures.parts": (1, "what parts are looked at for"),
     "claims.search_result": (2, "what a search proposes, which the rules are asked about before it is shown"),
     "answers.check.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
-    "claims.smallest": (1, CERTIFICATE),
     "cli.commands.simulate": (1, "the word of an option"),
     "cli.task": (5, "the word of an option"),
     "control.conditions": (2, "names handed on"),
@@ -49,12 +48,10 @@ SAID = {
     "rechecking.command": (3, SORTING),
     "report.compare": (5, SORTING),
     "report.evidence": (1, HEADING),
-    "report.figures.constants": (1, HEADING),
-    "report.jobs": (1, HEADING),
+    "report.plots_of_constants": (1, HEADING),
     "report.model": (3, SORTING),
     "report.page.claims": (1, SORTING),
-    "report.sampled": (1, "a sentence that promises alone may say"),
-    "report.verdict": (2, GATHERED),
+    "report.verdict": (3, "gathered, and a sentence that promises alone may say"),
     "verdicts": (6, "the words themselves, and exit codes"),
 }
 """Modules in which verdicts are written down: how often, and what for."""

@@ -33,7 +33,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.kernel import coq
 from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, formal, golden, sources
 from lyapcheck.kernel.judge import HEAD, judged, theorem_file
-from lyapcheck.kernel.sampled import sampled_script
+from lyapcheck.kernel.loops import sampled_script
 from lyapcheck.kernel.statements import proposition
 from tests.arena.sampled import ONE as ONE_JOINT
 from tests.arena.sampled import PRINTED, not_shown

@@ -70,7 +70,7 @@ def test_theta_bounds_the_rate_at_random_states(arm, m, eps0):
 
 @pytest.mark.parametrize("arm", ["pendulum1", "reyes-kelly2", "buap3"])
 @pytest.mark.parametrize(
-    "h", [family.hyperbolic(1), family.hyperbolic(3), family.linear()], ids=lambda h: h.name
+    "h", [family.hyperbolic(1), family.hyperbolic(3), family.named("linear")], ids=lambda h: h.name
 )
 def test_sharp_form_keeps_the_rate_negative_up_to_its_eps0(arm, h):
     gains, bounds = gains_for(robots.load(arm).n), sampled_bounds(arm)
@@ -135,7 +135,7 @@ def test_published_interval_is_empty_exactly_without_19():
 
 
 def test_gains_per_degree_are_rounded_to_the_safe_side():
-    bounds, constants = sampled_bounds("reyes-kelly2"), family.linear().constants()
+    bounds, constants = sampled_bounds("reyes-kelly2"), family.named("linear").constants()
     degrees = Diagonal((Fraction(1),) * 2, (Fraction(1),) * 2, "deg")
     form = sharp_form(degrees, constants, bounds)
     assert float(form.stiffness) == pytest.approx(np.degrees(1.0), rel=1e-12)

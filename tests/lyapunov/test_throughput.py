@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from lyapcheck import family, robots
-from lyapcheck.compiled import compiler as threads
-from lyapcheck.compiled import loop as loop_module
-from lyapcheck.compiled import loop as writer
-from lyapcheck.compiled.compiler import OFF, VECTORS, compiler
-from lyapcheck.compiled.loop import loop
+from lyapcheck.lyapunov import compiler as threads
+from lyapcheck.lyapunov import loop as loop_module
+from lyapcheck.lyapunov import loop as writer
 from lyapcheck.lyapunov import numeric as numeric_module
+from lyapcheck.lyapunov.compiler import OFF, VECTORS, compiler
 from lyapcheck.lyapunov.graph import lyapunov_graph
+from lyapcheck.lyapunov.loop import loop
 from lyapcheck.lyapunov.numeric import LARGE, LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.shares import one_in
@@ -22,10 +22,10 @@ KP, KV, EPS0 = (25.0, 50.0, 5.0), (0.25, 0.5, 0.125), 0.375
 EXPECTED = "numpy" if compiler() is None else "compiled"
 ARMS = ("pendulum1", "reyes-kelly2", "buap3")
 FAMILIES = [family.hyperbolic(m) for m in (1, 2, 3, 7, 64)] + [
-    family.tanh(),
-    family.arctan(),
-    family.algebraic(),
-    family.linear(),
+    family.named("tanh"),
+    family.named("arctan"),
+    family.named("algebraic"),
+    family.named("linear"),
 ]
 
 

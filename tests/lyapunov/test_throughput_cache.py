@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from lyapcheck import store
-from lyapcheck.compiled import compiler as compiler_module
-from lyapcheck.compiled.compiler import OFF, compile_library, compiler
-from lyapcheck.compiled.loop import compiled
+from lyapcheck.lyapunov import compiler as compiler_module
+from lyapcheck.lyapunov.compiler import OFF, compile_library, compiler
+from lyapcheck.lyapunov.loop import compiled
 
 COMPILES = compiler() is not None
 SOURCE = "int seven(void) { return 7; }\n"
@@ -152,7 +152,7 @@ def test_nothing_is_compiled_when_that_is_off(cache, compilations, monkeypatch):
 @pytest.mark.slow
 def test_many_processes_at_once_leave_one_whole_library(cache):
     code = (
-        "from lyapcheck.compiled.loop import compiled\n"
+        "from lyapcheck.lyapunov.loop import compiled\n"
         f"print(compiled(('one',), lambda: {SOURCE!r}) is not None)"
     )
     command, environment = [sys.executable, "-c", code], dict(os.environ)

@@ -21,9 +21,9 @@ import pytest
 from PIL import Image
 
 from lyapcheck.answers.gate.judge import judged_sets
+from lyapcheck.answers.table import build_table
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.claims.decision import Decision
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
@@ -35,17 +35,15 @@ from lyapcheck.promise import Promise
 from lyapcheck.report.build import build, render, write
 from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
-from lyapcheck.report.drawings import file_stem
-from lyapcheck.report.figures.motion import draw_errors, draw_torques, epsilon_plot, indices_plot
-from lyapcheck.report.figures.style import Plot
 from lyapcheck.report.findings import findings, own_findings
-from lyapcheck.report.jobs import done, map_job
+from lyapcheck.report.jobs import done
 from lyapcheck.report.model import EpsilonRow, RunRow, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
-from lyapcheck.report.sampled import sampled_section
+from lyapcheck.report.plots import Plot
+from lyapcheck.report.plots_of_runs import draw_errors, draw_torques, epsilon_plot, file_stem, indices_plot
 from lyapcheck.report.text import span_words, witness_words
-from lyapcheck.report.verdict import badges, chain, route, sentences
+from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Grade, Verdict
 
 VOID = {"meta", "link", "img", "br", "input"}
@@ -76,7 +74,7 @@ def test_every_format_is_there(files):
 def test_every_figure_is_there_in_three_forms(everything):
     figures = {Path(name) for name in everything if name.startswith("figures/")}
     stems = {figure.stem for figure in figures}
-    assert {"family", "damping", "sides_16_6", "indices", "epsilon", "tau_m1_errors"} <= stems
+    assert {"family", "damping", "indices", "epsilon", "tau_m1_errors"} <= stems
     assert {figure.name for figure in figures} == {
         f"{s}.{form}" for s in stems for form in ("svg", "png", "csv")
     }
@@ -143,23 +141,6 @@ def test_what_the_proposition_rests_on_weighs_most(report):
     assert {weights[name] for name in ("17a", "17c", "18", "8b")} == {"B"}
     assert {weights[name] for name in ("F.4.base", "T1.torque.pd.elbow")} == {"C"}
     assert [one.weight for one in report.findings] == sorted(one.weight for one in report.findings)
-
-
-def test_witnesses_are_small_and_their_certificates_are_accepted(report, tmp_path):
-    """Angles within π, no more joints than needed, and the checker agrees."""
-    small = {one.claims[0]: one.witness for one in report.findings if one.witness and one.witness.small}
-    assert {"16.6", "17a", "17c", "18", "8b"} <= set(small)
-    for witness in small.values():
-        angles = [Fraction(value) for name, value in witness.point.items() if re.fullmatch(r"[exq]\d*", name)]
-        assert all(abs(angle) <= Fraction(22, 7) for angle in angles)
-    assert [small[name].n for name in ("16.6", "17a", "17c", "18", "8b")] == [1, 2, 1, 1, 1]
-    assert small["16.6"].point["e1"] == "1"
-    for witness in small.values():
-        assert witness.certificate is not None
-        path = tmp_path / Path(witness.certificate).name
-        path.write_text(report.certificates[witness.certificate], encoding="utf-8")
-    outcome = recheck(gather([str(tmp_path)]))
-    assert {one.verdict for one in outcome.checked} == {"refuted"}
 
 
 def test_markdown_links_lead_somewhere(files):
@@ -240,14 +221,14 @@ NOTES = published_notes()
 
 def test_refuted_claims_become_one_finding_for_all_their_members():
     rows = [claim("a", 1, "refuted"), claim("a", 2, "refuted"), claim("b", 1, "proved")]
-    result = findings(NOTES, rows, {})
+    result = findings(NOTES, rows)
     assert [(item.subject, item.ms, item.weight) for item in result] == [("claim a", (1, 2), "B")]
     assert "1 is not ≤ 0 at x = 3/2" in result[0].text
 
 
 def test_a_refuted_claim_breaks_the_proof_where_the_proposition_rests_on_it():
     rows = [claim("a", 1, "refuted"), claim("b", 1, "proved", ("a",)), claim("P", 1, "undecided", ("b",))]
-    assert [item.weight for item in findings(NOTES, rows, {})] == ["A"]
+    assert [item.weight for item in findings(NOTES, rows)] == ["A"]
 
 
 def epsilon_row(**about):
@@ -264,7 +245,7 @@ def epsilon_row(**about):
     ],
 )
 def test_published_epsilons_are_held_against_the_others(row, count):
-    assert len(findings(NOTES, [], {}, [row])) == count
+    assert len(findings(NOTES, [], [row])) == count
 
 
 @pytest.mark.slow
@@ -283,7 +264,7 @@ def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path):
 
 def test_a_report_names_the_packages_that_its_computations_loaded():
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        before = pool.submit(done, map_job, "reyes-kelly2", {}, False).result()
+        before = pool.submit(done, build_table, (1,)).result()
         after = pool.submit(done, exec, "import sympy").result()
     assert {"lyapcheck", "python-flint"} <= before.packages
     assert after.packages - before.packages == {"sympy"}

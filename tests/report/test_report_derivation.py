@@ -20,7 +20,7 @@ TITLE = "What SymPy derives, and what the checker says of it"
 
 @pytest.fixture(scope="module")
 def report():
-    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings", "map"), ())
+    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
     return Report(
         robot=load("reyes-kelly2"),
         ms=(2,),
@@ -29,7 +29,6 @@ def report():
         table=build_table((2,)),
         derived=derive_job((2,), "reyes-kelly2"),
         gate=GateAnswer(()),
-        sensitivity=None,
         figures={},
         **empty,
     )

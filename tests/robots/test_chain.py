@@ -10,10 +10,10 @@ from flint import arb
 from lyapcheck import robots
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.errors import InputError
-from lyapcheck.intervals import Interval, cosine, sine
 from lyapcheck.robots import graph
 from lyapcheck.robots.dynamics import Chain, TooManyTerms
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.interval import Interval, cosine, sine
 from tests.helpers.robot_cases import circle
 from tests.helpers.urdf_texts import generic
 

@@ -10,9 +10,9 @@ from lyapcheck.check.loop.proof import proves
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load, names
-from lyapcheck.search.branch_and_bound import certify
+from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import SchurProblem
+from lyapcheck.search.cover import SchurProblem
 from tests.helpers.command import invoke
 
 F = Fraction

@@ -17,7 +17,7 @@ from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.constants.chain import chain_constant
+from lyapcheck.constants.arm import chain_constant
 from lyapcheck.errors import InputError
 from lyapcheck.robots import graph
 from lyapcheck.robots.numeric import NumericModel

@@ -16,14 +16,11 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search import certified, schur
-from lyapcheck.search.branch_and_bound import certify
-from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, linked_otherwise
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search import certified, cover
+from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, certify, linked_otherwise
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
+from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome, SchurProblem
 from lyapcheck.search.scalar_program import norm_epsilon
-from lyapcheck.search.schur import SchurProblem
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import generic
 
@@ -186,7 +183,7 @@ def test_every_state_lies_in_a_proved_leaf_or_in_the_tail(index):
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (-0.6, 0.8), (0.6, 0.8)])
 def test_errors_are_left_to_the_tail_from_its_radius_on(direction, monkeypatch):
     """Seen with a P that is never found positive definite: only the tail is left to prove anything."""
-    monkeypatch.setattr(schur, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
+    monkeypatch.setattr(cover, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
     task = problem("reyes-kelly2", 0, F(1, 2))
     for share, left in ((0.5, False), (0.999, False), (1.001, True)):
         point = np.array([0.0, *(share * task.loop.radius * np.array(direction))])

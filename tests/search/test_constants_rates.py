@@ -20,7 +20,7 @@ from lyapcheck.claims.arms import coriolis_bounded
 from lyapcheck.claims.bounds import ArmBounds
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.chain import extreme
+from lyapcheck.constants.arm import extreme
 from lyapcheck.constants.storage import BoundWithProof, storage_proof
 from lyapcheck.robots import load
 from lyapcheck.robots.dynamics import Chain

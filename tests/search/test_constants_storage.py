@@ -22,7 +22,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.constants import arm_constants
-from lyapcheck.constants.chain import extreme
+from lyapcheck.constants.arm import extreme
 from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel

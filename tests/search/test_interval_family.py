@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family import hyperbolic, named, names
-from lyapcheck.intervals import Interval
-from lyapcheck.intervals.arm import dh_range, h_range
+from lyapcheck.search.interval import Interval
+from lyapcheck.search.interval_arm import dh_range, h_range
 from tests.helpers.shares import one_in
 
 Array = NDArray[np.float64]

@@ -7,16 +7,15 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.compiled.compiler import OFF, compiler
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
-from lyapcheck.errors import InputError
+from lyapcheck.lyapunov.compiler import OFF, compiler
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.simulate import many as batch_module
 from lyapcheck.simulate import results as indices
-from lyapcheck.simulate.batch import Runs, simulate_many
-from lyapcheck.simulate.batch import simulate as batch_module
 from lyapcheck.simulate.closed_loop import simulate
+from lyapcheck.simulate.many import Runs, simulate_many
 from lyapcheck.simulate.task import PAPER_TASK, gains_for
 from tests.helpers.shares import but, one_in
 
@@ -148,27 +147,6 @@ def test_a_run_does_not_depend_on_its_company(monkeypatch):
     assert_same(simulate_many(sets, model, q_d, first, 1.0, w0=w0, motions=True), together)
 
 
-@pytest.mark.slow
-def test_uncertain_parameters_vary_from_run_to_run():
-    model = robots.load("buap3")
-    name, number = next(iter(model.parameters.items()))
-    values = [number.low, number.value, number.high]
-    runs = simulate_many(
-        TABLE2[1],
-        model,
-        PAPER_TASK.q_d,
-        [0, 0, 0],
-        1.0,
-        parameters={name: [float(x) for x in values]},
-        motions=True,
-    )
-    for k, value in enumerate(values):
-        fixed = model.fixed(**{name: Fraction(value)})
-        single = simulate(TABLE2[1], fixed, PAPER_TASK.q_d, T=1.0, points=501)
-        np.testing.assert_allclose(runs.q[k], single.q, rtol=0, atol=1e-8)
-    assert np.ptp(runs.L2) > 1e-3
-
-
 def test_v_is_that_of_the_certificate_and_falls():
     model, gain_set, eps0 = robots.load("reyes-kelly2"), SHOULDER_AND_ELBOW, 0.5
     q_d = np.array([0.5, 1.0])
@@ -205,33 +183,6 @@ def test_a_run_that_fails_is_marked_and_stops_no_other(engine, request):
     assert np.isnan(runs.peak_torque[1]).all()
     assert np.isnan(runs.settling[1]).all()
     assert np.all(runs.L2[[0, 2]] < 1e-6)
-
-
-@pytest.mark.parametrize(
-    ("change", "key"),
-    [
-        ({"starts": [[0.0, np.nan]]}, "starts[0, 1]"),
-        ({"starts": [[0.0, 0.0], [1e9, 0.0]]}, "starts[1, 0]"),
-        ({"starts": [[0.0, 0.0, 0.0]]}, "starts"),
-        ({"starts": np.zeros((0, 2))}, "starts"),
-        ({"starts": "home"}, "starts"),
-        ({"starts": np.zeros((3, 2)), "q_d": np.zeros((2, 2))}, "q_d"),
-        ({"q_d": [np.inf, 0.0]}, "q_d[0, 0]"),
-        ({"w0": [[1e4, 0.0]]}, "w0[0, 0]"),
-        ({"T": 0.0}, "T"),
-        ({"T": np.nan}, "T"),
-        ({"points": 1}, "points"),
-        ({"eps0": -1.0}, "eps0"),
-        ({"parameters": {"weight": 1.0}}, "parameter"),
-        ({"gain_set": gains(3)}, "gains"),
-        ({"gain_set": []}, "gain sets"),
-    ],
-)
-def test_what_an_arm_cannot_be_given_is_refused(change, key):
-    given = {"gain_set": gains(2), "q_d": [0.0, 0.0], "starts": [0.0, 0.0], "T": 1.0} | change
-    with pytest.raises(InputError) as refused:
-        simulate_many(model=robots.load("reyes-kelly2"), **given)
-    assert key in [problem.key for problem in refused.value.problems]
 
 
 def test_progress_rises_to_the_end():

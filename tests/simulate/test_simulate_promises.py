@@ -17,10 +17,9 @@ from lyapcheck.output.answer import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.simulate.breach import bound_monitor, fall_monitor, first_breach
+from lyapcheck.simulate.breach import bound_monitor, fall_monitor, first_breach, torques
 from lyapcheck.simulate.closed_loop import simulate
-from lyapcheck.simulate.confirm import Sample, torques
-from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
+from lyapcheck.simulate.run import PromiseBroken, Sample, SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, set_up
 from lyapcheck.verdicts import Exit
 from tests.helpers.shares import one_in

@@ -23,9 +23,17 @@ from lyapcheck.claims.arms import rate_of_mass
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.derive.arm import WrittenArm
 from lyapcheck.derive.family import Member, positive_roots
-from lyapcheck.derive.lyapunov import DEGREES, EPS0, derivation, matrices, terms_15, value_12, value_13
+from lyapcheck.derive.lyapunov import (
+    DEGREES,
+    EPS0,
+    WrittenArm,
+    derivation,
+    matrices,
+    terms_15,
+    value_12,
+    value_13,
+)
 from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Block, Equation, Paragraph
 from lyapcheck.promise import Promise, promised, told

@@ -36,11 +36,8 @@ from lyapcheck.search.certified import (
     linked_otherwise,
     links_follow,
 )
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.corners import falsify_corners
-from lyapcheck.search.falsify import STARTS, RisingState, falsify
-from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import ChainProof, DecreaseProof
+from lyapcheck.search.controlled_arm import ChainProof, ControlledArm, DecreaseProof, unphysical
+from lyapcheck.search.falsify import STARTS, RisingState, falsify, falsify_corners
 from lyapcheck.search.scalar_program import chain_epsilon, norm_epsilon
 from lyapcheck.search.weights import Effort, Weighted, usual_effort, weighted_epsilon
 

@@ -12,9 +12,8 @@ from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.constants import robot_bounds
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
-from lyapcheck.search.controlled_arm import ControlledArm
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.link_bounds import linked_proof
-from lyapcheck.search.proof import DecreaseProof
 from lyapcheck.search.scalar_program import ScalarResult, scalar_epsilon
 
 if TYPE_CHECKING:

@@ -16,9 +16,8 @@ if TYPE_CHECKING:
     from lyapcheck.check.loop.closed_loop import ClosedLoop
     from lyapcheck.control.gains import GainSet
     from lyapcheck.promise import Promise
-    from lyapcheck.search.controlled_arm import ControlledArm
+    from lyapcheck.search.controlled_arm import ChainProof, ControlledArm, DecreaseProof
     from lyapcheck.search.falsify import RisingState
-    from lyapcheck.search.proof import ChainProof, DecreaseProof
     from lyapcheck.search.weights import Weighted
 
 ROUNDED = Fraction(1, 10**8)

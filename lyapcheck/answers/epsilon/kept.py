@@ -28,10 +28,8 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.states import State
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.kept import KeptCertificates, remembered
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.corners import at_corner
-from lyapcheck.search.falsify import RisingState, confirmed
-from lyapcheck.search.proof import DecreaseProof
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
+from lyapcheck.search.falsify import RisingState, at_corner, confirmed
 from lyapcheck.search.weights import Weighted
 
 if TYPE_CHECKING:

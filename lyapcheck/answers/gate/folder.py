@@ -27,7 +27,7 @@ def certificates_of(file: GainFile) -> tuple[Certificate, ...]:
         return ()
     from lyapcheck.check import kinds
     from lyapcheck.check.certificate import certificate_of
-    from lyapcheck.check.files import Unreadable, content, gather
+    from lyapcheck.check.recheck import Unreadable, content, gather
 
     kinds.load()
     try:

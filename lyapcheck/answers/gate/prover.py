@@ -29,9 +29,7 @@ from lyapcheck.control.judgement import judged_statement
 from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
-from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.posture import unphysical
-from lyapcheck.search.proof import ChainProof, DecreaseProof
+from lyapcheck.search.controlled_arm import ChainProof, ControlledArm, DecreaseProof, unphysical
 from lyapcheck.search.scalar_program import REFUSED, chain_epsilon, norm_epsilon
 
 if TYPE_CHECKING:

@@ -82,10 +82,8 @@ def _asked(
     """The question from within so many degrees, or from as many as a statement has."""
     if not isinstance(stated, SampledFromRest):
         return None
-    assert record.period is not None
-    loop = SampledLoop(record.period, delay=record.delay)
     try:
-        asked = sampled_from_rest(gains, loop, arm, stated.within if within is None else within)
+        asked = sampled_from_rest(gains, record, arm, stated.within if within is None else within)
     except TooManyTerms:
         return None
     return replace(asked, viscous=viscous_of(arm, low))

@@ -31,8 +31,7 @@ from lyapcheck.output.digits import NONE, shown
 from lyapcheck.output.document import Block, Bullets, Section
 from lyapcheck.output.fields import Field
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.printed import printed_for
-from lyapcheck.simulate.results import BAND, SETTLING_BAND
+from lyapcheck.simulate.results import BAND, SETTLING_BAND, printed_for
 from lyapcheck.simulate.run import Run
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from lyapcheck.output.escapes import csv_text
 
 if TYPE_CHECKING:
+    from lyapcheck.simulate.many import Sweep
     from lyapcheck.simulate.run import Motion
-    from lyapcheck.simulate.starts import Sweep
 
 TRACKING = "tracking"
 SIGNALS = (("q", "rad", "q"), ("w", "rad/s", "w"), ("e", "rad", "e"), ("tau", "N.m", "tau"))

@@ -19,8 +19,8 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainFile
+    from lyapcheck.simulate.many import Sweep
     from lyapcheck.simulate.run import Breach, Motion, Run
-    from lyapcheck.simulate.starts import Sweep
     from lyapcheck.simulate.tracking import TrackingRun
 
 

@@ -23,7 +23,7 @@ from lyapcheck.answers.simulate.simulation import (
 from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.output.fields import Field, records
-from lyapcheck.simulate.starts import SHARES, Sweep, quantiles
+from lyapcheck.simulate.many import SHARES, Sweep, quantiles
 
 QUANTILES = tuple("least" if s == 0 else "most" if s == 1 else f"{100 * s:g} %" for s in SHARES)
 WITHOUT = "Of each quantity: its quantiles over the runs, and how many runs are without it."

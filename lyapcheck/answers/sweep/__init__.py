@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers.sweep.plan import Plan, read_plan
 from lyapcheck.answers.sweep.question import Answered, Row
 from lyapcheck.answers.sweep.workers import answers_here, answers_of_cluster, batches
-from lyapcheck.compiled.compiler import processors
+from lyapcheck.lyapunov.compiler import processors
 
 if TYPE_CHECKING:
     from pandas import DataFrame

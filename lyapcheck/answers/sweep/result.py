@@ -236,7 +236,7 @@ def stem(number: int, one: Map) -> str:
 
 def files(answer: SweepAnswer) -> dict[str, str | bytes]:
     """``index.html`` and ``sweep.json``, and each map as SVG, PNG and CSV, by their names in the folder."""
-    from lyapcheck.report.figures.heat import heat_plot
+    from lyapcheck.report.plots import heat_plot
 
     drawings: dict[str, str | bytes] = {}
     for number, one in enumerate(answer.maps, start=1):

@@ -15,7 +15,7 @@ from lyapcheck.claims.search_result import (
     shown,
     still_open,
 )
-from lyapcheck.constants.chain import extreme
+from lyapcheck.constants.arm import extreme
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import Number

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -34,13 +33,11 @@ def arguments(parser: Parser) -> None:
     add_robot(parser, "A built-in arm or an arm file.")
     about = "A gain file; the paper's Table 2 and its PD baseline if missing."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
-    about = "Compute the map over m and k_v for the page, some minutes; that of the paper's arm is at hand."
-    parser.add_argument("--map", action="store_true", help=about)
     about = "The folder to write to."
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("reports"), help=about)
     about = "Which of html, md, json and pdf, separated by commas."
     parser.add_argument("--format", metavar="FORMATS", default="html,md,json", help=about)
-    about = "Let the PDF go on with claims, gate, runs and the experiment one by one."
+    about = "Let the PDF go on with claims, gate and runs one by one."
     parser.add_argument("--appendix", action="store_true", help=about)
     about = "An older report (its folder or report.json): what changed goes to compare.html, .md and .json."
     parser.add_argument("--compare", metavar="OLD", type=Path, help=about)
@@ -52,7 +49,6 @@ def run(
     m: list[str],
     robot: str | None,
     gains: Path | None,
-    map: bool,  # noqa: A002
     out: Path,
     format: str,  # noqa: A002
     appendix: bool,
@@ -79,7 +75,7 @@ def run(
     if "pdf" in formats:
         require_typst()
     old = None if compare is None else read_report(compare)
-    subject = replace(_subject(",".join([*m, *members]), robot, gains), map=map)
+    subject = _subject(",".join([*m, *members]), robot, gains)
     open_folder("--out", out)
     with progress("report") as advance:
         report = build(subject, advance)

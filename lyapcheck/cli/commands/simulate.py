@@ -47,9 +47,9 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.bench import Bench
+    from lyapcheck.simulate.many import Starts, Sweep
     from lyapcheck.simulate.reference import Reference
     from lyapcheck.simulate.run import Motion, Run
-    from lyapcheck.simulate.starts import Starts, Sweep
     from lyapcheck.simulate.task import Task
     from lyapcheck.simulate.tracking import TrackingRun
 
@@ -60,8 +60,8 @@ def plot_run(run: Motion, number: int, place: Path) -> None:
     Of a tracking run also the angles beside the reference.
     """
     from lyapcheck.answers.simulate.samples import runs_csv
-    from lyapcheck.report.figures import motion
-    from lyapcheck.report.figures.style import png, svg
+    from lyapcheck.report import plots_of_runs as motion
+    from lyapcheck.report.plots import png, svg
 
     stem = file_stem(run.name, number)
     write_whole(place / f"{stem}.csv", runs_csv([run]))
@@ -240,7 +240,7 @@ def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
     """The set-point task from many random starts."""
     from lyapcheck.answers.simulate.samples import starts_csv
     from lyapcheck.answers.simulate.starts import RandomStarts
-    from lyapcheck.simulate.starts import sweep
+    from lyapcheck.simulate.many import sweep
 
     result: list[Sweep] = []
     for gain_set, told in job.each():

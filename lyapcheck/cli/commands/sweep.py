@@ -69,7 +69,7 @@ def run(
     from lyapcheck.answers.sweep import asked, read_plan
     from lyapcheck.answers.sweep.folder import Folder
     from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
-    from lyapcheck.compiled.compiler import processors
+    from lyapcheck.lyapunov.compiler import processors
 
     if resume and out is None:
         raise argument_error("--resume", "", "has a meaning with --out only", "add --out DIR")

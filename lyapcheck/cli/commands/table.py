@@ -79,7 +79,7 @@ def run(
 
 def _draw(table: Table, folder: Path) -> None:
     """``constants.svg`` and ``constants.png``."""
-    from lyapcheck.report.figures.constants import constants_png, constants_svg
+    from lyapcheck.report.plots_of_constants import constants_png, constants_svg
 
     write_whole(folder / "constants.svg", constants_svg(table))
     write_whole(folder / "constants.png", constants_png(table))

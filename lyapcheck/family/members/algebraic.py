@@ -7,8 +7,7 @@ from typing import Any
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
+from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_none
 
 

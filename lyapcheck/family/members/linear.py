@@ -8,8 +8,7 @@ from typing import Any
 from flint import arb
 
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.arithmetic import Arithmetic
-from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
+from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, NumericForms, SymbolicForms
 from lyapcheck.family.registry import require_none
 
 

@@ -14,8 +14,8 @@ from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.output.digits import at_most
 from lyapcheck.simulate import results as indices
-from lyapcheck.simulate.batch import Runs, simulate_many
 from lyapcheck.simulate.bench import Bench
+from lyapcheck.simulate.many import Runs, simulate_many
 from lyapcheck.simulate.results import torque_limits
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import LONGEST, gains_for

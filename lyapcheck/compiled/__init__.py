@@ -1,1 +1,0 @@
-"""Formulas turned into straight-line C, compiled once and kept: speed for sampling, never for a verdict."""

@@ -1,0 +1,343 @@
+"""What every reference trajectory offers: q_d, q̇_d and q̈_d at any time, and bounds of them for all times."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+from flint import acb, arb
+
+from lyapcheck._types import Array
+from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.errors import InputError, near
+from lyapcheck.files.decimals import NotFinite
+from lyapcheck.files.fields import Fields, Notes
+from lyapcheck.files.toml import open_document
+
+SECONDS = 5.0
+"""Duration of a run of which nothing else is said."""
+BITS = 128
+_PLACES = 10**12
+
+
+@dataclass(frozen=True)
+class Suprema:
+    """Bounds from above for all times, exact.
+
+    Args:
+        rate: sup |q̇_di| of each joint, rad/s.
+        acceleration: sup |q̈_di| of each joint, rad/s².
+        speed: v_d, sup ‖q̇_d‖, rad/s.
+        acceleration_norm: sup ‖q̈_d‖, rad/s².
+    """
+
+    rate: tuple[Fraction, ...]
+    acceleration: tuple[Fraction, ...]
+    speed: Fraction
+    acceleration_norm: Fraction
+
+
+class Reference(ABC):
+    """A trajectory with two continuous derivatives, which is what (21) takes for granted.
+
+    References: (21) of ``reyes2019family``.
+    """
+
+    kind: str
+    n: int
+    duration: float = SECONDS
+    """s, how long a run takes of which nothing else is said."""
+
+    @abstractmethod
+    def at(self, t: Array) -> Array:
+        """q_d, q̇_d and q̈_d at times (N,) in s: (N, 3, n) in rad, rad/s and rad/s²."""
+
+    @abstractmethod
+    def suprema(self) -> Suprema:
+        """Bounds of q̇_d and q̈_d for all times.
+
+        Soundness: rounded outward; they bound the trajectory itself, of which ``at`` is the nearest double.
+        """
+
+    @property
+    @abstractmethod
+    def sentence(self) -> str:
+        """The trajectory in one line."""
+
+
+def above(ball: arb) -> Fraction:
+    """A decimal of twelve places that is not below any number of a ball."""
+    with precision(BITS):
+        value = Enclosure.from_arb(ball).upper
+    return -Fraction(-value.numerator * _PLACES // value.denominator, _PLACES)
+
+
+def angles(values: Sequence[Fraction]) -> str:
+    """Angles as they were written, in degrees."""
+    return f"({', '.join(f'{float(x):g}' for x in values)})°"
+
+
+# --- A sine in every joint.
+
+
+Row = tuple[Fraction, ...]
+
+
+class Sine(Reference):
+    """q_di = o_i + A_i sin(2π f_i t + φ_i).
+
+    Args:
+        amplitude: A, degrees, one a joint.
+        frequency: f, Hz.
+        phase: φ, degrees.
+        offset: o, degrees.
+    """
+
+    kind = "sine"
+
+    def __init__(self, amplitude: Row, frequency: Row, phase: Row, offset: Row) -> None:
+        self.n = len(amplitude)
+        self.amplitude, self.frequency, self.phase, self.offset = amplitude, frequency, phase, offset
+        self._size, self._shift, self._middle = (
+            np.radians([float(x) for x in row]) for row in (amplitude, phase, offset)
+        )
+        self._pace = 2.0 * math.pi * np.array([float(x) for x in frequency])
+
+    def at(self, t: Array) -> Array:
+        """See `Reference.at`."""
+        turn = np.multiply.outer(t, self._pace) + self._shift
+        sine, cosine = np.sin(turn), np.cos(turn)
+        rows = (self._middle + self._size * sine, self._size * self._pace * cosine)
+        return np.stack((*rows, -self._size * self._pace**2 * sine), axis=-2)
+
+    def suprema(self) -> Suprema:
+        """See `Reference.suprema`; v_d is exact where all frequencies agree."""
+        with precision(BITS):
+            rates = [self._peak(i, 1) for i in range(self.n)]
+            pushes = [self._peak(i, 2) for i in range(self.n)]
+            return Suprema(
+                tuple(map(above, rates)),
+                tuple(map(above, pushes)),
+                above(self._norm(1)),
+                above(self._norm(2)),
+            )
+
+    @property
+    def sentence(self) -> str:
+        """See `Reference.sentence`."""
+        pace = ", ".join(f"{float(f):g}" for f in self.frequency)
+        return f"sine of {angles(self.amplitude)} at ({pace}) Hz about {angles(self.offset)}"
+
+    def _peak(self, i: int, order: int) -> arb:
+        """A_i ω_i^order in rad/s^order."""
+        pace = 2 * arb.pi() * to_arb(self.frequency[i])
+        return abs(to_arb(self.amplitude[i])) * arb.pi() / 180 * pace**order
+
+    def _norm(self, order: int) -> arb:
+        """A bound of the norm of the derivative of an order.
+
+        In joints of one frequency Σ a_i² cos²(ωt + φ_i) = ½ Σ a_i² + ½ Re e^(2iωt) Σ a_i² e^(2iφ_i), which is
+        largest where the last product is real; joints of different frequencies are added.
+        """
+        total = arb(0)
+        for pace in sorted(set(self.frequency)):
+            joints = [i for i in range(self.n) if self.frequency[i] == pace]
+            squares = [self._peak(i, order) ** 2 for i in joints]
+            turned = acb(0)
+            for i, square in zip(joints, squares, strict=True):
+                turned += square * acb(0, to_arb(self.phase[i]) * arb.pi() / 90).exp()
+            total += (sum(squares, arb(0)) + abs(turned)) / 2
+        return total.sqrt()
+
+
+# --- The motion of least jerk from one posture to another.
+
+
+class MinimumJerk(Reference):
+    """q_d = a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵) with s = t/T from 0 to 1, and at rest from then on.
+
+    Rate and acceleration are 0 at both ends, so that q_d has two continuous derivatives. With Δ = b − a,
+    ‖q̇_d‖ is largest at s = ½, (15/8) ‖Δ‖/T, and ‖q̈_d‖ at s = ½ ± √3/6, (10/√3) ‖Δ‖/T².
+
+    Args:
+        start: a, degrees, one a joint.
+        end: b, degrees.
+        seconds: T.
+
+    References: ``flash1985coordination``.
+    """
+
+    kind = "minimum-jerk"
+
+    def __init__(self, start: Row, end: Row, seconds: Fraction) -> None:
+        self.n = len(start)
+        self.start, self.end, self.seconds = start, end, seconds
+        self.duration = max(SECONDS, float(seconds))
+        self._from = np.radians([float(x) for x in start])
+        self._step = np.radians([float(b - a) for a, b in zip(start, end, strict=True)])
+
+    def at(self, t: Array) -> Array:
+        """See `Reference.at`."""
+        T = float(self.seconds)
+        s = np.clip(t / T, 0.0, 1.0)
+        share = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+        rate = 30.0 * (s * (1.0 - s)) ** 2 / T
+        acceleration_norm = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / T**2
+        moved = np.multiply.outer(np.stack((share, rate, acceleration_norm), axis=-1), self._step)
+        moved[..., 0, :] += self._from
+        return np.asarray(moved)
+
+    def suprema(self) -> Suprema:
+        """See `Reference.suprema`; both norms are exact, as all joints move alike."""
+        with precision(BITS):
+            T = to_arb(self.seconds)
+            fast, acceleration_norm = arb(15) / 8 / T, 10 / arb(3).sqrt() / T**2
+            steps = [abs(to_arb(b - a)) * arb.pi() / 180 for a, b in zip(self.start, self.end, strict=True)]
+            size = sum((step * step for step in steps), arb(0)).sqrt()
+            rates, pushes = (
+                tuple(above(most * step) for step in steps) for most in (fast, acceleration_norm)
+            )
+            return Suprema(rates, pushes, above(fast * size), above(acceleration_norm * size))
+
+    @property
+    def sentence(self) -> str:
+        """See `Reference.sentence`."""
+        return f"minimum jerk from {angles(self.start)} to {angles(self.end)} in {float(self.seconds):g} s"
+
+
+# --- Reference files (TOML): one trajectory, described in a few lines.
+#
+# kind = "sine"                    # q_di = offset + amplitude sin(2π frequency t + phase)
+# amplitude = [20, 30, 40]         # degrees
+# frequency = [0.5, 0.5, 0.25]     # Hz
+# phase = [0, 90, 0]               # degrees, 0 if missing
+# offset = [0, 45, 0]              # degrees, 0 if missing
+#
+# kind = "minimum-jerk"
+# from = [0, 0, 0]                 # degrees
+# to = [45, 45, 90]                # degrees
+# duration = 2                     # s
+
+
+FARTHEST = Fraction(36_000)
+"""Degrees: a hundred turns of a joint."""
+FASTEST = Fraction(1000)
+"""Hz."""
+LONGEST = Fraction(3600)
+"""s"""
+QUICKEST = Fraction(1, 1000)
+"""s, the shortest motion from one posture to another."""
+
+
+def read_reference(path: str | Path, joints: int | None = None) -> Reference:
+    """The trajectory that a reference file describes.
+
+    Args:
+        path: of the TOML file.
+        joints: of the arm; any number if missing.
+
+    Raises:
+        InputError: everything that is wrong with the file, or with the recording it names.
+    """
+    document = open_document(Path(path), str(path))
+    notes = Notes(document.name, document.line)
+    fields = RowFields(document.data, (), notes)
+    kind = fields.text("kind", required=True)
+    maker = _KINDS.get(kind)
+    if maker is None:
+        if kind:
+            meant = near(kind, _KINDS) or "sine"
+            fields.fail("kind", f"must be one of {', '.join(_KINDS)}", f'write kind = "{meant}"')
+        raise InputError(notes.problems)
+    result = maker(fields)
+    fields.close()
+    if result is not None and joints is not None and result.n != joints:
+        rule = f"moves {result.n} joints, but the arm has {joints}"
+        fields.fail("kind", rule, f"give {joints} values, one a joint")
+    if notes.problems or result is None:
+        raise InputError(notes.problems)
+    return result
+
+
+class RowFields(Fields):
+    """Fields with rows of numbers of any sign."""
+
+    def row(self, key: str, low: Fraction, high: Fraction, unit: str, required: bool = True) -> Row | None:
+        """A list of numbers between two bounds, ``None`` when absent or bad."""
+        value = self.raw(key, required)
+        if value is None:
+            return None
+        example = f"write {key} = [0, 0, 0]"
+        if not isinstance(value, list) or not value:
+            self.fail(key, "must be a list of numbers, one a joint", example)
+            return None
+        return self._inside(key, value, low, high, unit)
+
+    def seconds(self, key: str, low: Fraction, high: Fraction) -> Fraction | None:
+        """A time, required; ``None`` when bad."""
+        value = self.raw(key, required=True)
+        row = None if value is None else self._inside(key, [value], low, high, "s", single=True)
+        return None if row is None else row[0]
+
+    def _inside(
+        self, key: str, values: list[object], low: Fraction, high: Fraction, unit: str, single: bool = False
+    ) -> Row | None:
+        kept = []
+        for i, value in enumerate(values):
+            path = (*self.path, key) if single else (*self.path, key, i)
+            plain = isinstance(value, int | Fraction) and not isinstance(value, bool)
+            exact = Fraction(cast("Fraction", value)) if plain else None
+            if exact is not None and low <= exact <= high:
+                kept.append(exact)
+                continue
+            rule = f"must be a number from {float(low):g} to {float(high):g} {unit}"
+            if isinstance(value, NotFinite):
+                rule = value.rule
+            self.notes.fail(path, value, rule, f"give a plain decimal in {unit}")
+        return tuple(kept) if len(kept) == len(values) else None
+
+    def same_length(self, rows: dict[str, Row | None]) -> bool:
+        """Whether all rows are there and of one length; notes those of another length than the first."""
+        lists = {key: self.data.get(key) for key in rows}
+        given = {key: value for key, value in lists.items() if isinstance(value, list) and value}
+        first = next(iter(given), "")
+        for key, row in given.items():
+            if len(row) != len(given[first]):
+                rule = f"has {len(row)} values where {first} has {len(given[first])}"
+                self.fail(key, rule, f"give {len(given[first])} values, one a joint")
+        return None not in rows.values() and len({len(row) for row in given.values()}) == 1
+
+
+def _sine(fields: RowFields) -> Reference | None:
+    amplitude = fields.row("amplitude", -FARTHEST, FARTHEST, "degrees")
+    frequency = fields.row("frequency", Fraction(0), FASTEST, "Hz")
+    rows = {"amplitude": amplitude, "frequency": frequency}
+    zeros = (Fraction(0),) * len(amplitude or frequency or ())
+    for key in ("phase", "offset"):
+        given = fields.row(key, -FARTHEST, FARTHEST, "degrees", required=False)
+        rows[key] = given if key in fields.data else zeros
+    if not fields.same_length(rows):
+        return None
+    return Sine(*(row for row in rows.values() if row is not None))
+
+
+def _minimum_jerk(fields: RowFields) -> Reference | None:
+    start, end = (fields.row(key, -FARTHEST, FARTHEST, "degrees") for key in ("from", "to"))
+    seconds = fields.seconds("duration", QUICKEST, LONGEST)
+    fit = fields.same_length({"from": start, "to": end})
+    if not fit or start is None or end is None or seconds is None:
+        return None
+    return MinimumJerk(start, end, seconds)
+
+
+_KINDS: dict[str, Callable[[RowFields], Reference | None]] = {"sine": _sine, "minimum-jerk": _minimum_jerk}
+
+
+# --- A recorded motion, made smooth by a spline.
