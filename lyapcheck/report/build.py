@@ -28,6 +28,7 @@ from lyapcheck.report.notes import published_notes
 from lyapcheck.report.page.shell import redirect
 from lyapcheck.report.page.shell import render as page
 from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
+from lyapcheck.report.tiles import drawn_motion, tiles
 from lyapcheck.temporary import pending, temporary_folder, work_in
 
 if TYPE_CHECKING:
@@ -71,6 +72,8 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     figures |= draw_comparisons(epsilon, runs)
     claims = tuple(row for row in rows if row.proof == "published")
     weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
+    run_of = {row.name: row for row in runs}
+    moved = {part.row.name: drawn_motion(model, part.run.t, part.run.q) for part in parts if subject.own}
     packages = frozenset[str]().union(*(job.result().packages for job in jobs))
     return Report(
         notes=notes,
@@ -89,6 +92,8 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         certificates=dict(sorted(certificates.items())),
         versions={name: version(name) for name in sorted(packages)},
         seed=SEED,
+        tiles={one.name: tiles(one, model, run_of.get(one.name)) for one in gate if subject.own},
+        motions={name: one for name, one in moved.items() if one is not None},
     )
 
 

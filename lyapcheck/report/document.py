@@ -15,6 +15,7 @@ from lyapcheck.output.typst import markup
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
 from lyapcheck.report.model import WEIGHTS, Finding, Report
 from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
+from lyapcheck.report.tiles import SIGNS
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.robots import RobotModel
 from lyapcheck.temporary import temporary_folder
@@ -64,6 +65,17 @@ class ReportAnswer(Answer):
             "findings": [plain(finding) for finding in report.findings],
             "table": report.table.data()["rows"],
             "derive": report.derived.data(),
+            "tiles": [
+                {
+                    "gains": name,
+                    "subject": one.subject,
+                    "number": one.number,
+                    "text": one.text,
+                    "tone": one.tone,
+                }
+                for name, known in report.tiles.items()
+                for one in known
+            ],
             "gate": report.gate.data()["results"],
             "epsilon": [plain(row) for row in report.epsilon],
             "claims": [row.data() for row in report.claims],
@@ -113,6 +125,9 @@ def _front(report: Report) -> Iterator[Block]:
         yield Paragraph(f"{report.notes.paper.citation}.")
     yield Bullets(tuple(f"{badge.subject}: {badge.word}" for badge in badges(report)))
     yield from map(Paragraph, sentences(report))
+    for name, some in report.tiles.items():
+        rows = tuple((one.subject, f"{SIGNS[one.tone]} {one.number}", one.text) for one in some)
+        yield Table(("question", "answer", "who says so"), rows, name, align="lll")
     if not report.own:
         yield Table(
             ("step", "what it says", "became"),

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.promise import Promise
     from lyapcheck.report.notes import Notes
+    from lyapcheck.report.tiles import Motion, Tile
     from lyapcheck.robots import RobotModel
 
 WEIGHTS = {
@@ -113,6 +114,8 @@ class Report:
         certificates: by their paths, those that the checker has accepted.
         versions: of the packages that the computations loaded.
         seed: the seed of every random search.
+        tiles: what an engineer asks about gains on an arm of one's own, by gain set.
+        motions: the arm along the simulated run of a gain set, where its links are known.
     """
 
     notes: Notes
@@ -131,6 +134,8 @@ class Report:
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
+    tiles: Mapping[str, tuple[Tile, ...]] = field(default_factory=dict)
+    motions: Mapping[str, Motion] = field(default_factory=dict, repr=False)
 
     @property
     def every_claim(self) -> tuple[ClaimRow, ...]:

@@ -70,6 +70,7 @@ def run(
     from lyapcheck.report.compare import compare as compared
     from lyapcheck.report.compare import read_report
     from lyapcheck.report.document import ReportAnswer, require_typst
+    from lyapcheck.report.tiles import with_before
 
     formats = _formats(format)
     if "pdf" in formats:
@@ -79,6 +80,8 @@ def run(
     open_folder("--out", out)
     with progress("report") as advance:
         report = build(subject, advance)
+    if old is not None:
+        report = with_before(report, old)
     files = render(report, formats, appendix)
     changed = None if old is None else compared(old, ReportAnswer(report).data(), str(compare))
     if changed is not None:

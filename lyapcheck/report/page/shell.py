@@ -11,7 +11,9 @@ from lyapcheck.output.mathml import Markup, element, latex, sentence
 from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow, anchor
 from lyapcheck.report.page.claims import claims_section
 from lyapcheck.report.page.gains import derive_section, evidence_section, figure, gains_section
+from lyapcheck.report.page.own import first_screen
 from lyapcheck.report.text import member_words, witness_place, witness_sides
+from lyapcheck.report.tiles import SIGNS
 from lyapcheck.report.verdict import VerdictBox, badges, chain, route, sentences
 
 SECTIONS = {
@@ -75,17 +77,18 @@ LEGEND = (
     "Green: shown. Red: refuted, and the proof rests on it. Amber: wrong, but can be mended. "
     "Grey: not shown this way."
 )
-SIGNS = {"good": "✓", "bad": "✗", "warn": "!", "open": "?"}
 
 
 def verdict_section(report: Report) -> Markup:
     """What a reader must know, on one screen."""
+    if report.own:
+        return element("section", _title(report), first_screen(report), id="verdict")
     return element(
         "section",
         _title(report),
         element("ul", [_badge(b.subject, b.word, b.tone) for b in badges(report)], class_="badges"),
         element("div", [element("p", sentence(text)) for text in sentences(report)], class_="lead"),
-        None if report.own else _picture(report),
+        _picture(report),
         id="verdict",
     )
 
@@ -95,7 +98,8 @@ def _title(report: Report) -> list[Markup]:
     if report.own:
         about = element("p", f"{report.robot.title}, m = {', '.join(map(str, report.ms))}.", class_="cite")
         link = element("p", "Controller and conditions: ", paper.citation, ".", class_="cite")
-        return [element("h1", f"Gains on {report.robot.name}"), about, link]
+        files = ", ".join(dict.fromkeys(result.file.path for result in report.gate))
+        return [element("h1", f"Gains of {files} on {report.robot.name}"), about, link]
     cite = element("p", paper.authors, ", ", paper.source, class_="cite")
     formula = element("div", [latex(part) for part in paper.controller.split(r"\qquad")], class_="controller")
     return [element("p", "Proof check of", class_="eyebrow"), element("h1", paper.title), cite, formula]
