@@ -212,7 +212,7 @@ def _assumed(model: RobotModel) -> Tile:
     assumed = sum(number.assumed for number in numbers)
     number = f"{assumed} of {len(numbers)} numbers"
     if not assumed:
-        return Tile("Assumed", number, "Every number of the arm is from its file.", "good")
+        return Tile("Assumed", number, "All numbers of the arm are from its file.", "good")
     text = "The verdicts are about the arm with these numbers."
     todo = ("Measure them, or give each a range.", f"lyapcheck robot {model.name} --assumptions")
     return Tile("Assumed", number, text, "warn", todo)

@@ -32,9 +32,9 @@ def _tile(tile: Tile) -> Markup:
     head = element("b", tile.subject)
     number = element("strong", f"{SIGNS[tile.tone]} {tile.number}")
     before = element("small", f"before: {tile.before}") if tile.before else None
-    return element(
-        "li", head, number, before, element("span", sentence(tile.text)), class_=f"tile {tile.tone}"
-    )
+    text = element("span", sentence(tile.text))
+    drawn = _arm(tile.posture, "The arm where motions grow.") if tile.posture else None
+    return element("li", head, number, before, text, drawn, class_=f"tile {tile.tone}")
 
 
 def _steps(report: Report) -> Iterator[list[Markup | str]]:

@@ -1,0 +1,112 @@
+"""The first screen about one's own arm: what each tile says, what to do, and the arm as it is drawn."""
+
+from __future__ import annotations
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+
+from lyapcheck import robots
+from lyapcheck.answers.gate.judge import judged_sets
+from lyapcheck.control.gains import read_gain_file
+from lyapcheck.promise import GUARDED, promises_as_seen
+from lyapcheck.report.model import Report
+from lyapcheck.report.page.own import first_screen
+from lyapcheck.report.page.shell import raw
+from lyapcheck.report.tiles import drawn_motion, tiles, with_before
+from lyapcheck.robots.numeric import NumericModel
+
+RUN = {"robot": "reyes-kelly2", "overshoot": [3.0, 0.0], "settling": [1.2, 0.9], "time": 5.0}
+RUN |= {"complete": True, "start": [0.0, 0.0], "target": [45.0, 45.0]}
+KEYS = ("Motors", "Stability", "Sampling rate", "Behaviour", "Dry friction", "Assumed")
+
+
+def told(tmp_path, kp="[41.089, 5.618]", kv="[17.61, 2.112]", more="", run=RUN, robot="reyes-kelly2"):
+    file = tmp_path / "g.toml"
+    file.write_text(f'robot = "{robot}"\n{more}[[gains]]\nname = "g"\nm = 1\nkp = {kp}\nkv = {kv}\n')
+    (result,) = judged_sets(read_gain_file(file))
+    known = tiles(result, robots.load(robot), SimpleNamespace(**run) if run else None)
+    return {one.subject: one for one in known}
+
+
+def test_six_tiles_answer_what_an_engineer_asks(tmp_path):
+    found = told(tmp_path)
+    assert tuple(found) == KEYS
+    assert re.fullmatch(r"\d+ % in reserve", found["Motors"].number)
+    assert found["Stability"].number == "stable"
+    assert "infinite rate" in found["Stability"].text
+    assert found["Behaviour"].number == "3 % overshoot, settled in 1.2 s"
+    assert (found["Assumed"].number, found["Assumed"].tone) == ("0 of 12 numbers", "good")
+
+
+def test_gains_that_saturate_are_red_and_say_how_far_to_lower_them(tmp_path):
+    motors = told(tmp_path, kp="[400, 5]")["Motors"]
+    assert motors.tone == "bad"
+    words, command = motors.todo
+    largest = float(re.search(r"shoulder (\d+\.?\d*)", words)[1])
+    again = told(tmp_path, kp=f"[{largest - 18}, 5]")["Motors"]
+    assert again.tone in ("good", "warn")
+    assert command.startswith("lyapcheck gate ")
+
+
+def test_without_a_rate_the_tile_asks_for_one_and_with_one_it_judges(tmp_path):
+    assert told(tmp_path)["Sampling rate"].todo[1].endswith("--rate 1000")
+    slow = told(tmp_path, more="[loop]\nperiod = '60 ms'\n")["Sampling rate"]
+    assert slow.number == "60 ms: unstable" or slow.tone in ("bad", "open")
+    small = told(tmp_path, kp="[5, 1]", kv="[0.05, 0.02]", more="[loop]\nrate = 1000\n")["Sampling rate"]
+    assert "unstable" not in small.number
+
+
+def test_dry_friction_that_holds_a_joint_anywhere_is_red(tmp_path):
+    assert told(tmp_path, kp="[5, 1]", kv="[0.1, 0.1]")["Dry friction"].tone == "bad"
+
+
+def test_words_of_proof_come_from_promises_alone(tmp_path):
+    with promises_as_seen():
+        for one in told(tmp_path).values():
+            assert not GUARDED.search(f"{one.number} {one.text}".replace("proved from rest", "")), one
+
+
+def test_the_older_answer_stands_in_the_tile_where_it_was_another(tmp_path):
+    known = told(tmp_path)
+    report = blank(tiles={"g": tuple(known.values())})
+    old = {"tiles": [{"gains": "g", "subject": "Assumed", "number": "1 of 2 numbers"}]}
+    changed = {one.subject: one.before for one in with_before(report, old).tiles["g"]}
+    assert changed == dict.fromkeys(KEYS, "") | {"Assumed": "1 of 2 numbers"}
+
+
+def blank(**known):
+    return Report(**(dict.fromkeys(Report.__dataclass_fields__) | {"motions": {}} | known))
+
+
+def test_each_step_to_do_stands_once_and_what_is_wrong_first(tmp_path):
+    known = tuple(told(tmp_path, kp="[400, 5]").values())
+    page = "".join(first_screen(blank(tiles={"a": known, "b": known})))
+    steps = re.findall(r"<li>(\w[\w ]*): ", page)
+    assert len(steps) == len(set(steps))
+    assert steps[0] == "Motors"
+
+
+def test_the_arm_is_drawn_where_its_links_are():
+    """The last joint moves the last body alone, so that m g Δz of its centre is the integral of g_n."""
+    arm = robots.load("examples/px100.toml").fixed()
+    q, turn = np.random.default_rng(0).uniform(-2, 2, (40, arm.n)), 0.2 * np.eye(arm.n)[-1]
+    heights = [
+        np.array([frame[-1][1] for frame in drawn_motion(arm, np.arange(40.0), at).frames])
+        for at in (q, q + turn)
+    ]
+    gravity = [NumericModel(arm).gravity(q + share * turn)[:, -1] for share in (0, 0.5, 1)]
+    work = 0.2 / 6 * (gravity[0] + 4 * gravity[1] + gravity[2])
+    weight = float(arm.chain.links[-1].mass) * np.linalg.norm([float(x) for x in arm.chain.fall])
+    assert np.allclose(weight * (heights[1] - heights[0]), work, atol=3e-4 * weight)
+    assert np.abs(work).max() > 1e-2
+
+
+def test_who_wants_no_motion_sees_start_and_goal():
+    model = robots.load("examples/ur5.toml")
+    q = np.linspace(0, 0.8, 50)[:, None] * np.ones(6)
+    motion = drawn_motion(model, np.linspace(0, 5, 50), q)
+    page = "".join(first_screen(blank(tiles={"g": ()}, motions={"g": motion})))
+    assert page.count("<polyline") == len(motion.frames) + 2
+    assert "prefers-reduced-motion:reduce" in raw("style.css")
