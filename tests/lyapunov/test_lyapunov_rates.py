@@ -94,14 +94,3 @@ def test_parts_are_those_of_the_quadratic_form_without_velocities(arm):
         assert numeric.rate(q[k], e[k], w[k]) == pytest.approx(
             -a0[k] + a1[k] * EPS0 + a2[k] * EPS0**2, rel=1e-9, abs=size
         )
-
-
-def test_fast_matrix_decides_the_sign_for_fast_states():
-    numeric, graph = numeric_of("reyes-kelly2", 2), graph_of("reyes-kelly2", 2)
-    q, e, _ = random_states(2, 20)
-    rows = numeric.at_columns(q, e, np.zeros_like(e)).fast()
-    for k in range(len(q)):
-        F = np.array([[np.broadcast_to(x, 20)[k] for x in row] for row in rows])
-        values, vectors = np.linalg.eigh(np.diag(numeric.viscous) - 2.0 * (F + F.T) / 2)
-        rate = float(graph.rate(q[k], e[k], vectors[:, 0] * 1e7, KP[:2], KV[:2], 2.0))
-        assert np.sign(rate) == -np.sign(values[0])

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from lyapcheck import family, robots
 from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
-from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.numeric import NumericModel
@@ -140,12 +139,6 @@ def test_gains_per_degree_are_rounded_to_the_safe_side():
     form = sharp_form(degrees, constants, bounds)
     assert float(form.stiffness) == pytest.approx(np.degrees(1.0), rel=1e-12)
     assert form.cross > bounds.viscous_max + form.stiffness
-
-
-@pytest.mark.parametrize("n", [1, 2, 3, 4, 6, 7])
-def test_root_is_rounded_up_and_tight(n):
-    assert root_above(Fraction(n)) ** 2 >= n
-    assert (root_above(Fraction(n)) - Fraction(1, 10**12)) ** 2 < n
 
 
 def _thetas(form, eps):

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from lyapcheck import family, robots
-from lyapcheck.lyapunov import compiler as threads
 from lyapcheck.lyapunov import loop as loop_module
 from lyapcheck.lyapunov import loop as writer
 from lyapcheck.lyapunov import numeric as numeric_module
@@ -226,17 +225,3 @@ def test_a_loop_takes_arrays_of_any_strides(n):
         made(rows.T, p, out=kept[1:, ::2])
         assert np.allclose(kept[1:, ::2], expected, rtol=1e-15)
         assert not kept[:, 1::2].any()
-
-
-@pytest.mark.parametrize(("count", "unit"), [(0, 1), (1, 64), (63, 64), (1000, 64), (1001, 1), (7, 8)])
-@pytest.mark.parametrize("workers", [1, 2, 5])
-def test_shares_cover_everything_once(count, unit, workers, monkeypatch):
-    monkeypatch.setattr(threads, "processors", lambda: workers)
-    seen = []
-
-    def work(start, stop):
-        assert start % unit == 0
-        seen.extend(range(start, stop))
-
-    threads.over_shares(work, count, unit)
-    assert sorted(seen) == list(range(count))

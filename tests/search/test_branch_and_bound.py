@@ -272,11 +272,3 @@ def test_where_boxes_end_far_below_bounds_along_the_links_are_tried(tmp_path):
     # not where boxes come near, nor for two joints
     assert linked_otherwise(case, F(11, 10) * result.proof.loop.eps0, result, 3000) is result
     assert linked_otherwise(controlled("reyes-kelly2", 0), F(1), nothing, 3000) is nothing
-
-
-# Covers, with properties of which everything is known
-
-
-def small(boxes):
-    """True of points and of boxes with sides below 0.1."""
-    return np.asarray(np.max(boxes[:, 1] - boxes[:, 0], axis=1) < 0.1)

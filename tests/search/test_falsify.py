@@ -8,7 +8,6 @@ import pytest
 
 from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.control.gains import GainSet
-from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import RisingState, falsify
@@ -119,16 +118,3 @@ def test_other_valleys_are_found():
     assert witness is not None
     assert float(witness.eps0) == pytest.approx(0.6362, rel=1e-4)
     assert all(abs(x) > F(7, 10) for x in witness.state.e)
-
-
-@pytest.mark.parametrize(
-    ("value", "digits", "expected"),
-    [
-        ("0.12345671", 7, "0.1234568"),
-        ("2", 7, "2"),
-        ("1234567.1", 7, "1234568"),
-        ("0.00100000001", 3, "0.00101"),
-    ],
-)
-def test_significant_up(value, digits, expected):
-    assert significant_up(F(value), digits) == F(expected)

@@ -80,6 +80,3 @@ def test_ranges_are_those_of_a_dense_grid(family, form):
         slack = 1e-3 * max(1.0, float(np.abs(values).max()))
         assert values.min() - result.lo < slack
         assert result.hi - values.max() < slack
-
-
-# Arms

@@ -93,11 +93,6 @@ def test_only_the_constants_asked_for():
     assert [constant.name for constant in result] == ["lambda_max", "k_g2"]
 
 
-def test_the_constants_of_a_model_are_found_once():
-    model = load("pelican2")
-    assert robot_constants(model) is robot_constants(model)
-
-
 def test_an_indefinite_inertia_is_not_called_positive():
     """Data errors happen: the enclosure then lies below zero, it does not end there."""
     model = load("reyes-kelly2")

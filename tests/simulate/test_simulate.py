@@ -14,7 +14,7 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.simulate.closed_loop import closed_loop, simulate
 from lyapcheck.simulate.integrate import integrate
-from lyapcheck.simulate.results import imbalance, observe
+from lyapcheck.simulate.results import imbalance
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, gains_for
 from tests.helpers.shares import one_in
@@ -158,15 +158,6 @@ def test_no_motion_leaves_the_torque_bound_or_gains_energy(start, m):
     assert run.energy_balance < 1e-8
 
 
-def test_a_torque_beyond_its_bounds_is_reported():
-    model, held = robots.load("buap3"), gains_for(TABLE2[0], 3)
-    t, V = np.array([0.0, 1.0]), np.array([1.0, 0.5])
-    tau = np.array([[0.0, 151.0, 14.0], [0.0, 0.0, 0.0]])
-    seen = observe(t, V, tau, held, model, noise=1e-9)
-    assert seen.inside_bound is False
-    assert seen.inside_limits == (True, False, True)
-
-
 @pytest.mark.slow
 def test_large_m_and_gains_are_integrated():
     """h_m is flat near 0 and steep near ln(1 + √2) for large m."""
@@ -232,12 +223,3 @@ def test_impossible_requests_are_refused_by_name(change, key):
     with pytest.raises(InputError) as refused:
         simulate(gains(2), robots.load("reyes-kelly2"), **request)
     assert [problem.key for problem in refused.value.problems] == [key]
-
-
-def test_progress_rises_to_the_end():
-    printed = []
-    simulate(
-        gains(1), robots.load("pendulum1"), [1.0], on_progress=lambda fraction, note: printed.append(fraction)
-    )
-    assert printed == sorted(printed)
-    assert 0.0 <= printed[0] <= printed[-1] <= 1.0

@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 
-import casadi as ca
 import numpy as np
 import pytest
 
@@ -15,7 +14,7 @@ from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import Number
-from lyapcheck.simulate.bench import Bench, enough_substeps, read_encoders, stiff_periods
+from lyapcheck.simulate.bench import Bench, enough_substeps, stiff_periods
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, set_up
@@ -57,22 +56,6 @@ def test_a_fast_perfect_bench_is_the_reference(gain_set):
     assert gaps[1] / gaps[2] == pytest.approx(2.0, rel=0.2)
 
 
-def test_encoders_read_the_nearest_line():
-    angles = ca.DM([0.1234567, -0.1234567, 0.7])
-    read = np.array(read_encoders(angles, (1000, 1000, None)))[:, 0]
-    line = 2 * math.pi / 1000
-    assert read[0] == pytest.approx(round(0.1234567 / line) * line)
-    assert read[1] == -read[0]
-    assert read[2] == 0.7
-
-
-def test_a_coarse_encoder_shows():
-    coarse = replace(frictionless("buap3"), encoder=(200, 200, 200))
-    rough = experiment(TABLE2[3], coarse, PAPER_TASK.q_d, T=1.0)
-    fine = experiment(TABLE2[3], frictionless("buap3"), PAPER_TASK.q_d, T=1.0)
-    assert np.max(np.abs(rough.tau - fine.tau)) > 1.0
-
-
 def test_torques_are_cut_at_the_limits_and_said_to_be():
     model = frictionless("buap3", torque_limit=(number("10"), number("150"), None))
     run = experiment(TABLE2[0], model, PAPER_TASK.q_d, T=1.0)
@@ -107,13 +90,6 @@ def test_the_published_experiment_is_resolved(gain_set):
     assert run.accuracy < 0.02
     assert math.isnan(run.energy_balance)
     assert any("2.5 ms" in note for note in run.notes)
-
-
-def test_the_substeps_resolve_the_friction():
-    """The fastest rate of the arm times the step stays below what Runge–Kutta can take (2.78)."""
-    model, bench = robots.load("buap3"), Bench()
-    elbow = float(model.coulomb[2].value) / 0.1 / bench.creep
-    assert bench.T / enough_substeps(model, bench) * elbow < 2.7
 
 
 STIFF = """
