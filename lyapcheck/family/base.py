@@ -139,7 +139,7 @@ class Family(ABC):
         try:
             return member(self.name, self.m)
         except ValueError as error:
-            repair = "give the checker a file for it, see docs/adding.md, or choose another family"
+            repair = "give the checker a file for it, see docs/extend.md, or choose another family"
             raise argument_error("family", self.name, str(error), repair) from error
 
     def ball_h(self, x: arb) -> arb:

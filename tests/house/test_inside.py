@@ -1,4 +1,4 @@
-"""``docs/inside.md``: its map has every folder, and its ways lead through functions that there are."""
+"""``docs/architecture.md``: its map has every folder, and its ways lead through functions that there are."""
 
 import inspect
 import re
@@ -11,7 +11,7 @@ import pytest
 from tests.house.test_house import imported, modules
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "inside.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 
 
 def rows(head):
