@@ -59,21 +59,21 @@ torque_limit = 20
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "The folder to start them in; this one if missing."
+    about = "Folder for the files. Default: this folder."
     parser.add_argument("folder", metavar="DIR", nargs="?", type=Path, default=Path(), help=about)
-    about = "Bring gains over from YAML (ros2_control, effort_controllers), JSON, or CSV with a header."
+    about = "Convert the gains in this YAML (ros2_control), JSON or CSV file with a header."
     parser.add_argument("--from", metavar="FILE", type=Path, dest="source", help=about)
-    parser.add_argument("--arm", metavar="ROBOT", dest="robot", help="The arm of these gains.")
+    parser.add_argument("--arm", metavar="ROBOT", dest="robot", help="Arm of these gains, by name or file.")
     add_choice_of_arm(parser)
 
 
 def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
-    """Start a gain file and an arm file, to be edited: gains.toml and arm.toml.
+    """Write a gain file and an arm file to edit, gains.toml and arm.toml.
 
-    Files that are there stay as they are. With --from and --arm a gain file alone, whose gains are those of
-    another program by joint: the bounded law of the same slope, cut to (10p).
+    Existing files stay as they are. With --from and --arm the command writes a gain file only. Its gains have
+    the slope of the other program's gains at the goal, reduced to (10p).
 
-    Exit code 0: both are written, 2: one is there already, or the folder cannot be written.
+    Exit code 0: the files are written, 2: a file exists already, or the folder cannot be written.
 
     Examples:
       lyapcheck init bench && lyapcheck gate bench/gains.toml
