@@ -222,8 +222,8 @@ def constant_goal(friction: str = "any", disturbed: bool = False) -> Goal:
     """A constant q_d: e = q_d − q, w = q̇.
 
     Args:
-        friction: ``any``, for arms with or without it; ``positive``, where a proof needs it; ``none``.
-        disturbed: whether an unknown torque of at most delta acts beside that of the controller.
+        friction: ``any`` for arms with or without it, ``positive`` if the proof needs it, or ``none``.
+        disturbed: True adds an unknown torque of at most delta.
     """
     return Goal(False, friction, disturbed)
 
