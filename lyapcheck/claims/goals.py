@@ -85,7 +85,7 @@ def norm(x: AnyVector) -> Expr:
     """The size of a letter, as forms have it.
 
     Raises:
-        ValueError: it is a sum or product; sizes are those of states and functions.
+        ValueError: it is a sum or product. Only states and functions have sizes.
     """
     if x.tree[0] != "vec":
         raise ValueError("norm: a size is that of one letter, such as e, w or a function")

@@ -79,8 +79,8 @@ class FamilyConstants:
 class Family(ABC):
     """An odd function h of one angle or rate, zero only at 0, with h' and the potential U (U' = h, U(0) = 0).
 
-    NumPy forms take any array of doubles and work elementwise; ±inf gives the limit and NaN stays NaN. The
-    argument is in rad for joint errors, in rad/s for rates; h is dimensionless, a gain gives it a unit.
+    NumPy forms take any array of doubles and work elementwise. ±inf gives the limit, and NaN stays NaN. The
+    argument is in rad for joint errors, in rad/s for rates. h is dimensionless, a gain gives it a unit.
     """
 
     name: str

@@ -106,7 +106,8 @@ def _help():
 def _public(module):
     home = importlib.import_module(module)
     docs = [inspect.getdoc(getattr(home, name)) or "" for name in home.__all__ if name != "__version__"]
-    heads = r"(?m)^ *(Args|Returns|Raises|Attributes|Examples?|Yields):\s*$|^ *>>>.*$|^ {4,}[\w*, ]+: "
+    names = "Args|Returns|Raises|Attributes|Examples?|Yields|Soundness|References"
+    heads = rf"(?m)^ *({names}):[ \t]*|^ *>>>.*$|^ {{4,}}[\w*, ]+: "
     return re.sub(heads, "\n\n", "\n\n".join(docs))
 
 
