@@ -76,7 +76,7 @@ def test_each_step_is_a_function_that_hands_on_what_is_said(name, kind):
 
 
 def test_what_is_named_in_between_is_there():
-    for path in re.findall(r"`((?:\w+\.)+\w+)`(?! \|)", PAGE.partition("## Five ways")[2]):
+    for path in re.findall(r"`((?:\w+\.)+\w+)`(?! \|)", PAGE.partition("## Five paths")[2]):
         if not path.endswith(("md", "json")):
             module, _, name = path.rpartition(".")
             home = import_module(f"lyapcheck.{module}")
