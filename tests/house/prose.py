@@ -85,9 +85,18 @@ def worse(numbers, before):
 
 def texts():
     """Every page by its path, then the help of all commands and the docstrings of public names."""
-    pages = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]
-    result = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in sorted(pages)}
+    docs = ROOT / "docs"
+    pages = [*ROOT.glob("*.md"), *docs.rglob("*.md"), *docs.rglob("*.ipynb")]
+    result = {str(page.relative_to(ROOT)): _words(page) for page in sorted(pages)}
     return result | {"help": _help()} | {name: _public(name) for name in ("lyapcheck", "lyapcheck.claims")}
+
+
+def _words(page):
+    text = page.read_text(encoding="utf-8")
+    if page.suffix == ".md":
+        return text
+    cells = json.loads(text)["cells"]
+    return "\n\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
 
 
 def _help():
@@ -123,7 +132,11 @@ def main():
         print(*(f"  “{words}” → {advice}" for words, advice in faults(all_texts[name])), sep="\n")
     numbers = {name: measure(text) for name, text in all_texts.items()}
     if args.save:
-        beyond = {name: row for name, row in numbers.items() if not name.endswith(".md") and worse(row, {})}
+        beyond = {
+            name: row
+            for name, row in numbers.items()
+            if not name.endswith((".md", ".ipynb")) and worse(row, {})
+        }
         RECORD.write_text(json.dumps(beyond, indent=1) + "\n", encoding="utf-8")
     record = json.loads(RECORD.read_text(encoding="utf-8"))
     bad = {name: found for name, row in numbers.items() if (found := worse(row, record.get(name, {})))}
