@@ -21,7 +21,7 @@ help:
 	@echo "make kernel     the theorem and its definitions in Coq, formal/; needs coqc (Debian: coq libcoq-interval)"
 	@echo "make kernel-slow  both checkers on every committed certificate; writes reports/kernel.md and what check knows of Coq"
 	@echo "make fuzz       a million random statements against an oracle; hours; writes reports/statement_fuzz.md"
-	@echo "make lint       style (ruff) and formatting"
+	@echo "make lint       style (ruff), formatting and prose"
 	@echo "make types      static types (mypy --strict)"
 	@echo "make bench      benchmarks; writes reports/benchmarks.md"
 	@echo "make lock       renew requirements.lock (needs uv)"
@@ -79,6 +79,7 @@ fuzz: .venv/.ready
 lint: .venv/.ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/python -m tests.house.prose
 
 types: .venv/.ready
 	$(BIN)/mypy

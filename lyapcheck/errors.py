@@ -10,7 +10,7 @@ from lyapcheck.output.escapes import printable
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong with an input: where, what, which rule, and the repair."""
+    """One fault of an input, with its place, value, rule and repair."""
 
     file: str
     line: int | None
@@ -41,9 +41,9 @@ class Problem:
 
 
 class InputError(Exception):
-    """An input file or argument cannot be used; carries every problem found, not just the first.
+    """An input file or argument cannot be used. The error has every problem, not only the first.
 
-    The command line prints the problems one a line and leaves with exit code 2.
+    The command line prints one problem per line and returns exit code 2.
     """
 
     told = False

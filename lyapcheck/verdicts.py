@@ -7,7 +7,7 @@ from enum import IntEnum, StrEnum
 
 
 class Verdict(StrEnum):
-    """What was found out about one claim."""
+    """Result of one claim."""
 
     PROVED = "proved"
     REFUTED = "refuted"
@@ -21,7 +21,7 @@ class Verdict(StrEnum):
 
 
 class Grade(IntEnum):
-    """How good the evidence is; a chain is as good as its smallest grade."""
+    """Quality of the evidence. A chain has its smallest grade."""
 
     NUMERIC = 1
     """Sampled or floating-point only; never enough for ``proved`` or ``refuted``."""

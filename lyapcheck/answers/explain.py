@@ -174,9 +174,9 @@ def explain(
     """One claim explained.
 
     Args:
-        claim_id: such as ``7a``; ``(7a)`` and ``7A`` mean the same where no other claim has that id.
-        script: the proof script that makes it; by default the first of those that come with lyapcheck.
-        decide: whether to decide it as well, for m = 1, 2, 3 and the paper's arm.
+        claim_id: for example ``7a``. ``(7a)`` and ``7A`` mean the same if no other claim has that id.
+        script: the proof script with the claim. Default: the first script of lyapcheck that has it.
+        decide: True also decides the claim, for m = 1, 2, 3 and the paper's arm.
         on_progress: called with the fraction of that done and the id at work.
 
     Raises:

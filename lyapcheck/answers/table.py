@@ -79,10 +79,10 @@ class Table(Answer):
     """Certified constants of members of the hyperbolic family, to a number of significant digits.
 
     Args:
-        digits: how many are shown; the enclosures are tighter.
+        digits: number of printed digits. The enclosures are tighter.
         rows: the constants of each member.
-        budget: what an arm's torque limits leave to the gains.
-        asymptotes: for each row what the constants come close to as m grows.
+        budget: the largest gains within the torque limits of an arm.
+        asymptotes: the leading terms of each row as m grows.
     """
 
     schema = "lyapcheck/table/1"
@@ -208,7 +208,7 @@ def build_table(
         members: m of each row, at least 1.
         digits: significant digits to show, at least 1; all of them correct.
         on_progress: called with the fraction done (0 to 1) and a note.
-        with_asymptotes: add what the constants come close to as m grows.
+        with_asymptotes: True adds the leading terms as m grows.
 
     Raises:
         ValueError: an m or ``digits`` below 1.

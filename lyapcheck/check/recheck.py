@@ -80,10 +80,10 @@ class Outcome:
 
 
 def recheck(documents: Iterable[Document], limits: Limits | None = None, full: bool = False) -> Outcome:
-    """Judge certificates, and whether what they use was judged well too.
+    """Verify certificates and the certificates that they use.
 
-    ``limits`` are for each of them; ``full`` gives statements and words of authors whole. Raises
-    ``Unreadable`` where a file that was named by itself is not JSON.
+    ``limits`` are for each certificate. ``full`` gives statements and descriptions whole.
+    Raises ``Unreadable`` if a file that was named alone is not JSON.
 
     Soundness: a certificate is accepted if its own proof is, and each certificate that it uses is at hand and
     accepted, is of the claim it is used for and proves it. It is refused if one of these is known not to be

@@ -47,36 +47,36 @@ ZERO: Tree = ("num", "0")
 
 
 def strict(loop: System, V: Expr, above: Expr, rate: Expr, **more: object) -> Stable:
-    """dV/dt <= −rate at every state: the origin is globally asymptotically stable."""
+    """Claim that the origin is globally asymptotically stable, with dV/dt <= −rate at every state."""
     return _argued("strict", loop, V, above, rate, **more)  # type: ignore[arg-type]
 
 
 def lasalle(loop: System, V: Expr, above: Expr, rate: Expr, **more: object) -> Stable:
-    """dV/dt <= −rate, and ``rest=(x, form)``: xᵀMẇ >= form where the states of rate stay 0."""
+    """Claim stability by LaSalle, with dV/dt <= −rate. ``rest=(x, form)``: xᵀMẇ >= form while rate is 0."""
     return _argued("LaSalle", loop, V, above, rate, **more)  # type: ignore[arg-type]
 
 
 def uniform(loop: System, V: Expr, above: Expr, below: Expr, rate: Expr, **more: object) -> Stable:
-    """above <= V <= below, dV/dt <= −rate: globally uniformly asymptotically stable, also for q_d(t)."""
+    """Claim global uniform asymptotic stability, also for q_d(t): above <= V <= below, dV/dt <= −rate."""
     return _argued("uniform", loop, V, above, rate, below=below, **more)  # type: ignore[arg-type]
 
 
 def exponential(loop: System, V: Expr, above: Expr, below: Expr, rate: Expr, **more: object) -> Stable:
-    """As uniform, with quadratic forms in the norms of the states: globally exponentially stable."""
+    """Claim global exponential stability. As `uniform`, with quadratic forms in the norms of the states."""
     return _argued("exponential", loop, V, above, rate, below=below, **more)  # type: ignore[arg-type]
 
 
 def input_to_state(
     loop: System, V: Expr, above: Expr, below: Expr, rate: Expr, gain: Expr, **more: object
 ) -> Stable:
-    """As exponential, with dV/dt <= −rate + delta·gain under any torque of at most delta beside τ."""
+    """Claim stability under a torque of at most delta. As `exponential`, with dV/dt <= −rate + delta·gain."""
     return _argued("ISS", loop, V, above, rate, below=below, gain=gain, **more)  # type: ignore[arg-type]
 
 
 def cascade(
     loop: System, V: Expr, above: Expr, rate: Expr, motion: Expr, contraction: Expr, **more: object
 ) -> Stable:
-    """For ``changes={"w": …y}``: dV/dt <= −rate sees y, ‖M ẏ‖ <= motion, eᵀw >= contraction: y, e, w → 0."""
+    """Claim that y, e and w tend to 0, with dV/dt <= −rate in y, ‖M ẏ‖ <= motion and eᵀw >= contraction."""
     return _argued("cascade", loop, V, above, rate, motion=motion, contraction=contraction, **more)  # type: ignore[arg-type]
 
 
@@ -137,12 +137,12 @@ def _require_names(loop: System, used: Iterable[str], changed: Iterable[str]) ->
 
 
 def along(loop: System, V: Expr, equals: Expr, gravity: bool = False) -> EveryN:
-    """dV/dt along the loop equals an expression in its letters, for every n.
+    """Claim that dV/dt along the loop equals an expression in its symbols, for every n.
 
     Args:
-        V: in its letters, without the energy of gravity.
-        equals: in its letters too.
-        gravity: whether U_g(q) − U_g(q_d) + g(q_d)ᵀe is added to V.
+        V: the function, without the energy of gravity.
+        equals: an expression in the same symbols.
+        gravity: True adds U_g(q) − U_g(q_d) + g(q_d)ᵀe to V.
     """
     left: Tree = ("rate", V.tree)
     if gravity:
@@ -163,19 +163,19 @@ def rate_definite(stable: Stable) -> AllOf:
 
 
 def property_of(name: str, stable: Stable) -> Property:
-    """A property of the system of a theorem, or of its V, as a claim of its own.
+    """Claim a property of the system of a theorem, or of its V.
 
     Args:
-        name: one of those of ``check.kinds.stability``, such as ``V is positive definite``.
-        stable: the theorem; of its forms only those that the property needs are asked for.
+        name: a property in ``check.kinds.stability``, for example ``V is positive definite``.
+        stable: the theorem. Only the forms that the property needs are used.
     """
     return Property(name, stable.argument)
 
 
 def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:
-    """The same for one arm at its nominal numbers; a keyword gives a gain, as decimals, or a constant.
+    """Claim a theorem for one arm at its nominal numbers. A keyword gives a gain, as decimals, or a constant.
 
-    Numbers of M, C and gravity are chosen here and shown by the checker, as far as the conditions need them.
+    Bounds of M, C and gravity are chosen here if the conditions need them. The checker proves them.
 
     Raises:
         ValueError: a number that the conditions need is not given.

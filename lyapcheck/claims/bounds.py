@@ -36,7 +36,7 @@ HALVINGS = 60
 
 
 def above(value: object, digits: int = DIGITS) -> Fraction:
-    """The decimal number of so many places that is at least a number, and nearest to it.
+    """Round a number up to a decimal with this many places.
 
     Raises:
         ValueError: it contains variables, or has no value.
@@ -52,16 +52,15 @@ def below(value: object, digits: int = DIGITS) -> Fraction:
 
 
 class FamilyBounds:
-    """Decimal numbers that claims can show to be bounds of an odd function h, and what follows from them.
+    """Decimal bounds of an odd function h that claims can prove, and their consequences.
 
     Args:
         n: the number of joints.
-        gamma: at least sup |h|, an exact number or an expression; likewise the next two.
+        gamma: at least sup |h|, an exact number or an expression.
         rho: at least sup |h'|.
         L: at least sup h(x)/x.
 
-    ``reach`` bounds ‖h(e)‖ by √nγ, and ``G`` bounds ‖h(e)‖/(1 + ‖e‖): min(Lr, √nγ)/(1 + r) is largest where
-    both agree.
+    ``reach`` bounds ‖h(e)‖ by √nγ. ``G`` bounds ‖h(e)‖/(1 + ‖e‖) by the r with Lr = √nγ.
     """
 
     def __init__(self, n: int, gamma: object, rho: object, L: object) -> None:
@@ -96,9 +95,9 @@ class FamilyBounds:
 
 
 class ArmBounds:
-    """M(q) ≻ 0, β_M, k_c, λmin(B) and λmax(B) of a robot at its nominal numbers, and what states them.
+    """M(q) ≻ 0, β_M, k_c, λmin(B) and λmax(B) of a robot at its nominal numbers, with their statements.
 
-    ‖M(q)‖ is at most its largest row sum of absolute values; ‖C(q,x)y‖ is at most (Σ c_ijk²)^½ ‖x‖‖y‖.
+    ‖M(q)‖ is at most its largest row sum of absolute values. ‖C(q,x)y‖ is at most (Σ c_ijk²)^½ ‖x‖‖y‖.
     """
 
     def __init__(self, robot: RobotModel) -> None:
@@ -152,14 +151,14 @@ def _doubles(rows: list[list[arb]]) -> list[list[float]]:
 
 
 def largest_with(holds: Callable[[Fraction], bool], start: object = 1) -> Fraction | None:
-    """The largest positive number, to six digits, up to which a condition that is lost once holds.
+    """Return the largest positive number, to six digits, up to which a condition holds.
 
     Args:
-        holds: the condition; true for every smaller positive number where it is true.
-        start: where to begin.
+        holds: the condition. If it is true for a number, it is true for every smaller positive number.
+        start: the first number to try.
 
     Returns:
-        ``None`` where the condition is met neither by ``start`` nor by its halves.
+        None if neither ``start`` nor its halves satisfy the condition.
     """
     low = exact_value(start)
     for _ in range(HALVINGS):

@@ -18,19 +18,19 @@ from lyapcheck.errors import InputError, Problem
 
 
 class Lacking(Exception):
-    """A statement needs something that this case does not have; the claim is undecided for that reason."""
+    """A statement needs something that this case does not have. The claim is then undecided."""
 
 
 def lacking(reason: str) -> Lacking:
-    """What a statement raises when the text says nothing about a case: the claim is then undecided."""
+    """Raise this in a claim if the text does not cover the case. The claim is then undecided."""
     return Lacking(reason)
 
 
 class Case:
-    """What a statement may depend on; there is no other way to it than one that ``read`` takes down.
+    """Everything that a statement may depend on. ``read`` records each use.
 
     Args:
-        m: the member of the family.
+        m: the order of h_m.
         n: the number of joints.
         robot: a model with that many joints, or none.
         gains: the gain set for this m, or none.
@@ -149,10 +149,10 @@ class Claim:
 
     Attributes:
         id: the name by which other claims use it.
-        says: the statement as a reader sees it.
-        place: where the text makes it.
-        section: the part of the text under which reports list it.
-        uses: the claims it rests on.
+        says: a description for the reader.
+        place: the place in the text.
+        section: the part of the text, for reports.
+        uses: the claims that it uses.
         statement: the statement as data, for a case.
     """
 
@@ -166,10 +166,10 @@ class Claim:
 
 @dataclass
 class Proof:
-    """A proof: claims in the order of the text, each of which may use others.
+    """A proof: claims in the order of the text. A claim may use others.
 
-    In a script, write ``proof = Proof("name", "title")`` and decorate one function per claim. It is handed
-    those of m, n, robot and gains that its arguments name, and nothing else; ``case`` stands for all four::
+    In a script, write ``proof = Proof("name", "title")`` and decorate one function per claim. The function
+    gets the arguments that it names: m, n, robot and gains. ``case`` has all four::
 
         @proof.claim("7a", "‖h_m(x)‖ ≤ √n γ_m", "(7)")
         def _(m, n):

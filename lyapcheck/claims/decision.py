@@ -22,11 +22,11 @@ from lyapcheck.verdicts import Grade, Verdict
 class Decision:
     """A verdict with its grade, the method, and a witness (refuted) or a reason with advice (undecided).
 
-    The reason of a proved claim is a remark: that no point was found to meet its hypotheses.
+    A proved claim has a reason only if no point was found that satisfies its hypotheses.
 
-    ``evidence`` holds what else was found, as plain data (boxes used, samples without a counterexample, the
-    value that would have made a printed number right). ``certificate`` is what the checker accepted, by
-    ``rules``, taking for granted what ``granted`` says. ``promise`` is that of what is proved.
+    ``evidence`` has further findings as plain data, for example the number of boxes. ``certificate`` is the
+    certificate that the checker accepted, by ``rules`` and under the assumptions ``granted``. ``promise`` is
+    the promise of the proved statement.
     """
 
     verdict: Verdict

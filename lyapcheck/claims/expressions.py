@@ -25,7 +25,7 @@ class Multiplied:
 class Expr:
     """An expression: a tree of plain data under the arithmetic operators.
 
-    A Python ``float`` is refused: write 1.05 as ``"1.05"`` and it is read exactly.
+    A Python ``float`` is refused. Write 1.05 as ``"1.05"``, which is read exactly.
     """
 
     tree: Tree

@@ -85,7 +85,7 @@ def norm(x: AnyVector) -> Expr:
     """The size of a letter, as forms have it.
 
     Raises:
-        ValueError: it is a sum or product; sizes are those of states and functions.
+        ValueError: it is a sum or product. Only states and functions have sizes.
     """
     if x.tree[0] != "vec":
         raise ValueError("norm: a size is that of one letter, such as e, w or a function")
@@ -222,8 +222,8 @@ def constant_goal(friction: str = "any", disturbed: bool = False) -> Goal:
     """A constant q_d: e = q_d − q, w = q̇.
 
     Args:
-        friction: ``any``, for arms with or without it; ``positive``, where a proof needs it; ``none``.
-        disturbed: whether an unknown torque of at most delta acts beside that of the controller.
+        friction: ``any`` for arms with or without it, ``positive`` if the proof needs it, or ``none``.
+        disturbed: True adds an unknown torque of at most delta.
     """
     return Goal(False, friction, disturbed)
 

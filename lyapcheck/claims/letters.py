@@ -18,7 +18,7 @@ from lyapcheck.claims.expressions import Expr, Multiplied, expr, total, var
 
 @dataclass(frozen=True, eq=False)
 class AnyVector(Multiplied):
-    """A vector of Rⁿ for every n: ``x @ y`` is xᵀy, ``x @ A @ y`` is xᵀAy, ``s * x`` a multiple."""
+    """A vector of Rⁿ for every n. ``x @ y`` is xᵀy, ``x @ A @ y`` is xᵀAy, and ``s * x`` is a multiple."""
 
     tree: Tree
 
@@ -121,7 +121,7 @@ def any_matrix(name: str) -> AnyMatrix:
 
 
 def diagonal(x: AnyVector) -> AnyMatrix:
-    """The diagonal matrix of a vector that is a letter.
+    """The diagonal matrix of a vector that is a symbol.
 
     Raises:
         ValueError: it is a sum or a product.
@@ -135,7 +135,7 @@ def zero_vector() -> AnyVector:
 
 
 def rate(of: Expr) -> Expr:
-    """The derivative of a number by time, where the statement gives those of the letters in it."""
+    """The derivative of a number by time. The statement gives the derivatives of its symbols."""
     return Expr(("rate", of.tree))
 
 
@@ -147,15 +147,15 @@ def every_n(
     given: Motions = (),
     positive: Iterable[Expr] = (),
 ) -> EveryN:
-    """``left = right`` for every n and all values of the letters.
+    """Claim ``left = right`` for every n and all values of the symbols.
 
     Args:
-        left: a number made of the letters; so is ``right``.
-        right: what it equals.
+        left: a number made of symbols.
+        right: a number made of symbols.
         symmetric: the matrices with Aᵀ = A.
-        rates: the letters that move, or stand still, each with its derivative by time.
+        rates: the symbols that depend on time, each with its derivative.
         given: A, x and b with A x = b.
-        positive: the numbers that are > 0; the others are real.
+        positive: the numbers that are > 0. The others are real.
 
     Raises:
         ValueError: something stands where only a letter may.
@@ -179,16 +179,16 @@ def at_most_every_n(
     rates: Rates = (),
     given: Motions = (),
 ) -> BoundEveryN:
-    """``left <= right`` for every n, by norms: what is known of the letters is printed with the statement.
+    """Claim ``left <= right`` for every n, from bounds of norms. These bounds are printed with the statement.
 
     Args:
-        left: a number made of the letters, as in :func:`every_n`; its numbers are >= 0.
+        left: a number made of symbols, as in :func:`every_n`. Its numbers are >= 0.
         right: an expression in numbers >= 0 and constants.
-        norms: pairs of a letter and what its norm is at most; of several letters, the product of their norms.
-            The norm of a matrix is the spectral one, that of ``diagonal(x)`` the largest |x_i|.
-        least: pairs of a number and what it is at least.
-        symmetric: as in :func:`every_n`; so are ``rates`` and ``given``.
-        rates: the letters that move, each with its derivative by time.
+        norms: pairs of a symbol and an upper bound of its norm. Several symbols are the product of norms.
+            A matrix has the spectral norm, and ``diagonal(x)`` the largest |x_i|.
+        least: pairs of a number and a lower bound.
+        symmetric: as in :func:`every_n`, like ``rates`` and ``given``.
+        rates: the symbols that move, each with its derivative by time.
         given: A, x and b with A x = b.
 
     Raises:
@@ -285,7 +285,7 @@ def plus(a: A, b: A) -> A:
 
 
 def scaled(x: V, y: V) -> V:
-    """The elementwise product, diag(x) y; for every n, x is a letter."""
+    """The elementwise product, diag(x) y. For every n, x is a symbol."""
     if isinstance(x, AnyVector):
         return diagonal(x) @ y
     return [a * b for a, b in zip(x, y, strict=True)]

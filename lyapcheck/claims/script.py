@@ -80,7 +80,7 @@ def load_proof(path: Path, shown: str | None = None) -> Proof:
 
 
 def companion(script: str) -> SimpleNamespace:
-    """What another proof script defines, for one that builds on it: ``companion("every_function.py").h_of``.
+    """Load the names of another proof script, for example ``companion("every_function.py").h_of``.
 
     Args:
         script: a path, or the name of a script that comes with lyapcheck.

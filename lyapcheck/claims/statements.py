@@ -35,7 +35,7 @@ class Missing:
 
 
 def identity(left: object, right: object, variables: Iterable[Variable] = ()) -> Identity:
-    """``left = right`` for all values of the variables; those that ``variables`` does not name are real."""
+    """Claim ``left = right`` for all values. Variables that ``variables`` does not name are real."""
     return Identity(expr(left).tree, expr(right).tree, _list(Variable, variables, "variables"))
 
 
@@ -47,7 +47,7 @@ def for_all(
     open_high: bool = False,
     variable: str | None = None,
 ) -> ForAll:
-    """A relation for every x, its variable, from low to high, ends included unless open; None is infinity.
+    """Claim a relation for every x from low to high. Ends are included unless open, and None is infinity.
 
     Raises:
         ValueError: the relation has several variables.
@@ -84,7 +84,7 @@ def reals(*names: str) -> tuple[Variable, ...]:
 
 
 class Reals:
-    """Real variables, each declared once with its range; a statement takes over those that occur in it.
+    """Real variables, each declared once with its range. A statement uses the variables that occur in it.
 
     ::
 
@@ -139,10 +139,10 @@ class Reals:
 
 
 def implies(variables: Iterable[Variable], hypotheses: Iterable[Relation], conclusion: Relation) -> Implies:
-    """For all values of the variables: the hypotheses together give the conclusion.
+    """Claim that the hypotheses imply the conclusion, for all values of the variables.
 
     Raises:
-        ValueError: something else stands where a relation or a variable is asked for.
+        ValueError: an argument is not a relation or a variable.
     """
     return Implies(
         _list(Variable, variables, "variables"),
@@ -152,7 +152,7 @@ def implies(variables: Iterable[Variable], hypotheses: Iterable[Relation], concl
 
 
 def all_of(**parts: Statement) -> AllOf:
-    """Every part holds; the keywords name them (underscores read as spaces)."""
+    """Claim that every part holds. The keywords name the parts, with underscores for spaces."""
     return AllOf(tuple((name.replace("_", " "), _one(Statement, part, name)) for name, part in parts.items()))
 
 
@@ -206,13 +206,13 @@ def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
 
 
 def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> Decreasing:
-    """dV/dt < 0 along (11) at every state but the origin, with (13) for V and this ε₀.
+    """Claim dV/dt < 0 along (11) at every state except the origin, with V of (13) and this ε₀.
 
     Args:
         robot: the arm, at its nominal numbers.
         gains: of a bounded family, N·m.
         eps0: an exact positive number.
-        ranges: for all values of the arm's uncertain numbers instead.
+        ranges: True for all values of the uncertain numbers of the arm.
 
     Raises:
         Lacking: the gains are for another number of joints, or h is unbounded.
@@ -230,11 +230,11 @@ def decreasing(robot: Any, gains: Any, eps0: object, ranges: bool = False) -> De
 
 
 def damping_below(robot: Any, gains: Any, bound: object) -> DampingBelow:
-    """A bound of λmax(K_v) is necessary: wherever some ε₀ > 0 gives dV/dt < 0 with K_p and κK_v, κ > 0.
+    """Claim that a bound of λmax(K_v) is necessary for dV/dt < 0 with K_p, κK_v and some ε₀ > 0.
 
     Args:
         robot: the arm, at its nominal numbers.
-        gains: K_p, and K_v up to the factor κ; N·m.
+        gains: K_p, and K_v up to the factor κ, in N·m.
         bound: a number, N·m.
 
     Raises:
@@ -258,22 +258,22 @@ def sampled(
     filter: Iterable[object] = (1,),  # noqa: A002
     **loop: Any,
 ) -> SampledStable:
-    """The goal is globally asymptotically stable for gains on a computer, at every period up to this one.
+    """Claim that gains on a computer make the goal globally asymptotically stable, at every period up to one.
 
     Args:
         kp, kv: diagonals of K_p and K_v, N·m.
         period: s.
         m, family: of h.
-        robot: for all of its ranges; without it every serial revolute arm with |g_i| ≤ k_gi.
-        viscous_min: least friction of each joint, N·m·s/rad; that of the robot unless it is given.
+        robot: the arm with all its ranges. Without it, every serial revolute arm with |g_i| ≤ k_gi.
+        viscous_min: least friction of each joint, N·m·s/rad. Default: the friction of the robot.
         k_g: bounds of the torques of gravity, N·m.
-        conclusion: *rest*: every motion comes to rest, whatever gravity acts.
-        longest: interval between readings, s; the period unless it is given.
+        conclusion: ``goal``, or ``rest`` if every motion must only stop, under any gravity.
+        longest: longest interval between readings, s. Default: the period.
         filter: weights of the differences of readings, the newest first.
-        loop: ``delay`` in whole samples, ``velocity`` and ``angles``; see `SampledLoop`.
+        loop: ``delay`` in whole samples, ``velocity`` and ``angles``, as in `SampledLoop`.
 
     Raises:
-        ValueError: the loop is one that (S) does not speak of.
+        ValueError: the rule (S) does not cover the loop.
     """
     from lyapcheck import asked
     from lyapcheck.control.gains import GainSet

@@ -186,16 +186,16 @@ def require_joints(gain_files: Iterable[GainFile], model: RobotModel) -> None:
 
 
 LOOP = {
-    "rate": ("HZ", "How often the controller runs. Like the options after it in place of [loop] in files."),
-    "period": ("TIME", 'The same as a time, such as "2.5 ms".'),
+    "rate": ("HZ", "Rate of the controller. This and the next options replace [loop] of the files."),
+    "period": ("TIME", 'The same as a period, for example "2.5 ms".'),
     "longest": ("TIME", "The longest interval between two readings."),
     "delay": ("N", "Whole samples from a reading to its torque."),
     "velocity": ("HOW", "difference (of readings), or measured."),
-    "filter": ("TAPS", "Taps of a filter of the velocity, the newest first: 0.5,0.5."),
-    "lowpass": ("HZ", "Cut-off of a first-order filter of the velocity."),
-    "encoder": ("BITS", 'Of every joint: "17 bits", or counts a turn.'),
-    "unknown_payload": ("KG", "The most at the centre of mass of the last link, unknown to the controller."),
-    "gravity_error": ("PERCENT", "How wrong the gravity that the controller knows may be."),
+    "filter": ("TAPS", "Taps of the velocity filter, the newest first, for example 0.5,0.5."),
+    "lowpass": ("HZ", "Cut-off frequency of a first-order velocity filter."),
+    "encoder": ("BITS", 'Encoder of every joint, "17 bits" or counts per turn.'),
+    "unknown_payload": ("KG", "Largest mass at the last link that the controller does not know."),
+    "gravity_error": ("PERCENT", "Largest error of the gravity torque in the controller."),
 }
 """Options of the loop with what they take; each is a key of ``[loop]``."""
 
@@ -207,20 +207,20 @@ def add_gain_file(parser: Parser) -> None:
 
 def add_robot(parser: Parser, about: str = "") -> None:
     """``--robot``, a name or a path, and what is chosen of it."""
-    about = about or "A built-in arm or an arm file, instead of the one the gain file names."
+    about = about or "Arm by name or file, instead of the arm in the gain file."
     parser.add_argument("--robot", metavar="ROBOT", help=about)
     add_choice_of_arm(parser)
 
 
 def add_choice_of_arm(parser: Parser) -> None:
     """``--base``, ``--tip``, ``--fixed`` and ``--xacro``, which `chosen` makes part of the arm's name."""
-    about = "The link of a URDF, xacro or MJCF file that the arm begins at."
+    about = "First link of the arm in a URDF, xacro or MJCF file."
     parser.add_argument("--base", metavar="LINK", help=about)
-    about = "The link that it ends at; the longest run of revolute joints if missing."
+    about = "Last link of the arm. Default is the longest run of revolute joints."
     parser.add_argument("--tip", metavar="LINK", help=about)
-    about = "A joint that is held there, rad or m; may be repeated."
+    about = "Joint that does not move, with its position in rad or m. May be repeated."
     parser.add_argument("--fixed", metavar="JOINT=VALUE", action="append", help=about)
-    about = "An argument of a xacro file; may be repeated."
+    about = "Argument of a xacro file. May be repeated."
     parser.add_argument("--xacro", metavar="NAME:=VALUE", action="append", help=about)
 
 
@@ -254,20 +254,22 @@ def _pair(option: str, word: str, mark: str) -> tuple[str, str]:
 
 def add_members(parser: Parser, default: str | None, more: str = "") -> None:
     """``--m``, as `lyapcheck.cli.values.parse_m` reads it."""
-    about = f"Members of the family: 3, 1,2,5 or 1:12.{more}"
+    about = f"Orders of h_m, for example 3 or 1,2,5 or 1:12.{more}"
     parser.add_argument("--m", metavar="M", default=default, help=about)
 
 
-def add_certificates(parser: Parser, what: str = "Write the certificates of each gain set there") -> None:
+def add_certificates(
+    parser: Parser, what: str = "Write the certificates of each gain set to this folder"
+) -> None:
     """``--certificates``, a folder."""
-    parser.add_argument("--certificates", metavar="DIR", type=Path, help=f"{what}; see recheck.")
+    parser.add_argument("--certificates", metavar="DIR", type=Path, help=f"{what}.")
 
 
 def add_vary(parser: Parser) -> None:
     """``--vary``, as `lyapcheck.robots.vary.Vary.parsed` reads it."""
     about = (
-        "A range for a number of the arm, in percent of its value or in its unit: viscous=-30%%..+0%%, "
-        "mass=-5%%..+5%%, payload=0..3, base_inertia=0.4..0.6; may be repeated."
+        "Range for a number of the arm, in percent of its value or in its unit. For example "
+        "viscous=-30%%..+0%%, mass=-5%%..+5%%, payload=0..3 or base_inertia=0.4..0.6. May be repeated."
     )
     parser.add_argument("--vary", metavar="NAME=LO..HI", action="append", help=about)
 
@@ -308,7 +310,7 @@ def loop_of(options: Mapping[str, Any]) -> LoopEntry:
 
 def add_no_store(parser: Parser) -> None:
     """``--no-store``."""
-    about = "Take nothing from the store and keep nothing there; see store."
+    about = "Do not read or write the cache."
     parser.add_argument("--no-store", action=_SwitchOff, nargs=0, dest=SUPPRESS, help=about)
 
 
@@ -323,4 +325,4 @@ class _SwitchOff(Action):
 
 def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat) -> None:
     """``--format``, the name of one of some formats."""
-    parser.add_choice("--format", formats, "How to write it.", default="text")
+    parser.add_choice("--format", formats, "Output format.", default="text")

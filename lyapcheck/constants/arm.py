@@ -116,14 +116,14 @@ def robot_bounds(model: Plant, max_boxes: int | None = None) -> RobotBounds:
 
 @lru_cache(maxsize=64)
 def robot_constants(model: Plant, max_boxes: int | None = None) -> RobotConstants:
-    """λmin(M), λmax(M) = β_M and k_c, enclosed, of an arm whose parameters stand at their nominal values.
+    """Enclose λmin(M), λmax(M) = β_M and k_c of an arm at its nominal parameters.
 
     Args:
         model: the arm, of any number of joints.
         max_boxes: budget of each constant; by default fewer for more joints, whose boxes cost more.
 
     Returns:
-        The enclosures; where the budget did not suffice they are wide.
+        The enclosures. They are wide if the number of boxes did not suffice.
 
     Soundness: see `lyapcheck.constants.arm_constants`.
     """

@@ -57,14 +57,14 @@ class GainSet:
     """The gains of one controller τ = K_p h(e) − K_v h(q̇) + g(q).
 
     Args:
-        name: the user's name for it.
-        m: the member of the hyperbolic family; ``None`` for another family.
+        name: its name in the file.
+        m: the order of the hyperbolic family. None for another family.
         kp: diagonal of K_p, N·m (N·m/rad or N·m/° where h is linear), exact.
         kv: diagonal of K_v, N·m (N·m·s/rad or N·m·s/° where h is linear), exact.
-        family: name of the bounded function h; ``linear`` is PD with gravity compensation.
-        angle_unit: ``deg`` where linear gains are meant per degree.
+        family: name of the function h. ``linear`` is PD with gravity compensation.
+        angle_unit: ``deg`` if linear gains are per degree.
         index: its number in the file, from 0.
-        condition: the conditions that decide about it, as its file says; empty where the file says nothing.
+        condition: the conditions that decide about it. Empty if the file names none.
 
     References: (6) of reyes2019family.
     """
@@ -86,7 +86,7 @@ class GainSet:
 
 @dataclass(frozen=True)
 class Bounds:
-    """What a gain file says about the arm itself; ``None`` where it leaves that to the arm.
+    """Numbers of the arm in a gain file. None means that the arm file gives the number.
 
     Args:
         viscous_min: λmin(B), N·m·s/rad.

@@ -155,19 +155,19 @@ def _assumed(what: str, joints: tuple[str, ...], numbers: tuple[Number | None, .
 
 @dataclass(frozen=True)
 class Limits:
-    """Exact limits of an arm; an entry is ``None`` where neither the arm nor the gain file gives it.
+    """Exact limits of an arm. An entry is None if neither the arm nor the gain file gives it.
 
     Args:
         torque: torque limit τmax_i of each joint, N·m.
         gravity: bound k_gi of each gravity torque, N·m.
         viscous_min: λmin(B), N·m·s/rad.
         joints: their names.
-        assumptions: what the numbers rest on that no source prints.
-        robot: the arm as it was named; empty where the gain file gives all numbers itself.
-        model: the arm; ``None`` where the gain file gives all numbers itself.
-        varied: whether proofs about the arm are to hold for all of its ranges, not at its nominal numbers.
+        assumptions: numbers that no source prints.
+        robot: the name of the arm. Empty if the gain file gives all numbers.
+        model: the arm, or None if the gain file gives all numbers.
+        varied: True if proofs must hold for all ranges of the arm, not only at nominal numbers.
         refuted: stated bounds of gravity that the arm itself breaks, which are not among ``gravity``.
-        gravity_notes: what there is to say of ``gravity``.
+        gravity_notes: notes about ``gravity``.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -196,12 +196,12 @@ class Limits:
 def limits_for(
     gain_file: GainFile, robot: str | None = None, arms: dict[str, ArmLimits] | None = None
 ) -> Limits:
-    """The limits that a gain file is judged by: its own ``[bounds]`` first, the arm for the rest.
+    """Return the limits for a gain file, from its own ``[bounds]`` first and then from the arm.
 
     Args:
         gain_file: the gains.
         robot: an arm that replaces the one the file names.
-        arms: arms that need not be read again, by name; those that are read now are added.
+        arms: arms already read, by name. Arms that are read now are added.
 
     Raises:
         InputError: no arm and no bounds, an unknown arm, or another number of joints.

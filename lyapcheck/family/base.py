@@ -79,8 +79,8 @@ class FamilyConstants:
 class Family(ABC):
     """An odd function h of one angle or rate, zero only at 0, with h' and the potential U (U' = h, U(0) = 0).
 
-    NumPy forms take any array of doubles and work elementwise; ±inf gives the limit and NaN stays NaN. The
-    argument is in rad for joint errors, in rad/s for rates; h is dimensionless, a gain gives it a unit.
+    NumPy forms take any array of doubles and work elementwise. ±inf gives the limit, and NaN stays NaN. The
+    argument is in rad for joint errors, in rad/s for rates. h is dimensionless, a gain gives it a unit.
     """
 
     name: str
@@ -139,7 +139,7 @@ class Family(ABC):
         try:
             return member(self.name, self.m)
         except ValueError as error:
-            repair = "give the checker a file for it, see docs/adding.md, or choose another family"
+            repair = "give the checker a file for it, see docs/extend.md, or choose another family"
             raise argument_error("family", self.name, str(error), repair) from error
 
     def ball_h(self, x: arb) -> arb:

@@ -39,8 +39,8 @@ def forms_in(family: Family, of: Arithmetic) -> FormsAt:
 class LyapunovNumeric:
     """V of (12) and its derivative along (11) for one controller on one arm.
 
-    Batches of `LARGE` states and more go through compiled loops where a C compiler is found, all others
-    through NumPy by the same expressions; the two agree to 1e-12 of the sum of the absolute terms.
+    If a C compiler is found, compiled loops evaluate batches of `LARGE` states and more. NumPy evaluates all
+    others by the same expressions. The two agree to 1e-12 of the sum of the absolute terms.
 
     Args:
         model: the arm; uncertain parameters at their nominal values.
@@ -49,7 +49,7 @@ class LyapunovNumeric:
         kv: diagonal of K_v, N·m (per rad/s where h is linear), n.
         eps0: ε₀ ≥ 0; with 0, V is the energy.
 
-    Soundness: rounded to nearest without bounds; a negative dV/dt here proves nothing.
+    Soundness: rounded to nearest without bounds. A negative dV/dt here proves nothing.
 
     References: (12), (15) of reyes2019family.
     """

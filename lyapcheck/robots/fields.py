@@ -17,16 +17,16 @@ from lyapcheck.files.places import KeyPath
 
 @dataclass(frozen=True)
 class Number:
-    """One exact number of an arm, with unit, source and, where it is uncertain, a range.
+    """One exact number of an arm, with unit and source, and a range if it is uncertain.
 
     Args:
         value: the nominal value, exactly as written.
         unit: SI unit as text (``"kg·m²"``), empty for a count.
-        source: where the value is printed, or why it was chosen.
+        source: the place where the value is printed, or the reason for it.
         assumed: true when no source prints the number for this arm.
-        low: smallest value it may have; ``None`` when the number has no range.
-        high: largest value it may have; ``None`` when the number has no range.
-        note: what a reader of a result that rests on this number must know.
+        low: smallest possible value. None if the number has no range.
+        high: largest possible value. None if the number has no range.
+        note: a note for the reader of a result that uses this number.
 
     Soundness:
         a statement made at ``value`` says nothing about the rest of ``[low, high]``.

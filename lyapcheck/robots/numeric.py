@@ -21,9 +21,9 @@ class NumericModel:
 
     Args:
         model: the arm.
-        parameters: exact values of uncertain parameters; nominal where not given.
+        parameters: exact values of uncertain parameters. Default: nominal.
 
-    Soundness: rounded to nearest without bounds; good for search and simulation, never for a verdict.
+    Soundness: rounded to nearest without bounds. Good for search and simulation, never for a verdict.
     """
 
     def __init__(self, model: Plant, parameters: Mapping[str, Fraction] | None = None) -> None:

@@ -176,21 +176,21 @@ class Plant:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RobotModel(Plant):
-    """An arm that a file describes: what moves, and what is known of every number.
+    """An arm from a file: its links and every number with its source.
 
     Args:
         title: one line for reports.
-        coulomb: Coulomb friction torques, N·m; ``None`` where nothing is known.
-        torque_limit: largest torque of each motor, N·m; ``None`` where nothing is known.
-        encoder: counts per turn; ``None`` where nothing is known.
-        gravity_bound: k_gi where the source prints them, N·m.
+        coulomb: Coulomb friction torques, N·m. None if unknown.
+        torque_limit: largest torque of each motor, N·m. None if unknown.
+        encoder: counts per turn. None if unknown.
+        gravity_bound: k_gi that the source prints, N·m.
         numbers: every number of the arm with its provenance.
-        remarks: what is taken for granted beyond assumed numbers, in sentences.
-        printed: C and g as the source prints them, where it does; nothing is derived from them.
-        loop: how a computer runs the arm, as its file says.
+        remarks: further assumptions, in sentences.
+        printed: C and g that the source prints. Nothing is derived from them.
+        loop: the sampled loop in the file.
 
-    Soundness: M is that of the physical arm only as far as ``numbers`` are; ``assumptions`` lists those
-    that no source prints.
+    Soundness: M belongs to the physical arm only if ``numbers`` do. ``assumptions`` lists the numbers that no
+    source prints.
 
     References: (1) and properties 2.1–2.8 of reyes2019family.
     """

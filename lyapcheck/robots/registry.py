@@ -26,7 +26,7 @@ OWN = Path(__file__).parent / "arms"
 
 
 def names() -> tuple[str, ...]:
-    """The built-in arms, sorted: one for each file in ``arms/``, here or in a folder of the user's own."""
+    """List the names of the built-in arms, sorted, with arms in folders of the user."""
     return tuple(sorted(_arms()))
 
 
@@ -41,15 +41,15 @@ def load(
     spread: Fraction = EXACT,
     vary: tuple[Vary, ...] = (),
 ) -> RobotModel:
-    """The built-in arm of that name, or the arm in that file.
+    """Load a built-in arm by name, or an arm file.
 
     Args:
-        name_or_path: the arm, of a robot perhaps with what is chosen of it, as in ``arm.urdf#tip=hand``, see
+        name_or_path: the arm. A robot file can have a choice of joints, as in ``arm.urdf#tip=hand``. See
             `lyapcheck.robots.choice`.
-        tip: the link that ends the chain of a robot; the longest run of revolute joints by default.
-        spread: numbers of an arm file that have no range of their own get value·(1 ± spread), 0 ≤ spread < 1;
-            of a URDF file masses and friction.
-        vary: ranges of some numbers, in place of those of the file.
+        tip: the last link of the arm. Default: the longest run of revolute joints.
+        spread: gives numbers without a range the range value·(1 ± spread), 0 ≤ spread < 1. In a URDF file
+            these are masses and friction.
+        vary: ranges of some numbers, which replace the ranges in the file.
 
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).

@@ -37,10 +37,10 @@ UNSAMPLED = Fraction(1, 4000)
 
 @dataclass(frozen=True)
 class Bench(LoopRecord):
-    """The loop as it is run, see `LoopRecord`; by default as in the published experiment.
+    """The loop on a computer, as in `LoopRecord`. The default is the published experiment.
 
-    Every period: read the encoders, estimate the velocity, compute (6), cut it at the motors' limits, and
-    hold it from ``delay`` samples later on. Until then the motors hold what gravity asks at the start. The
+    In every period the controller reads the encoders, estimates the velocity and computes (6) within the
+    motor limits. The torque acts ``delay`` samples later. Until then the motors hold gravity. The
     arm carries the unknown payload at the centre of mass of its last link, and gravity is larger than the
     controller's by the share of ``gravity_error``. Intervals are all equal.
 

@@ -78,33 +78,33 @@ def simulate(
     stop: bool = True,
     on_progress: Progress | None = None,
 ) -> Run:
-    """Move an arm under (6), or under PD with gravity compensation, along the closed loop (11).
+    """Simulate an arm under (6), or under PD with gravity compensation, by the closed loop (11).
 
     ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w. The integration is done twice, the second
-    time ten times tighter; the second is handed back and their difference is its ``accuracy``.
+    time ten times tighter. The second run is returned, and the difference is its ``accuracy``.
 
     Args:
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
-        model: the arm, its name or its file; uncertain parameters are at their nominal values.
+        model: the arm, its name or its file; uncertain parameters have nominal values.
         q_d: (n,) goal in rad.
-        q0: (n,) start in rad; home if missing.
-        w0: (n,) initial rates in rad/s; rest if missing.
+        q0: (n,) start in rad. Default: 0.
+        w0: (n,) initial velocities in rad/s. Default: 0.
         T: seconds.
-        eps0: the ε₀ of V; 0 if missing, and then V is the energy.
-        points: samples handed back, evenly spaced, both ends included. Indices, promises and breaches are
-            of the integrator's dense output, extremes between samples included.
+        eps0: the ε₀ of V. Default: 0, and V is the energy.
+        points: number of returned samples, evenly spaced with both ends. Indices and violations use the
+            integrator's dense output between samples.
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
-        stop: end the run at the first state that breaks a promise: dV/dt ≤ 0, the bound (9), a motor's limit.
+        stop: end the run at the first state that violates dV/dt ≤ 0, the bound (9) or a motor limit.
         on_progress: receives the fraction done.
 
     Raises:
         InputError: a task the arm cannot be given.
-        SimulationFailed: the integrator gave up; carries what was reached.
-        PromiseBroken: a promise was broken; carries the run up to that state.
+        SimulationFailed: the integrator stopped. The error has the run so far.
+        PromiseBroken: a bound was violated. The error has the run up to that state.
 
-    Soundness: floating point throughout: evidence, never a proof. ``accuracy`` is an estimate. A ``breach``
-        that is ``confirmed`` is proved in balls, as a statement about its state.
+    Soundness: floating point throughout, which is evidence and never a proof. ``accuracy`` is an estimate.
+        A ``breach`` that is ``confirmed`` is proved in balls, as a statement about its state.
 
     References: (6), (11), (12), (20) of ``reyes2019family``.
     """

@@ -306,31 +306,31 @@ def track(
     stop: bool = True,
     on_progress: Progress | None = None,
 ) -> TrackingRun:
-    """Move an arm along a reference under (21).
+    """Simulate an arm along a reference under (21).
 
     ė = −w, M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with e = q_d(t) − q and w = q̇ − q̇_d. The
-    integration is done twice, the second time ten times tighter; the second is handed back and their
+    integration is done twice, the second time ten times tighter. The second run is returned, and the
     difference is its ``accuracy``.
 
     Args:
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
         model: the arm, its name or its file; uncertain parameters are at their nominal values.
         reference: q_d(t).
-        q0: (n,) start in rad; home if missing.
-        velocity: (n,) initial q̇ in rad/s; rest if missing.
-        T: seconds; what the reference asks for if missing.
-        eps0: the ε₀ of V; half of the largest for which Θ' is positive definite at v_d if missing.
+        q0: (n,) start in rad. Default: 0.
+        velocity: (n,) initial q̇ in rad/s. Default: 0.
+        T: seconds. Default: the duration of the reference.
+        eps0: the ε₀ of V. Default: half of the largest with Θ' positive definite at v_d.
         band: rad, for the time from which on each |e_i| stays within it.
-        points: samples handed back, evenly spaced, both ends included.
+        points: number of returned samples, evenly spaced with both ends.
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
-        stop: end the run at the first state that breaks a promise.
+        stop: end the run at the first state that violates a bound.
         on_progress: receives the fraction done.
 
     Raises:
         InputError: a request the arm or the reference cannot meet.
-        SimulationFailed: the integrator gave up; carries what was reached.
-        PromiseBroken: a promise was broken; carries the run up to that state.
+        SimulationFailed: the integrator stopped. The error has the run so far.
+        PromiseBroken: a bound was violated. The error has the run up to that state.
 
     Examples:
         >>> from fractions import Fraction as F
@@ -343,8 +343,8 @@ def track(
         >>> run.promise.falls, run.breach
         (True, None)
 
-    Soundness: the motion is floating point: evidence, never a proof. ``promise`` is certified; that a run
-        keeps it is what is looked at.
+    Soundness: the motion is floating point, which is evidence and never a proof. ``promise`` is certified.
+        The run is compared with it.
 
     References: (13), (20), (21) of ``reyes2019family``; ``proofs/tracking.py``.
     """

@@ -60,7 +60,7 @@ def experiment(
     bench: Bench = BENCH,
     on_progress: Progress | None = None,
 ) -> Run:
-    """Move an arm under (6), or under PD with gravity compensation, the way a computer does it; see `Bench`.
+    """Simulate an arm under (6), or under PD with gravity compensation, on a computer as in `Bench`.
 
     The arm is (1) with dry friction f_c tanh(w/creep) added, and with a load unknown to the controller.
 
@@ -68,21 +68,21 @@ def experiment(
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
         model: the arm, its name or its file; uncertain parameters and friction at nominal values.
         q_d: (n,) goal in rad.
-        q0: (n,) start in rad; home if missing.
-        w0: (n,) initial rates in rad/s; rest if missing.
+        q0: (n,) start in rad. Default: 0.
+        w0: (n,) initial velocities in rad/s. Default: 0.
         T: seconds, cut to whole periods.
-        eps0: the ε₀ of V; 0 if missing, and then V is the energy.
+        eps0: the ε₀ of V. Default: 0, and V is the energy.
         bench: the loop as it is run.
         on_progress: receives the fraction done.
 
     Returns:
-        One sample a period, overshoots of what lies between; ``tau`` is the torque held from then on, ``dV``
-        what (11) gives at the states passed, and ``accuracy`` the change when the arm is integrated with
-        twice the steps. ``unrest`` is what the run shows against the gains, see `unrest_of`.
+        One sample per period, and overshoots between samples. ``tau`` is the torque held from then on, and
+        ``dV`` the rate by (11). ``accuracy`` is the change with twice the integration steps. ``unrest`` is a
+        limit cycle or a falling payload, see `unrest_of`.
 
     Raises:
-        InputError: a task the arm cannot be given; an unknown payload where the arm's links are not known.
-        SimulationFailed: the sampled loop runs away; carries what was reached.
+        InputError: a task the arm cannot do, or an unknown payload on an arm without known links.
+        SimulationFailed: the sampled loop diverges. The error has the run so far.
 
     Soundness: floating point throughout; dry friction is regularised, so a joint that should stick creeps,
     and most friction torques are assumptions of the model, which the run lists in ``notes``.

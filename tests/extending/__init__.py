@@ -1,1 +1,1 @@
-"""``docs/adding.md`` as it stands: its files are written, its commands run, its output compared."""
+"""``docs/extend.md`` as it stands: its files are written, its commands run, its output compared."""

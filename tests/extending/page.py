@@ -13,7 +13,7 @@ from pathlib import Path
 
 import lyapcheck
 
-PAGE = Path(__file__).parents[2] / "docs" / "adding.md"
+PAGE = Path(__file__).parents[2] / "docs" / "extend.md"
 OWN = ("claims", "cli", "family", "output", "robots")
 """What may lie in a folder of the user's own; what is in ``check`` is for the checker."""
 FILE = re.compile(r"^`(?P<path>[\w./-]+)`:\n\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -30,10 +30,22 @@ class File:
 
 @dataclass(frozen=True)
 class Call:
-    """A command, and what the page says that it prints."""
+    """A command, and lines that it prints; a comment behind it names a verdict other than proved."""
 
     command: str
     output: str
+
+    @property
+    def code(self):
+        """The exit code that the comment names."""
+        return exit_code(self.command)
+
+
+def exit_code(line):
+    """The exit code of a command line of the documents: 0, or that of the verdict in its comment."""
+    words = line.partition(" #")[2].split()
+    codes = {"refuted": 1, "rejected": 1, "undecided": 3}
+    return next((code for word, code in codes.items() if word in words), 0)
 
 
 def sections():
@@ -96,7 +108,7 @@ class Workshop:
 
     def run(self, command, copied=True):
         """Run a command of the page; with the lyapcheck that is tested here, if not with the copy of it."""
-        program, *words = shlex.split(command)
+        program, *words = shlex.split(command, comments=True)
         assert program == "lyapcheck"
         return self.python("from lyapcheck.cli.main import main; main()", *words, copied=copied)
 

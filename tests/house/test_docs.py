@@ -9,22 +9,29 @@ import pytest
 
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
+from tests.extending.page import exit_code
 
 ROOT = Path(__file__).parents[2]
 DOCS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
-EXTENDED = "adding.md"
+EXTENDED = "extend.md"
 """Its commands are run as they stand by tests/extending, with the files that it adds."""
 SCREEN = 60
 """Lines of a README that fits one screen."""
 
 
-def commands(page):
-    """The command lines of a page, without comments."""
+def lines(page):
+    """The command lines of a page with the exit code that their comment names."""
     result = []
     for block in re.findall(r"```console\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
         for line in re.findall(r"^\$ (.*)$", block, re.MULTILINE):
-            result += [part.strip() for part in re.split(r"&&|>", line.split(" #")[0])]
-    return [line for line in result if line.startswith("lyapcheck ")]
+            parts = re.split(r"&&|>", line.split(" #")[0])
+            result += [(part.strip(), exit_code(line)) for part in parts]
+    return [(line, code) for line, code in result if line.startswith("lyapcheck ")]
+
+
+def commands(page):
+    """The command lines of a page, without comments."""
+    return [line for line, _ in lines(page)]
 
 
 EVERY = [(page.name, line) for page in DOCS if page.name != EXTENDED for line in commands(page)]
@@ -58,8 +65,19 @@ def test_every_page_is_in_the_site():
     }
 
 
-def test_the_readme_fits_a_screen():
-    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= SCREEN
+def test_the_readme_fits_a_screen_and_a_package_index():
+    """An index of packages shows the README alone: only its picture may be a file beside it."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= SCREEN
+    assert re.findall(r"\]\((?![a-z]+:|#)([^)]+)\)", text) == ["docs/response.png"]
+    assert all((ROOT / name).exists() for name in re.findall(r"`([\w/]+\.(?:md|cff))`", text))
+
+
+def test_scripts_that_are_named_are_there():
+    text = (ROOT / "docs" / "own_proof.md").read_text(encoding="utf-8")
+    shipped = re.findall(r"^\| `(\w+\.py)` \|", text, re.MULTILINE)
+    assert len(shipped) > 8
+    assert [name for name in shipped if not (ROOT / "proofs" / name).is_file()] == []
 
 
 def test_the_citation_is_of_this_version():

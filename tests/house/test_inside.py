@@ -1,4 +1,4 @@
-"""``docs/inside.md``: its map has every folder, and its ways lead through functions that there are."""
+"""``docs/architecture.md``: its map has every folder, and its ways lead through functions that there are."""
 
 import inspect
 import re
@@ -11,7 +11,7 @@ import pytest
 from tests.house.test_house import imported, modules
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "inside.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 
 
 def rows(head):
@@ -76,7 +76,7 @@ def test_each_step_is_a_function_that_hands_on_what_is_said(name, kind):
 
 
 def test_what_is_named_in_between_is_there():
-    for path in re.findall(r"`((?:\w+\.)+\w+)`(?! \|)", PAGE.partition("## Five ways")[2]):
+    for path in re.findall(r"`((?:\w+\.)+\w+)`(?! \|)", PAGE.partition("## Five paths")[2]):
         if not path.endswith(("md", "json")):
             module, _, name = path.rpartition(".")
             home = import_module(f"lyapcheck.{module}")

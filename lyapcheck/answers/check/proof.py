@@ -57,10 +57,10 @@ def statement_text(stated: Statement) -> str:
 
 @dataclass(frozen=True)
 class ClaimResult:
-    """What was found out about one claim for one m (``None``: the claim does not depend on m).
+    """Result of one claim for one m. None is a claim that does not depend on m.
 
-    ``stated`` is what was decided, ``comment`` the author's words for it; ``decision`` takes into account
-    what the claim uses.
+    ``stated`` is the decided statement and ``comment`` the author's description. ``decision`` depends on the
+    claims that it uses.
     """
 
     id: str
@@ -190,11 +190,11 @@ class ProofResult(Answer):
         n: the number of joints.
         robot: the arm, if there is one.
         claims: the rows that were asked for.
-        assumptions: about the arm, where some claim looked at it.
-        certificates: by file name those that the checker has accepted, also of what these rows use.
+        assumptions: about the arm, if a claim uses it.
+        certificates: the accepted certificates by file name, also of the used claims.
         script: the path of the script, as it was given.
         about_gains: the ids of the claims that are about the gain set of their m.
-        timings: whether to say how many seconds each claim took.
+        timings: True prints the seconds of each claim.
     """
 
     schema = "lyapcheck/check/2"

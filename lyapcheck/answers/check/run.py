@@ -86,22 +86,22 @@ def run_proof(
         path: the script, a program that runs in a process of its own; ``published.py`` is found wherever
             lyapcheck is installed.
         ms: the members of the family, m >= 1.
-        robot: a robot model, or its name or file; the paper's arm by default, unless ``n`` is given.
-        n: the number of joints, for claims on vectors, in place of a robot.
-        gains: a gain file (read or its path); the paper's Table 2 by default.
-        only: the ids to report; what they use is decided too.
+        robot: an arm, its name or its file. Default: the paper's arm, unless ``n`` is given.
+        n: the number of joints, for claims on vectors, instead of a robot.
+        gains: a gain file or its path. Default: Table 2 of the paper.
+        only: the ids to report. Claims that they use are also decided.
         on_progress: called with the fraction done and the id at work.
 
     Returns:
-        One result per claim and m; a claim that does not depend on m has one result with ``m = None``.
+        One result per claim and m. A claim that does not depend on m has one result with ``m = None``.
 
     Raises:
         InputError: the script, an id, the robot or the gain file cannot be used, or the gains are for another
             number of joints.
 
-    Soundness: verdicts and grades are those that a fresh process of the checker finds in the certificates. A
-    claim is proved only if its own certificate is accepted and every claim it uses is proved for the same m,
-    and if those behind the hypotheses of a theorem state what these come to.
+    Soundness: a fresh process of the checker recomputes verdicts and grades from the certificates. A claim is
+    proved only if its own certificate is accepted and every claim that it uses is proved for the same m.
+    Claims behind the hypotheses of a theorem must state these hypotheses.
     """
     proposed = proposed_proof(path, ms, robot, n, gains, only, on_progress)
     return proposed.result(judge_afresh(proposed.certificates))

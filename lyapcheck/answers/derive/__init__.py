@@ -101,18 +101,18 @@ NOTES = (
 
 
 def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None) -> Derivation:
-    """What SymPy derives from U_m for n joints, or for an arm, each thing judged by the checker as well.
+    """Derive the formulas of the family, V and dV/dt from U_m by SymPy. The checker verifies each.
 
     Args:
-        m: one member of the family, or several.
-        n: joints; those of the arm where there is one.
+        m: one order of the family, or several.
+        n: number of joints. An arm has its own.
         robot: a built-in arm or the path of an arm file.
 
     Raises:
         InputError: an m or n out of range, an arm that cannot be read or whose M(q) is too long.
 
-    Soundness: SymPy decides by normal forms of polynomials alone; `verdict` is the checker's, of statements
-        that are written from what SymPy derived.
+    Soundness: SymPy uses normal forms of polynomials only. `verdict` is the checker's verdict on statements
+        written from the derived formulas.
 
     References: (6), (8), (11), (12), (13), (15) of reyes2019family.
 

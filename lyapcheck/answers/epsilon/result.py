@@ -98,7 +98,7 @@ def annotations_of(result: FourEpsilons, file: GainFile | None) -> list[Annotati
 
 @dataclass(frozen=True)
 class EpsilonResult(FourEpsilons, Answer):
-    """The four ε₀ of one gain set as an answer; see `FourEpsilons` for what it has."""
+    """The four ε₀ of one gain set as an answer. `FourEpsilons` has the fields."""
 
     schema = "lyapcheck/epsilon/1"
 

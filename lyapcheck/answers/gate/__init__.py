@@ -33,21 +33,21 @@ def gate(
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
     Args:
-        gain_file: what ``read_gain_file`` returned, or the path of a gain file.
-        robot: an arm that replaces the one the file names.
-        deciding: the conditions that must hold; if missing those of each set, else (10p) and (19).
+        gain_file: a gain file or its path.
+        robot: an arm that replaces the arm of the file.
+        deciding: the conditions that must hold. Default: the conditions of each set, else (10p) and (19).
         gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
-        strict: whether what is undecided counts as a failure.
-        arms: arms that need not be read again, by name, for many files on one arm; those read now are added.
-        on_progress: receives the share done of the certificates that are asked for, and which is looked for.
-        loop: how a computer runs the gains, before what their file and that of the arm say of it.
-        within: look, where no period is shown, for a proof from rest within so many degrees at the one asked.
+        strict: True counts undecided as a failure.
+        arms: arms already read, by name, for many files on one arm. Arms that are read now are added.
+        on_progress: receives the fraction done, and the certificate in search.
+        loop: the sampled loop, which replaces the loop in the files.
+        within: degrees. Search a proof for starts at rest within this range, at exactly this period.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
 
-    Soundness: every verdict is that of ``lyapcheck.check.verify`` on a statement with a proof, which
-        ``lyapcheck.answers.gate.certificates`` writes as a certificate; where there is no proof it is
+    Soundness: ``lyapcheck.check.verify`` makes every verdict, on a statement with a proof.
+        ``lyapcheck.answers.gate.certificates`` writes both as a certificate. Without a proof the verdict is
         ``undecided``.
 
     References: (10), (19) and Section 4 of reyes2019family.

@@ -36,21 +36,21 @@ MOST_EXPLAINED = 300
 
 @dataclass(frozen=True)
 class GateResult:
-    """What the gate found about one gain set; ``verdict`` follows from the deciding checks alone.
+    """Result of the gate for one gain set. ``verdict`` follows from the deciding checks alone.
 
     Args:
-        file: that the set is from.
+        file: the file of the set.
         gains: the set.
         limits: of the arm.
         checks: of (10), (10p) and (19), of the certificates that decide, of the loop as it is run, and of
             stated bounds of gravity that the arm breaks.
         deciding: the conditions that must hold.
-        strict: whether what is undecided counts as a failure.
-        otherwise: a proof of stability for gains that break (19), where one was looked for and found.
-        explained: whether more is to be said of the set than its checks.
-        gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
+        strict: True counts undecided as a failure.
+        otherwise: a proof of stability for gains that violate (19), if one was found.
+        explained: True adds notes about the set to its checks.
+        gamma: ``true``, or ``printed`` for the rounded γ of the paper.
         grounds: the promises on which the set is accepted, or why it is not.
-        record: how a computer runs the controller; ``None`` where nothing is said of it.
+        record: the sampled loop, or None without a rate.
     """
 
     file: GainFile

@@ -77,7 +77,7 @@ def sweep(
     Raises:
         InputError: the plan cannot be read, the folder not be written, or no scheduler answers.
 
-    Soundness: every verdict is that of the command of its question, in the process that answered it.
+    Soundness: the command of each question makes the verdict, in the process that answered it.
 
     Example:
         >>> import lyapcheck

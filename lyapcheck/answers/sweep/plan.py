@@ -54,13 +54,13 @@ class Plan:
     """A sweep: robots × variations × gains × questions, in that order.
 
     Args:
-        path: of its file.
+        path: the plan file.
         robots: names or files.
-        variations: of each the ranges, as ``--vary`` takes them; one without any is the arm as it is.
-        joints: how many each robot has.
+        variations: the ranges of each, as for ``--vary``. An empty one is the arm as it is.
+        joints: the number of joints of each robot.
         listed: gain sets one by one.
-        grid: gain sets by rows, after those that are listed.
-        asks: each question by its name, and what it was asked with.
+        grid: gain sets of the grid, after the listed sets.
+        asks: each question by its name, with its options.
     """
 
     path: str

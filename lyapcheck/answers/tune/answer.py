@@ -268,15 +268,15 @@ class Tuning(Answer):
     """Tuned gains of one arm for several members of the family.
 
     Args:
-        robot: the arm as the user named it.
-        title: what it is.
-        targets: what was asked for, one value a joint.
-        limits: what the gains were tuned to, the share of the torque taken off.
-        bounds: the limits that the gain file has to repeat, as the arm alone says otherwise.
-        sets: one a member.
-        task: a motion on which the members are compared; ``None`` where they are not.
+        robot: the name of the arm.
+        title: its title.
+        targets: the targets, one value per joint.
+        limits: the limits of the search, with the reserve of torque subtracted.
+        bounds: limits that the gain file must repeat, because they differ from the arm's.
+        sets: one gain set per order m.
+        task: a motion that compares the orders, or None.
         effects: its runs.
-        loop: what the user said of the loop, before the arm file.
+        loop: the sampled loop from the user, which replaces the arm file's.
     """
 
     schema = "lyapcheck/tune/1"

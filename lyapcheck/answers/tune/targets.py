@@ -19,17 +19,17 @@ ONE = (Fraction(1),)
 
 @dataclass(frozen=True)
 class Targets:
-    """The trade between stiffness, damping and torque; a tuple of one number counts for every joint.
+    """Targets for stiffness, damping and torque. A tuple of one number counts for every joint.
 
     ``Targets.of`` makes them from numbers as one writes them.
 
     Args:
         digits: decimal places of the gains, 0 to 12.
         peak_share: the share of each torque limit that may be used, in (0, 1].
-        kv_share: the share that k_v takes, at least, of the largest k_v that (19) admits, in (0, 1]; ``None``
-            is 1 where no ``kv_min`` is given, and otherwise leaves the matter to ``kv_min``.
+        kv_share: smallest share of the largest k_v under (19), in (0, 1]. None is 1, or leaves the bound to
+            ``kv_min`` if that is given.
         kv_min: a lower bound of k_v, N·m.
-        damping: a lower bound of the damping ratio ζ_i of each joint; see ``lyapcheck.answers.tune.largest``.
+        damping: a lower bound of the damping ratio ζ_i of each joint. See ``lyapcheck.answers.tune.largest``.
     """
 
     digits: int = 3

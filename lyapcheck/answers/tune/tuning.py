@@ -86,23 +86,23 @@ def tune(
     task: Task | None = None,
     loop: LoopEntry = NOTHING,
 ) -> Tuning:
-    """The largest k_p, and beside it the largest k_v, that meet (10p), (19) and the targets.
+    """Find the largest k_p, and with it the largest k_v, that meet (10p), (19) and the targets.
 
     Args:
         robot: a built-in arm, or the path of an arm file.
-        members: m of each gain set.
-        targets: the trade between stiffness, damping and torque; by default as much damping as (19) admits.
-        bounds: limits to take instead of the arm's.
-        against: gains to compare with; see ``lyapcheck.answers.tune.tuning``.
-        varies: ranges of the arm's numbers that the limits are to hold for.
-        task: a motion on which the members are compared by runs.
-        loop: how a computer runs the gains, before what the arm file says of it.
+        members: the order m of each gain set.
+        targets: stiffness, damping and torque. Default: as much damping as (19) allows.
+        bounds: limits that replace the arm's.
+        against: gains to compare with.
+        varies: ranges of the arm's numbers for the limits.
+        task: a motion that compares the orders.
+        loop: the sampled loop, which replaces the arm file's.
 
     Raises:
         InputError: the arm or a target cannot be used.
 
-    Soundness: every gain is an exact decimal that the gate accepted; that no gain can be one unit of the last
-        digit larger is decided in the same exact arithmetic. The convex program only says where to look.
+    Soundness: every gain is an exact decimal that the gate accepted. Exact arithmetic also decides that no
+        gain can be one unit of the last digit larger. The convex program only proposes.
 
     References: (10), (19) and Section 4 of reyes2019family.
 

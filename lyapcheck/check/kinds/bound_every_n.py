@@ -50,9 +50,9 @@ from lyapcheck.check.verify import Accepted, rule
 class BoundEveryN(OfTerms):
     """``left <= right`` for every n, from bounds of norms; ``left`` is as in :class:`EveryN`.
 
-    ``norms`` says of some letters together that the product of their norms is at most an expression, the norm
-    of a number being its size. ``least`` says that a number is at least an expression. The variables of these
-    expressions and of ``right``, and the numbers among the letters of ``left``, are >= 0.
+    ``norms`` bounds the product of the norms of some symbols by an expression. The norm of a number is its
+    size. ``least`` is a lower bound of a number. The variables of these expressions and of ``right``, and the
+    numbers in ``left``, are >= 0.
     """
 
     left: Tree

@@ -272,7 +272,7 @@ def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[E
 class DampingBelow(OfLoop, OfTerms):
     """For all κ > 0 and ε₀ > 0: where dV/dt < 0 at every state but the origin, κ λmax(K_v) < bound.
 
-    The gains are K_p and κ K_v; V is that of (13).
+    The gains are K_p and κ K_v, and V is (13).
     """
 
     bound: Tree

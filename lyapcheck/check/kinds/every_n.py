@@ -39,7 +39,7 @@ class Given:
 class EveryN(OfTerms):
     """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices (``check.letters``).
 
-    ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The letters are
+    ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The symbols are
     functions of time, over some interval, with the derivatives ``rates``, pairs (letter, derivative), and
     ``given`` holds at all its times; apart from that they are free.
     """

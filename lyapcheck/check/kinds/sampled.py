@@ -62,9 +62,9 @@ class SampledStable(Total):
     - the chain ``links`` with free fall ``fall``;
     - any in the ranges of ``parameters`` with this ``mass``, where positive definite, and ``potential``.
 
-    ``conclusion``: *goal*: with g = ĝ the goal is globally asymptotically stable. *rest*: ĝ is that of the
-    arm above, any serial revolute arm moves under any bounded g, which has a potential, and any dissipative
-    friction beside B: w → 0 in every motion.
+    The ``conclusion`` *goal* means g = ĝ, and the goal is globally asymptotically stable. *rest* means that
+    w → 0 in every motion. Any serial revolute arm then moves under ĝ of the arm above, any bounded g with a
+    potential, and any dissipative friction in addition to B.
     """
 
     family: str

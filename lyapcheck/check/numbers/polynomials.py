@@ -169,7 +169,7 @@ MOST_BITS = 1 << 18
 class Enclosure:
     """The closed interval ``[lower, upper]`` with exact rational ends that holds one real number.
 
-    Soundness: whoever makes an enclosure vouches that the number lies inside; everything here only widens.
+    Soundness: the caller guarantees that the number is inside. All operations only widen the interval.
     """
 
     lower: Fraction

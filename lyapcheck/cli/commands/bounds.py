@@ -39,15 +39,13 @@ def arguments(parser: Parser) -> None:
     add_robot(parser)
     add_vary(parser)
     add_loop(parser, ("unknown_payload", "gravity_error"))
-    about = "Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."
+    about = "Goal in degrees, one angle per joint. Default: 45 each, or 45,45,90 for three joints."
     parser.add_argument("--target", metavar="ANGLES", help=about)
-    parser.add_argument(
-        "--start", metavar="ANGLES", help="Initial joint angles in degrees; all 0 if missing."
-    )
-    parser.add_number("--delta", float, "The error that the simulated time is for, in degrees.", default=1.0)
-    about = "Bounds in N·m of dry friction, one a joint; those of the arm if missing."
+    parser.add_argument("--start", metavar="ANGLES", help="Initial joint angles in degrees. Default: 0.")
+    parser.add_number("--delta", float, "Error in degrees for the simulated time.", default=1.0)
+    about = "Largest dry friction of each joint, in N·m. Default: from the arm file."
     parser.add_argument("--friction", metavar="TORQUES", help=about)
-    parser.add_number("--time", float, "Duration of the simulated runs in s.", default=10.0)
+    parser.add_number("--time", float, "Duration of the simulated runs, in s.", default=10.0)
     add_certificates(parser)
     add_format(parser)
 
@@ -65,15 +63,14 @@ def run(
     format: str,  # noqa: A002
     **loop: str | None,
 ) -> Exit:
-    """How far from the goal dry friction lets the arm rest: proved, joint by joint, beside a simulation.
+    """Bound the error that dry friction leaves at rest, joint by joint, with proof.
 
-    The proved bounds hold at every state of rest, for dry friction up to what the arm file states, or
-    --friction. Times and errors on the way are simulated only. With --vary for every arm in the ranges,
-    beside what holds without them.
+    The bounds hold at every state of rest, for dry friction up to the number in the arm file or in
+    --friction. With --vary they hold for every arm in the ranges. A simulated run is printed for comparison.
 
-    Gravity that the controller does not know, by [loop] or options, counts beside dry friction.
+    Gravity that the controller does not know, by [loop] or options, counts like dry friction.
 
-    Exit code 0: each joint has a proved bound, 1: one falls, 2: unusable input, 3: one has no bound.
+    Exit code 0: each joint has a proved bound, 1: a joint falls, 2: unusable input, 3: a joint has no bound.
 
     Examples:
       lyapcheck bounds gains.toml --certificates proof/

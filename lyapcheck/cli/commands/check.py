@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("proof", metavar="PROOF.py", help="A proof script; published.py is the paper's.")
+    parser.add_argument("proof", metavar="PROOF.py", help="Proof script. The paper is published.py.")
     add_members(parser, "1:3")
-    add_robot(parser, "A robot name or file; the paper's arm if missing.")
-    parser.add_number("--n", int, "Number of joints, in place of a robot.")
-    parser.add_argument("--gains", metavar="FILE", help="A gain file; the paper's Table 2 if missing.")
+    add_robot(parser, "Arm by name or file. Default: the paper's arm.")
+    parser.add_number("--n", int, "Number of joints, instead of an arm.")
+    parser.add_argument("--gains", metavar="FILE", help="Gain file. Default: Table 2 of the paper.")
     parser.add_argument(
-        "--only", metavar="ID", action="append", help="Report this claim only; may be repeated."
+        "--only", metavar="ID", action="append", help="Report this claim only. May be repeated."
     )
-    add_certificates(parser, "Write a certificate per decided claim there")
-    parser.add_argument("--timings", action="store_true", help="Add the seconds each claim took.")
+    add_certificates(parser, "Write a certificate of each decided claim to this folder")
+    parser.add_argument("--timings", action="store_true", help="Add the seconds of each claim.")
     add_no_store(parser)
     add_format(parser)
 
@@ -40,10 +40,10 @@ def run(
     timings: bool,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Run a proof script claim by claim: proved, refuted with a witness, or undecided with a reason.
+    """Decide the claims of a proof script: proved, refuted with a counterexample, or undecided.
 
-    A proof script is a program: run only what you trust with your files. It cannot influence a verdict,
-    though: it hands over statements, and a fresh process of the checker decides them.
+    A proof script is a program. Run only scripts that you trust with your files. A script cannot influence
+    a verdict, because a fresh process of the checker decides its statements.
 
     Exit code 0: all proved, 1: something refuted, 2: the script or an input cannot be used, 3: something
     undecided and nothing refuted.

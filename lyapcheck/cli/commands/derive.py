@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_members(parser, "2")
-    parser.add_number("--n", int, "Joints for which V and dV/dt are decided entry by entry.", default=2)
-    about = "A built-in arm or an arm file, whose M, C and g are written out; n is then its own."
+    parser.add_number("--n", int, "Number of joints for V and dV/dt.", default=2)
+    about = "Arm by name or file. Its M, C and g are printed, and it sets n."
     add_robot(parser, about)
     add_format(parser, Format)
 
 
 def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
-    """What SymPy derives from U_m: h, h', the polynomials of γ and ρ, V of (12) and (13), dV/dt of (15).
+    """Derive h, h', the polynomials of γ and ρ, V of (12) and (13), and dV/dt of (15) from U_m by SymPy.
 
-    Beside each stands what the checker proves of it, judged now from the formula that SymPy has derived.
+    The checker verifies each derived formula, and its verdict is printed next to the formula.
 
     Examples:
       lyapcheck derive

@@ -40,29 +40,35 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_gain_file(parser)
     add_robot(parser)
-    parser.add_argument("--m", metavar="M", help="Only the gain sets of these members: 3, 1,2,5 or 1:12.")
-    parser.add_number("--max-boxes", int, "Budget of branch and bound.", default=400_000, least=1)
+    parser.add_argument(
+        "--m", metavar="M", help="Only gain sets of these orders, for example 3 or 1,2,5 or 1:12."
+    )
+    parser.add_number(
+        "--max-boxes", int, "Largest number of boxes in branch and bound.", default=400_000, least=1
+    )
     parser.add_number(
         "--jobs",
         int,
-        "Processes that share the boxes of the checker.",
+        "Number of processes.",
         default=2,
         least=1,
         most=64,
     )
-    about = "For all values of what is uncertain about the arm."
+    about = "Prove ε₀ for all values of the uncertain numbers of the arm."
     parser.add_argument("--ranges", action="store_true", help=about)
-    about = "Percent: every number of the arm without a range gets ± that; implies --ranges."
+    about = "Give every number without a range this range in ± percent. Implies --ranges."
     parser.add_number("--spread", float, about)
     add_vary(parser)
-    about = "Computing time for branch and bound, s; the answer then depends on the machine."
+    about = "Computing time of branch and bound, in s. The answer then depends on the machine."
     parser.add_number("--seconds", float, about, least=0)
-    about = "Search weights Λ in y = w − εΛh with all boxes and turns, beyond the few of each answer."
+    about = "Search longer for weights Λ in y = w − εΛh."
     parser.add_argument("--weights", action="store_true", help=about)
-    parser.add_number("--starts", int, "Starts of each optimised search.", default=30, least=1, most=10_000)
+    parser.add_number(
+        "--starts", int, "Number of starts of each optimised search.", default=30, least=1, most=10_000
+    )
     parser.add_number("--seed", int, "Seed of the sampled states.", default=20190301, least=0)
     add_certificates(parser)
-    parser.add_argument("--timings", action="store_true", help="Add the seconds each gain set took.")
+    parser.add_argument("--timings", action="store_true", help="Add the seconds of each gain set.")
     add_no_store(parser)
     add_format(parser)
 
@@ -84,12 +90,12 @@ def run(
     timings: bool,
     format: str,  # noqa: A002
 ) -> Exit:
-    """How large ε₀ of the Lyapunov function may be: published, scalar, certified, falsified.
+    """Bound ε₀ of the Lyapunov function from both sides: certified and falsified, published and scalar.
 
-    For each gain set: the end of (18), the ε₀ of norms, the largest ε₀ proved at every state, and the
-    smallest that a state refutes.
+    Published is the end of (18) and scalar follows from norms. Certified is the largest ε₀ proved at every
+    state. Falsified is the smallest ε₀ that a state refutes.
 
-    Exit code 0: each set has a certified ε₀, 2: unusable input, 3: one has none.
+    Exit code 0: each set has a certified ε₀, 2: unusable input, 3: a set has no certified ε₀.
 
     Examples:
       lyapcheck epsilon gains.toml --m 1 --certificates proof/

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "The id of a claim, such as 7a or 16.6; without one, all ids are listed."
+    about = "Id of a claim, for example 16.6. Without an id, all ids are listed."
     parser.add_argument("id", metavar="ID", nargs="?", help=about)
-    about = "The proof script that makes the claim; the first of lyapcheck's own if missing."
+    about = "Proof script with the claim. Default: the first script of lyapcheck that has it."
     parser.add_argument("--proof", metavar="FILE", help=about)
     add_no_store(parser)
     add_format(parser, Format)
@@ -29,9 +29,9 @@ def run(
     proof: str | None,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Say what a claim states, what came of it, where the paper makes it, what it uses and how it is decided.
+    """Explain a claim: its statement, verdict, place in the paper, premises and method.
 
-    Without an ID, list the claims that can be explained.
+    Without an ID, list all claims.
 
     Examples:
       lyapcheck explain

@@ -19,11 +19,11 @@ MOST_HELD = 1000
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_gain_file(parser)
-    about = "The folder for the files, made if need be."
+    about = "Folder for the files. It is created if it does not exist."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
-    about = "Readings jump at a full turn; NAME_step counts turns."
+    about = "Readings jump at a full turn, and NAME_step counts turns."
     parser.add_argument("--wrapped", action="store_true", help=about)
-    about = "Samples without a good reading for which the last torque is sent, before gravity alone."
+    about = "Number of samples without a good reading that repeat the last torque."
     parser.add_number("--hold-samples", int, about, default=3, least=0, most=MOST_HELD)
     add_loop(parser)
     add_robot(parser)
@@ -41,11 +41,12 @@ def run(
 ) -> Exit:
     """Write each gain set as a controller in C99, with a computed bound of rounding.
 
-    NAME.h, NAME.c, NAME_test.c and NAME.json, whose names come from the gain set's. NAME_torque computes
-    K_p h(e) − K_v h(w) + g(q); NAME_step reads angles at a rate, and keeps motors within their limits.
-    NAME_sampled.json is a certificate of the longest period that is known to do, where one is.
+    The files are NAME.h, NAME.c, NAME_test.c and NAME.json, with the name of the gain set. NAME_torque
+    computes K_p h(e) − K_v h(w) + g(q). NAME_step reads angles at a rate and keeps each torque within the
+    motor limit. NAME_sampled.json is a certificate of the longest proved period, if there is one.
 
-    Exit code 0: written, whatever the gate says of the gains, 2: a file cannot be used, or another is there.
+    Exit code 0: the files are written, for any verdict of the gate, 2: a file cannot be used, or another file
+    has its name.
 
     Examples:
       lyapcheck export gains.toml --out controller --rate 1000

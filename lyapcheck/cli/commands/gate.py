@@ -25,22 +25,22 @@ GAMMAS = ("true", "printed")
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("files", metavar="FILE...", nargs="+", help="Gain files (TOML).")
-    add_robot(parser, "An arm that replaces the one the files name.")
+    add_robot(parser, "Arm by name or file, instead of the arm in the gain files.")
     about = (
-        "A condition that must hold; may be repeated. 10i: 10p without its √n. scalar and global: dV/dt < 0 "
-        "proved for the arm; lasalle: stability without friction; sampled: as a computer runs it; holds: the "
-        "gravity that is not known. "
-        "If missing, those of the gain file, else 10p and 19."
+        "Condition that must hold. May be repeated. 10i is 10p without its √n. scalar and global prove "
+        "dV/dt < 0 for the arm. lasalle proves stability without friction. sampled is stability on a "
+        "computer. holds means that unknown gravity is held. Default: the conditions of the gain file, "
+        "else 10p and 19."
     )
     parser.add_choice("--condition", CONDITIONS, about, repeated=True)
-    parser.add_choice("--gamma", GAMMAS, "The certified γ, or the one the paper prints.", default="true")
-    about = "What is undecided counts as a failure, exit code 1."
+    parser.add_choice("--gamma", GAMMAS, "The certified γ, or the γ that the paper prints.", default="true")
+    about = "Treat undecided as a failure, exit code 1."
     parser.add_argument("--strict", action="store_true", help=about)
     add_vary(parser)
     add_loop(parser)
-    about = "Where no period is shown, prove it from rest within so many degrees, at exactly the one asked."
+    about = "Prove sampled for starts at rest within this many degrees, at exactly this period."
     parser.add_number("--within", float, about, least=0.001, most=3600)
-    add_certificates(parser, "Write the certificate of each check there")
+    add_certificates(parser, "Write the certificate of each verdict and check to this folder")
     add_format(parser)
 
 
@@ -56,11 +56,12 @@ def run(
     format: str,  # noqa: A002
     **loop: str | None,
 ) -> Exit:
-    """Accept or reject gains by the paper's conditions, as the checker judges them.
+    """Accept or reject gains by the paper's conditions or by a proof for the arm, as the checker judges them.
 
-    For each gain set and joint: value, limit, margin and the largest value that would pass.
+    The answer has for each gain set and joint the value, the limit, the margin and the largest value that
+    would pass.
 
-    Exit code 0: all accepted, 1: something rejected, 2: a file cannot be used, 3: undecided.
+    Exit code 0: all accepted, 1: something rejected, 2: a file cannot be used, 3: something undecided.
 
     Examples:
       lyapcheck gate gains.toml

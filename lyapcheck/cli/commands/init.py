@@ -14,35 +14,35 @@ if TYPE_CHECKING:
 
 GAINS, ARM = "gains.toml", "arm.toml"
 GAIN_TEXT = """\
-# Gains for lyapcheck gate; every decimal is read exactly.
-robot = "arm.toml"              # an arm or URDF file beside this one, or a built-in arm: lyapcheck robot
+# Gains for lyapcheck gate. Every decimal is read exactly.
+robot = "arm.toml"              # arm file or URDF file, or the name of an arm, for example ur5
 
 [[gains]]
 name = "first"
-m = 1                           # the member of the family: h = tanh for m = 1
+m = 1                           # order of h_m, where h_1 is tanh
 kp = [22, 10]                   # N·m, one per joint
 kv = [12, 3]                    # N·m
-condition = ["10p", "scalar"]   # what decides: torque limits, and a proof of stability for this arm
-# For another arm: lyapcheck tune arm.toml --m 1 --overshoot 5 --settle 2.5 --rest-error 3 --out tuned.toml
+condition = ["10p", "scalar"]   # conditions: torque limits, and a stability proof for this arm
+# Gains for your arm: lyapcheck tune arm.toml --m 1 --overshoot 5 --settle 2.5 --rest-error 3 --out tuned.toml
 """
 ARM_TEXT = """\
-# An arm of two joints in a vertical plane, to be edited. A number that no data sheet prints says so:
+# Two-joint arm in a vertical plane. Edit the numbers. Mark a number that no data sheet has:
 #   viscous = { value = 0.3, assumed = true, low = 0.2, high = 0.5, note = "why" }
-# For a URDF file write instead of the links:  urdf = "arm.urdf"  and [[joints]] with name and friction.
+# Have a URDF file? Run lyapcheck robot arm.urdf --export arm.toml instead.
 title = "My arm"
 gravity = [0, 0, -9.81]         # m/s², in the base frame
 
-[[links]]                       # one for each joint with the link that it moves, base first
+[[links]]                       # one for each joint and the link that it moves, base first
 name = "shoulder"
-axis = [0, 1, 0]                # of a rational length, as [3, 4, 0] is
-origin = [0, 0, 0]              # of the joint, from the joint before (or the base), m
+axis = [0, 1, 0]                # axis of rotation
+origin = [0, 0, 0]              # position of the joint, seen from the previous joint or the base, m
 mass = 6                        # kg
-com = [0, 0, -0.1]              # centre of mass, from the joint, m
-inertia = 0.12                  # about the centre of mass, kg·m²; where axes are not parallel, a table:
-#   inertia = { ixx = 0.12, iyy = 0.12, izz = 0.02 }   and ixy, ixz, iyz where they are not zero
+com = [0, 0, -0.1]              # centre of mass, seen from the joint, m
+inertia = 0.12                  # about the centre of mass, kg·m². If axes are not parallel, a table:
+#   inertia = { ixx = 0.12, iyy = 0.12, izz = 0.02 }   and ixy, ixz, iyz if not zero
 viscous = 0.5                   # viscous friction, N·m·s/rad
-coulomb = 1                     # dry friction, N·m; this and the following may be left out
-torque_limit = 80               # N·m
+coulomb = 1                     # dry friction, N·m, optional
+torque_limit = 80               # motor limit, N·m, optional
 
 [[links]]
 name = "elbow"
@@ -59,21 +59,21 @@ torque_limit = 20
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "The folder to start them in; this one if missing."
+    about = "Folder for the files. Default: this folder."
     parser.add_argument("folder", metavar="DIR", nargs="?", type=Path, default=Path(), help=about)
-    about = "Bring gains over from YAML (ros2_control, effort_controllers), JSON, or CSV with a header."
+    about = "Convert the gains in this YAML (ros2_control), JSON or CSV file with a header."
     parser.add_argument("--from", metavar="FILE", type=Path, dest="source", help=about)
-    parser.add_argument("--arm", metavar="ROBOT", dest="robot", help="The arm of these gains.")
+    parser.add_argument("--arm", metavar="ROBOT", dest="robot", help="Arm of these gains, by name or file.")
     add_choice_of_arm(parser)
 
 
 def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
-    """Start a gain file and an arm file, to be edited: gains.toml and arm.toml.
+    """Write a gain file and an arm file to edit, gains.toml and arm.toml.
 
-    Files that are there stay as they are. With --from and --arm a gain file alone, whose gains are those of
-    another program by joint: the bounded law of the same slope, cut to (10p).
+    Existing files stay as they are. With --from and --arm the command writes a gain file only. Its gains have
+    the slope of the other program's gains at the goal, reduced to (10p).
 
-    Exit code 0: both are written, 2: one is there already, or the folder cannot be written.
+    Exit code 0: the files are written, 2: a file exists already, or the folder cannot be written.
 
     Examples:
       lyapcheck init bench && lyapcheck gate bench/gains.toml

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    about = "Certificate files, or directories of them."
+    about = "Certificate files, or folders with certificates."
     parser.add_argument("certificates", metavar="CERTIFICATE...", nargs="+", help=about)
     parser.add_argument("--full", action="store_true", help=HELP["full"])
     parser.add_argument("--trusted", action="store_true", help=HELP["trusted"])
     parser.add_number("--seconds", int, HELP["seconds"], default=Limits.seconds, least=1, most=MOST)
     parser.add_number("--memory", int, HELP["memory"], default=Limits.memory, least=1, most=MOST)
-    about = "Also print what each shows as a theorem of Coq's, and have Coq's kernel judge it; needs coqc."
+    about = "Also ask the kernel of Coq about each certificate. This needs coqc."
     parser.add_argument("--kernel", action="store_true", help=about)
     about = "The same, and keep the files for Coq in this folder."
     parser.add_argument("--kernel-files", metavar="DIR", type=Path, help=about)
@@ -43,11 +43,11 @@ def run(
 ) -> int:
     """Verify certificates with the small checker alone: accepted, refused or undecided, with the reason.
 
-    What is printed as a statement is rendered from its data; the words of its author are marked as such. A
-    certificate is undecided as long as one that it uses is not at hand.
+    Each statement is printed from its data. The author's description is in quotation marks. A certificate is
+    undecided while a certificate that it uses is missing.
 
     Exit code 0: all accepted, 1: some refused, 2: a file cannot be read, 3: some undecided and none refused,
-    4: one statement both proved and refuted.
+    4: a statement is both proved and refuted.
 
     Examples:
       lyapcheck recheck proof/

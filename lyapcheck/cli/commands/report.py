@@ -28,21 +28,21 @@ _MOST_MEMBERS = 20
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("members", metavar="M", nargs="*", help="Members, as --m takes them.")
-    about = "Members of the family: 1 2 3, 1,2,5 or 1:12. [1:3, or those of the gain file]"
+    parser.add_argument("members", metavar="M", nargs="*", help="Orders of h_m, as for --m.")
+    about = "Orders of h_m, for example 1 2 3 or 1,2,5 or 1:12. Default: 1:3, or the orders in the gain file."
     parser.add_argument("--m", metavar="M", nargs="+", default=[], help=about)
-    add_robot(parser, "A built-in arm or an arm file.")
-    about = "A gain file; the paper's Table 2 and its PD baseline if missing."
+    add_robot(parser, "Arm by name or file.")
+    about = "Gain file. Default: Table 2 of the paper and its PD baseline."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
-    about = "Compute the map over m and k_v for the page, some minutes; that of the paper's arm is at hand."
+    about = "Compute the map over m and k_v, which takes some minutes. The paper's arm has one already."
     parser.add_argument("--map", action="store_true", help=about)
-    about = "The folder to write to."
+    about = "Folder for the report."
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("reports"), help=about)
-    about = "Which of html, md, json and pdf, separated by commas."
+    about = "Any of html, md, json and pdf, separated by commas."
     parser.add_argument("--format", metavar="FORMATS", default="html,md,json", help=about)
-    about = "Let the PDF go on with claims, gate, runs and the experiment one by one."
+    about = "Add all claims, gate checks, runs and the experiment to the PDF."
     parser.add_argument("--appendix", action="store_true", help=about)
-    about = "An older report (its folder or report.json): what changed goes to compare.html, .md and .json."
+    about = "Folder or report.json of an older report. The changes go to compare.html, .md and .json."
     parser.add_argument("--compare", metavar="OLD", type=Path, help=about)
     add_no_store(parser)
 
@@ -58,11 +58,13 @@ def run(
     appendix: bool,
     compare: Path | None,
 ) -> Exit:
-    """Check proof, gains and closed loop for each m and write it all up in a folder.
+    """Check the proof, the gains and the closed loop for each m, and write a report into a folder.
 
-    Without arguments: the paper's arm and gains for m = 1, 2, 3, into reports/. With --robot or --gains the
-    report is about that arm and those gains alone. Exit code 0 when the report is written, whatever it says;
-    1 with --compare where a verdict got worse; 2: unusable input.
+    Without arguments the report is about the paper's arm and gains for m = 1, 2, 3, in reports/. With --robot
+    or --gains it is about that arm and those gains only.
+
+    Exit code 0: the report is written, for any verdict, 1: with --compare, a verdict is worse than before, 2:
+    unusable input.
 
     Examples:
       lyapcheck report

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("robot", metavar="NAME|FILE", help="A built-in arm, or an arm file (.toml, .urdf).")
+    parser.add_argument("robot", metavar="NAME|FILE", help="Arm by name or file (.toml, .urdf).")
     add_choice_of_arm(parser)
-    about = "Budget of boxes for each constant; 200000/n² for n joints if missing."
+    about = "Largest number of boxes for each constant. Default: 200000/n² for n joints."
     parser.add_number("--max-boxes", int, about, least=1)
-    about = "Write the arm as an arm file to be edited, - for standard output, and decide nothing."
+    about = "Write the arm as an arm file to edit, and decide nothing. - is standard output."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
-    add_certificates(parser, "Write the certificates of what is decided there")
+    add_certificates(parser, "Write the certificates to this folder")
     add_no_store(parser)
     add_format(parser)
 
@@ -40,12 +40,13 @@ def run(
 ) -> Exit:
     """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
 
-    λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, each with a state that shows it: ends that a certificate
-    shows, and those of floating point (numeric; wider where the budget of boxes ends). Friction,
-    torque limits, and every number with its source. Where the source prints C or g too, the print is compared
-    with what M and the potential give.
+    The constants are λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, with the states that reach them. Both
+    ends of a constant are certified, and enclosed in floating point (numeric). The answer also lists
+    friction, torque limits and the source of every number. If the source prints C or g, the print is
+    compared with M and the potential.
 
-    Exit code 0: all properties proved, 1: one is refuted, 2: the arm cannot be read, 3: one is undecided.
+    Exit code 0: all properties proved, 1: a property is refuted, 2: the arm cannot be read, 3: a property is
+    undecided.
 
     Examples:
       lyapcheck robot buap3

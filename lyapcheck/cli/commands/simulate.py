@@ -257,37 +257,37 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_gain_file(parser)
     add_robot(parser)
-    about = "As on the bench: 2.5 ms, no delay, encoders, dry friction, torque limits."
+    about = "Run as on the paper's bench, at 2.5 ms without delay, with encoders and dry friction."
     parser.add_argument("--experiment", action="store_true", help=about)
     add_loop(parser, [name for name in LOOP if name != "velocity"])  # which means initial rates here
-    about = "Follow the trajectory of this reference file under (21), instead of a target."
+    about = "Follow the trajectory in this reference file by (21), instead of a goal."
     parser.add_argument("--reference", metavar="FILE", type=Path, help=about)
-    parser.add_number("--time", float, "Duration in s; 5, or the length of the reference.")
-    about = "Desired joint angles in degrees; the paper's 45,45,90 on a 3-joint arm."
+    parser.add_number("--time", float, "Duration in s. Default: 5, or the length of the reference.")
+    about = "Goal in degrees, one angle per joint. Default: 45 each, or 45,45,90 for three joints."
     parser.add_argument("--target", metavar="ANGLES", help=about)
-    parser.add_argument(
-        "--start", metavar="ANGLES", help="Initial joint angles in degrees; all 0 if missing."
-    )
-    about = "Initial joint rates in degrees a second; at rest if missing."
+    parser.add_argument("--start", metavar="ANGLES", help="Initial joint angles in degrees. Default: 0.")
+    about = "Initial joint velocities in degrees per second. Default: 0."
     parser.add_argument("--velocity", metavar="RATES", help=about)
     about = (
-        "The ε₀ of V: a number, or 'certified' (takes a while); 0 if missing (V is the energy). "
-        "With --reference half of what is proved for (21)."
+        "ε₀ of V, a number or 'certified', which takes a while. Default: 0, and V is the energy. "
+        "With --reference, half of the ε₀ that is proved for (21)."
     )
     parser.add_argument("--eps0", metavar="N", help=about)
-    about = "Degrees: with --reference, the time from which on all errors stay inside; 1."
+    about = "With --reference, report when all errors are within this many degrees. Default: 1."
     parser.add_number("--band", float, about)
-    parser.add_number("--runs", int, "So many runs from random starts; shows how the indices spread.")
-    parser.add_number("--spread", float, "Degrees: with --runs, starts lie so far about --start; 45.")
-    parser.add_number("--seed", int, "Of the random starts; 0.")
+    parser.add_number("--runs", int, "Number of runs from random starts.")
+    parser.add_number(
+        "--spread", float, "With --runs, largest distance of a start from --start, in degrees. Default: 45."
+    )
+    parser.add_number("--seed", int, "Seed of the random starts. Default: 0.")
     add_vary(parser)
-    about = "Go on after a broken promise instead of stopping there."
+    about = "Continue after a violated bound instead of stopping."
     parser.add_argument("--keep-going", action="store_true", help=about)
-    about = "Write all samples to this file; - for standard output."
+    about = "Write all samples to this file. - is standard output."
     parser.add_argument("--csv", metavar="FILE", help=about)
-    about = "Draw figures into this directory: SVG, PNG, their data as CSV."
+    about = "Draw figures into this folder, as SVG and PNG, with their data as CSV."
     parser.add_argument("--plot", metavar="DIR", type=Path, help=about)
-    add_certificates(parser, "Write a certificate there of each state at which V rises")
+    add_certificates(parser, "Write a certificate of each state at which V rises to this folder")
     add_format(parser)
 
 
@@ -315,14 +315,15 @@ def run(
 ) -> Exit:
     """Simulate the closed loop of every gain set in FILE and report its performance.
 
-    L2 index, settling, overshoot, peak torque against the limit: observations in floating point, never
-    proofs. A run by the equations is stopped at the first state that breaks a promise: V falls, ‖τ‖ stays
-    below (9), every motor within its limit. With --rate, --experiment or [loop] in a file it is run as a
-    computer does: sampled, late, from encoders, with dry friction and an unknown payload.
+    The answer has the L2 index, settling time, overshoot and peak torque relative to the limit. These are
+    observations in floating point, never proofs. A run of (11) stops at the first state that violates a
+    bound. V must fall, ‖τ‖ must stay below (9), and every motor within its limit. With --rate, --experiment
+    or [loop] in a file, the loop runs as on a computer. It is sampled and late, with encoders, dry friction
+    and unknown payload.
 
-    Exit code 0: all runs are finished, 1: such a state is confirmed in balls, or a sampled run shows a limit
-    cycle or a payload that falls, 2: unusable input, 3: a run could not be finished; what was reached is
-    written and marked.
+    Exit code 0: all runs are finished, 1: a violated bound is confirmed in interval arithmetic, or a sampled
+    run shows a limit cycle or a falling payload, 2: unusable input, 3: a run could not be finished, and its
+    part is written and marked.
 
     Examples:
       lyapcheck simulate gains.toml --experiment --plot figures/

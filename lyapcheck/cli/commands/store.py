@@ -57,15 +57,16 @@ class Kept(Answer):
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("--size", action="store_true", help="Say how much is kept; so it does without.")
-    parser.add_argument("--clear", action="store_true", help="Remove everything that is kept.")
+    parser.add_argument("--size", action="store_true", help="Show the size of the cache, as without options.")
+    parser.add_argument("--clear", action="store_true", help="Remove the cache.")
     add_format(parser, Format)
 
 
 def run(size: bool, clear: bool, format: str) -> Exit:  # noqa: A002
-    """Say what is kept in $XDG_CACHE_HOME/lyapcheck between runs, or remove it.
+    """Show or remove the cache in $XDG_CACHE_HOME/lyapcheck.
 
-    Answers are found again by the digest of their question; their certificates are judged anew each time.
+    The cache finds an answer by the digest of its question. The checker verifies cached certificates again
+    before use.
 
     Examples:
       lyapcheck store --size

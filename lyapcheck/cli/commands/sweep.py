@@ -25,13 +25,13 @@ MOST = 1_024
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="A plan (TOML).")
-    about = "Write rows, certificates and a page with maps there."
+    parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="Plan file (TOML).")
+    about = "Folder for the rows, the certificates and a page with maps."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
-    parser.add_number("--jobs", int, "Processes; one a core if missing.", least=1, most=MOST)
-    about = "Ask the workers of this Dask scheduler, tcp://host:port (extra sweep)."
+    parser.add_number("--jobs", int, "Number of processes. Default: one per core.", least=1, most=MOST)
+    about = "Use the workers of this Dask scheduler, tcp://host:port. This needs the extra sweep."
     parser.add_argument("--scheduler", metavar="ADDRESS", help=about)
-    about = "Go on with the sweep in --out: what is kept is judged again, the rest is asked."
+    about = "Continue the sweep in --out. Kept answers are verified again."
     parser.add_argument("--resume", action="store_true", help=about)
     add_no_store(parser)
     add_format(parser, Format)
@@ -45,13 +45,14 @@ def run(
     resume: bool,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Ask many questions: every arm, variation and gain set of a plan × gate, epsilon, bounds, simulate, …
+    """Ask gate, epsilon, bounds, simulate and more about every arm, variation and gain set of a plan.
 
-    In --out: rows.jsonl and, with pyarrow, rows.parquet in the order of the plan, certificates by their
-    digests, index.html with maps over m and k_v. The same plan gives the same bytes on any workers.
+    The folder --out gets rows.jsonl in the order of the plan, certificates by their digests, and index.html
+    with maps over m and k_v. With pyarrow it also gets rows.parquet. The same plan gives the same bytes on
+    any workers.
 
-    Exit code 0: all proved, accepted or observed, 1: something refuted or rejected, 2: unusable input,
-    3: something undecided, 4: a question failed; its row says why.
+    Exit code 0: all proved, accepted or observed, 1: something refuted or rejected, 2: unusable input, 3:
+    something undecided, 4: a question failed, and its row has the reason.
 
     A plan:
       robots = ["reyes-kelly2"]

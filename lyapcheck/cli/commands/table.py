@@ -24,13 +24,13 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     add_members(parser, "1:12")
     parser.add_number("--digits", int, "Significant digits.", default=30)
-    about = "Add what this arm's torque limits leave to k_p + k_v of each joint."
+    about = "Add the largest k_p + k_v that the motors of this arm allow, for each joint."
     add_robot(parser, about)
-    about = "Add the leading terms for m → ∞, and what is left beside them."
+    about = "Add the leading terms for m → ∞ and the remainders."
     parser.add_argument("--asymptotics", action="store_true", help=about)
-    about = "Draw them against m into this folder, as SVG and PNG."
+    about = "Draw the constants against m into this folder, as SVG and PNG."
     parser.add_argument("--plot", metavar="DIR", type=Path, help=about)
-    add_certificates(parser, "Write the certificates of γ and ρ there")
+    add_certificates(parser, "Write the certificates of γ and ρ to this folder")
     add_format(parser, Format)
 
 
@@ -43,10 +43,10 @@ def run(
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Certified γ, ρ and L of the hyperbolic family, and where each is reached.
+    """Print certified γ, ρ and L of the hyperbolic family, and where each is reached.
 
-    γ = sup h, ρ = sup |h'|, L = sup h(x)/x over x > 0. Every digit in a text is correct; the bounds in JSON
-    and CSV enclose the exact number.
+    The constants are γ = sup h, ρ = sup |h'| and L = sup h(x)/x over x > 0. Every printed digit is correct.
+    The bounds in JSON and CSV enclose the exact number.
 
     Examples:
       lyapcheck table --m 1:3 --digits 50

@@ -196,40 +196,46 @@ def gains_beside(robot: str, compare: Path | None) -> GainFile | None:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    parser.add_argument("robot", metavar="ROBOT", help="A built-in arm or an arm file (.toml, .urdf).")
+    parser.add_argument("robot", metavar="ROBOT", help="Arm by name or file (.toml, .urdf).")
     add_choice_of_arm(parser)
-    add_members(parser, None, " 1:3 if missing; with targets and more than three joints 1.")
-    parser.add_number("--digits", int, "Decimal places of the gains.", default=3)
-    parser.add_number("--overshoot", float, "Target: most overshoot, per cent of a joint's step.")
-    parser.add_number("--settle", float, "Target: seconds until each joint stays within 2 %% of its step.")
-    parser.add_number("--rest-error", float, "Target: degrees from the goal that dry friction may leave.")
-    about = "Share of each torque limit that may be used, 0.8 or 0.8,0.9,1; with targets: in any motion."
+    add_members(parser, None, " Default: 1:3, and 1 with targets and more than three joints.")
+    parser.add_number("--digits", int, "Number of decimal places of the gains.", default=3)
+    parser.add_number(
+        "--overshoot", float, "Target for the largest overshoot, in percent of the step of a joint."
+    )
+    parser.add_number("--settle", float, "Target for the settling time to 2 %% of the step, in s.")
+    parser.add_number("--rest-error", float, "Target for the error under dry friction, in degrees.")
+    about = "Usable share of each torque limit, for example 0.8 or 0.8,0.9,1."
     parser.add_argument("--peak-share", metavar="SHARES", default="1", help=about)
-    about = "With targets: where motions start, degrees. At home if missing."
+    about = "With targets, start of the motions in degrees. Default: 0."
     parser.add_argument("--start", metavar="ANGLES", help=about)
-    about = "With targets: where a motion ends, degrees; may be repeated. The paper's, or 45 for each joint."
+    about = (
+        "With targets, goal of a motion in degrees. May be repeated. Default: the paper's, or 45 per joint."
+    )
     parser.add_argument("--goal", metavar="ANGLES", action="append", help=about)
-    about = "With targets: so many random motions from rest, beside those of --goal."
+    about = "With targets, number of random motions from rest, in addition to --goal."
     parser.add_number("--runs", int, about)
-    parser.add_number("--spread", float, "Degrees: with --runs, motions lie so far about --start; 90.")
-    parser.add_number("--seed", int, "Of the random motions; 0.")
-    about = "With targets: the share of motions that are to meet them, joint by joint; 1 is all."
+    parser.add_number(
+        "--spread", float, "With --runs, largest distance of a motion from --start, in degrees. Default: 90."
+    )
+    parser.add_number("--seed", int, "Seed of the random motions. Default: 0.")
+    about = "With targets, share of the motions that must meet them, joint by joint."
     parser.add_number("--quantile", float, about, default=1.0)
-    about = "With targets: how stability is to be shown."
+    about = "With targets, method of the stability proof."
     parser.add_choice("--stability", ("both", *WAYS), about, default="both")
-    about = "Share that k_v takes, at least, of the largest that (19) admits; 1 if missing."
+    about = "Smallest share of the largest k_v under (19). Default: 1."
     parser.add_argument("--kv-share", metavar="SHARES", help=about)
-    parser.add_argument("--kv-min", metavar="TORQUES", help="Lower bound of k_v, N·m, instead of a share.")
+    parser.add_argument("--kv-min", metavar="TORQUES", help="Lower bound of k_v in N·m, instead of a share.")
     parser.add_argument("--damping", metavar="RATIOS", help="Lower bound of each joint's damping ratio.")
     add_vary(parser)
     add_loop(parser)
-    parser.add_argument("--torque", metavar="TORQUES", help="Torque limits instead of the arm's, N·m.")
-    parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds instead of the arm's, N·m.")
-    parser.add_argument("--viscous-min", metavar="N", help="λmin(B) instead of the arm's, N·m·s/rad.")
-    about = "A gain file to compare with. For buap3: the paper's Table 2."
+    parser.add_argument("--torque", metavar="TORQUES", help="Torque limits in N·m, instead of the arm's.")
+    parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds in N·m, instead of the arm's.")
+    parser.add_argument("--viscous-min", metavar="N", help="λmin(B) in N·m·s/rad, instead of the arm's.")
+    about = "Gain file to compare with. Default for buap3: Table 2 of the paper."
     parser.add_argument("--compare", metavar="FILE", type=Path, help=about)
-    parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gain file there.")
-    about = "With targets: write the best set, marked, if no set meets the targets."
+    parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gains to this file.")
+    about = "With targets, write the best set, marked, if no set meets the targets."
     parser.add_argument("--best", action="store_true", help=about)
     add_format(parser, FORMATS)
 
@@ -262,18 +268,18 @@ def run(
     format: str,  # noqa: A002
     **loop: str | None,
 ) -> Exit:
-    """Gains for an arm, as a gain file that the gate accepts: the largest, or those that meet targets best.
+    """Find gains for an arm that the gate accepts: the largest gains, or gains that meet targets.
 
-    For each m the largest k_p, and beside it the largest k_v, that meet (10p) and (19), exact to the last
-    digit: no gain can be one unit larger.
+    Without a target, the gains are the largest that meet (10p) and (19), exact to the last digit.
 
-    With --overshoot, --settle or --rest-error: gains within (10i) that meet these best in motions from rest
-    to rest, tried on the whole arm and at the ends of its assumed numbers, once with (19) and once with
-    stability by a proof that does without it. With --rate or [loop] in the arm file they are run as a
-    computer does. Only sets that meet the targets are written; --best writes the best one if there is none.
+    With --overshoot, --settle or --rest-error, the gains meet the targets in simulated motions from rest to
+    rest, and (10i) by proof. The motions run on the arm of the file and at the ends of its assumed numbers.
+    The search runs once under (19) and once with a stability proof without (19). With --rate or [loop] in
+    the arm file, the motions run as on a computer. Only sets that meet the targets are written, unless
+    --best is given.
 
-    Exit code 0: every m has gains, or the targets are met, 2: unusable input or no gains exist, 3: the arm's
-    limits are not known, or the targets were not reached.
+    Exit code 0: every m has gains, or the targets are met, 2: unusable input, or no gains exist, 3: the
+    limits of the arm are not known, or the targets were not reached.
 
     Examples:
       lyapcheck tune buap3 --m 1:5
