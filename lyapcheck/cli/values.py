@@ -185,6 +185,7 @@ def require_joints(gain_files: Iterable[GainFile], model: RobotModel) -> None:
 # --- Arguments and options that several commands have.
 
 
+COLOURING = ("auto", "always", "never")
 LOOP = {
     "rate": ("HZ", "How often the controller runs. Like the options after it in place of [loop] in files."),
     "period": ("TIME", 'The same as a time, such as "2.5 ms".'),
@@ -322,5 +323,10 @@ class _SwitchOff(Action):
 
 
 def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat) -> None:
-    """``--format``, the name of one of some formats."""
+    """``--format``, the name of one of some formats, and how a text is shown."""
     parser.add_choice("--format", formats, "How to write it.", default="text")
+    parser.add_argument("-q", "--quiet", action="store_true", help="Show the first line only.")
+    about = "Add formulas, methods and all rows and columns."
+    parser.add_argument("-v", "--verbose", action="store_true", help=about)
+    parser.add_argument("--explain", action="store_true", help="Add all notes to what -v shows.")
+    parser.add_choice("--color", COLOURING, "Whether to use colour.", default="auto")
