@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
 
 VIEWING = ("quiet", "verbose", "explain", "color")
-_VIEW: ContextVar[View] = ContextVar("view", default=View())
+_VIEW: ContextVar[View | None] = ContextVar("view", default=None)
 OTHERS_NAMED = 8
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""

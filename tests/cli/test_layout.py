@@ -1,24 +1,67 @@
-"""The layout of every text answer: a true headline, one table, few remarks, a next command that works."""
+"""The layout of every text answer: a headline, one table, few remarks, a next command that works."""
 
-import re
 import shlex
 from pathlib import Path
 
 import pytest
 
-from lyapcheck.output.text import LEAST, MOST, View, render
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Paragraph, Section, Table
+from lyapcheck.output.text import PROSE, Depth, View, render
 from tests.helpers.command import invoke
-from tests.helpers.layout import parts
 
 ROOT = Path(__file__).parents[2]
 TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
 ASKED = {
-    "gate": ("gate", TABLE2),
+    "gate, accepted": ("gate", "gains.toml"),
+    "gate, rejected": ("gate", TABLE2),
+    "gate, seven joints": ("gate", PANDA),
 }
-"""One command line for each kind of answer, on an arm of three joints; a folder with `init`'s files is open."""
+"""A command line for each kind of answer, in a folder with the files of `init` and a gain file on buap3."""
+TALL = 24
+"""Lines for three joints."""
 
 
 @pytest.fixture(autouse=True)
 def in_a_folder_with_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert invoke("init", ".").exit_code == 0
+
+
+@pytest.fixture
+def documents(monkeypatch):
+    """The documents of what is answered."""
+    result = []
+    written = Answer.written
+
+    def kept(answer, *rest, **more):
+        result.append(answer.document())
+        return written(answer, *rest, **more)
+
+    monkeypatch.setattr(Answer, "written", kept)
+    return result
+
+
+@pytest.mark.parametrize("words", ASKED.values(), ids=ASKED)
+def test_an_answer_is_short_and_its_next_command_works(words, documents):
+    done = invoke(*words)
+    assert done.exit_code in (0, 1, 3), done.stderr
+    (document,) = documents
+    assert done.stdout == render(document)
+    assert len(document.lead) <= 2
+    assert not any(isinstance(block, Section) for block in document.blocks)
+    assert sum(isinstance(block, Table) for block in document.blocks) <= 1
+    remarks = [block.items for block in document.blocks if isinstance(block, Bullets)]
+    remarks += [(block.text,) for block in document.blocks if isinstance(block, Paragraph)]
+    assert sum(map(len, remarks)) <= 3
+    for width in (80, 100):
+        lines = render(document, View(width=width)).splitlines()
+        assert len(lines) <= TALL
+        assert lines.index("") <= 3
+        assert all(len(line) <= width for line in lines if not line.startswith("  next: "))
+    assert invoke(*words, "-q").stdout.splitlines() == render(document, View(Depth.QUIET)).splitlines()
+    assert len(document.title) <= PROSE
+    program, *after = shlex.split(document.next)
+    assert program == "lyapcheck"
+    assert after != list(words)
+    assert invoke(*after).exit_code in (0, 1, 3), document.next
