@@ -6,6 +6,7 @@ import json
 import os
 import sys
 from contextvars import ContextVar
+from dataclasses import replace
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
@@ -180,12 +181,12 @@ def _append_summary(path: str, document: Document) -> None:
 
     text = render(document)
     if len(text.encode()) > LARGEST_SUMMARY:
-        sections = [block for block in document.blocks if isinstance(block, Section)]
+        sections = [block for block in document.details if isinstance(block, Section)]
         others = [section for section in sections if not section.title.startswith("✓")]
         count = len(others)
         while True:
             title = f"{document.title}; {count} of {len(others)} that did not pass are shown"
-            text = render(Document(title, tuple(others[:count]), document.notes, document.lead))
+            text = render(replace(document, title=title, details=tuple(others[:count])))
             size = len(text.encode())
             if size <= LARGEST_SUMMARY or count <= 1:
                 break

@@ -168,6 +168,7 @@ class Limits:
         varied: whether proofs about the arm are to hold for all of its ranges, not at its nominal numbers.
         refuted: stated bounds of gravity that the arm itself breaks, which are not among ``gravity``.
         gravity_notes: what there is to say of ``gravity``.
+        doubts: signs that the arm file is a template or in other units.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -182,11 +183,17 @@ class Limits:
     varied: bool = False
     refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
     gravity_notes: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
 
     @property
     def n(self) -> int:
         """Number of joints."""
         return len(self.joints)
+
+    @property
+    def ranges(self) -> tuple[str, ...]:
+        """What the ranges of --vary cost."""
+        return tuple(text for text in self.assumptions if text.startswith("--vary "))
 
     def resting_on(self, assumptions: tuple[str, ...]) -> Limits:
         """The same limits with other assumptions."""
@@ -238,6 +245,7 @@ def limits_for(
         varied=arm.varied,
         refuted=gravity.refuted,
         gravity_notes=gravity.notes,
+        doubts=arm.doubts,
     )
 
 

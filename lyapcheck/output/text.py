@@ -83,9 +83,8 @@ class _Writer:
             yield from self.blocks((doc.Section("Notes", (doc.Bullets(document.notes),)),))
         if document.assumed or document.next:
             yield ""
-        yield from (self._in(DIM, line) for line in self._inset(document.assumed))
-        if document.next:
-            yield self._in(DIM, f"{INDENT}next: {printable(document.next)}")
+        last = (document.assumed, document.next and f"next: {document.next}")  # their commands stay whole
+        yield from (self._in(DIM, INDENT + printable(text)) for text in last if text)
 
     def _titled(self, line: str) -> str:
         mark, space, rest = line.partition(" ")
