@@ -9,6 +9,7 @@ from lyapcheck.output.document import command
 from lyapcheck.robots.choice import split
 
 if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
 
 
@@ -23,6 +24,11 @@ def arm_words(robot: str) -> list[str]:
     for name, text in choice.xacro.items():
         words += ["--xacro", f"{name}:={text}"]
     return words
+
+
+def file_words(file: GainFile, robot: str) -> list[str]:
+    """A gain file as words of a command line, with the arm if the file names another."""
+    return [file.path, *([] if robot in ("", file.robot) else ["--robot", *arm_words(robot)])]
 
 
 def assumed_line(model: RobotModel, robot: str) -> str:

@@ -146,6 +146,11 @@ def viewed(values: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
+def current_view() -> View | None:
+    """How the options of the command line have texts shown."""
+    return _VIEW.get()
+
+
 def show(answer: Answer, format: str) -> None:  # noqa: A002
     """An answer in a format; a text as the options of `viewed` say.
 

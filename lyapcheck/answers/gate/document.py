@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.assumed import arm_words, assumed_line
+from lyapcheck.answers.assumed import arm_words, assumed_line, file_words
 from lyapcheck.answers.gate.friction import farthest, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.remarks import accepting, proved_otherwise, remarks, without_19
@@ -29,9 +29,6 @@ MOST_ROWS, MOST_REMARKS = 16, 3
 def document(answer: GateAnswer) -> Document:
     """One gain set with its deciding checks, or a row a set."""
     lead, said, details = _of_one(answer[0]) if len(answer) == 1 else _of_many(answer)
-    unread = len(answer.problems)
-    if unread:
-        lead.insert(0, f"{unread} problem{'s' if unread > 1 else ''} of other input: see the errors")
     if any(result.record is None or result.record.period is None for result in answer):
         lead.append(INFINITE)
     said = list(dict.fromkeys([*(text for result in answer for text in _warnings(result)), *said]))
@@ -50,7 +47,7 @@ def document(answer: GateAnswer) -> Document:
     more += [*details, Section("Formulas", (Bullets(formulas),))] if formulas else details
     notes = dict.fromkeys(text for result in answer for text in result.rests_on)
     return Document(
-        _title(answer),
+        "; ".join((_title(answer), *_unread(answer))),
         tuple(blocks),
         tuple(notes),
         tuple(lead[:2]),
@@ -66,7 +63,10 @@ def _of_one(result: GateResult) -> tuple[list[str], list[str], list[Block]]:
     if result.verdict == ACCEPTED:
         aside = [] if "19" in result.deciding else without_19(result)
         details: list[Block] = [Section("(19)", (Bullets(tuple(aside)),))] if aside else []
-        return [_meaning(result)], [text for text in said if text not in aside], details
+        found = fact(result)
+        open_ = open_as_run(result.checks)
+        lead = [_meaning(result), *([open_] if open_ and found and found[1] != open_ else [])]
+        return lead, [text for text in said if text not in aside], details
     wrong = Section("What is wrong", (Bullets((*advices(result), *said)),))
     if result.standing == BREAKS_19:
         return [proved_otherwise(result)], [*fixes, *said[1:]], [wrong]
@@ -116,6 +116,12 @@ def _title(answer: GateAnswer) -> str:
     return "; ".join((f"{symbol} {counted or 'no gain sets'}", *([far[1]] if far else [])))
 
 
+def _unread(answer: GateAnswer) -> Iterator[str]:
+    count = len({problem.path for problem in answer.problems})
+    if count:
+        yield f"{count} other file{'s' if count > 1 else ''} cannot be used"
+
+
 def _farthest(answer: GateAnswer) -> Fact | None:
     facts = (found for result in answer if (found := fact(result)))
     return max(facts, key=lambda one: one[0], default=None)
@@ -150,16 +156,16 @@ def _counted(answer: GateAnswer, word: str, count: int) -> str:
 
 
 def fact(result: GateResult) -> Fact | None:
-    """What decides nothing of a set that is accepted: rest beside the goal, and the loop as it is run."""
+    """What decides nothing of a set that is accepted: rest beside the goal, else the loop as it is run."""
     model = result.limits.model
     if model is None or not result.explained or result.verdict != ACCEPTED:
         return None
-    unknown, open_ = farthest_unknown(result.checks), open_as_run(result.checks)
+    unknown = farthest_unknown(result.checks)
     far = farthest(result.gains, model) if unknown is None else unknown
-    open_ = open_ or ("" if far else swinging(result.gains, model) or "")
-    if not open_:
+    if far is not None:
         return far
-    return (Fraction(0), open_) if far is None else (far[0], f"{far[1]}; {open_}")
+    open_ = open_as_run(result.checks) or swinging(result.gains, model)
+    return (Fraction(0), open_) if open_ else None
 
 
 def _rows(answer: GateAnswer) -> list[Row]:
@@ -223,10 +229,9 @@ def _next(answer: GateAnswer) -> str:
         return command("init", "bench")
     order = {REJECTED: 0, UNDECIDED: 1, ACCEPTED: 2}
     result = min(answer, key=lambda one: order[one.verdict])
-    file, limits = result.file, result.limits
+    limits = result.limits
     robot = arm_words(limits.robot) if limits.robot else []
-    same = limits.robot in ("", file.robot)
-    again = (file.path, *([] if same else ["--robot", *robot]))
+    again = file_words(result.file, limits.robot)
     if conditions := accepting(result):
         return command("gate", *again, *conditions)
     missing = [check.id for check in result.failures if check.id in ("scalar", "global")]
