@@ -83,8 +83,10 @@ class _Writer:
             yield from self.blocks((doc.Section("Notes", (doc.Bullets(document.notes),)),))
         if document.assumed or document.next:
             yield ""
-        last = (document.assumed, document.next and f"next: {document.next}")  # their commands stay whole
-        yield from (self._in(DIM, INDENT + printable(text)) for text in last if text)
+        for text in (document.assumed, document.next and f"next: {document.next}"):
+            command = "lyapcheck " in text  # stays whole, to be pasted
+            lines = [INDENT + printable(text)] if command else self._inset(text)
+            yield from (self._in(DIM, line) for line in lines)
 
     def _titled(self, line: str) -> str:
         mark, space, rest = line.partition(" ")
