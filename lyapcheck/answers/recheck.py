@@ -29,7 +29,7 @@ RULES = {
 }
 ALARM = "the checker is wrong; trust none of these verdicts, and report this"
 WHOSE = "Statements are rendered from their data; what their authors call them stands in quotation marks."
-MOST_ROWS, CELL = 10, 60
+MOST_ROWS, MOST_REASONS, CELL = 10, 3, 60
 MEANING = (
     "kernel: Coq's kernel accepted a theorem whose statement is printed from the certificate's own data, and "
     "whose axioms are on the golden list named: real has those of classical real numbers, float also the "
@@ -57,7 +57,8 @@ class Recheck(Answer):
         """Every certificate, those that are not accepted first, then what all of it rests on."""
         rows = [one for status in SIGNS for one in self._with(status)]
         more = [f"{len(rows) - MOST_ROWS} more are accepted: -v lists them"] if len(rows) > MOST_ROWS else []
-        said = (*self._alarm_texts(), *more)
+        reasons = [f"{one.file}: {one.reason}" for one in rows if not one.accepted]
+        said = (*self._alarm_texts(), *reasons[: MOST_REASONS - bool(more)], *more)
         unlimited = [name for name in ("seconds", "memory") if name not in self.outcome.limited]
         special = dict(self._granted())
         return Document(
