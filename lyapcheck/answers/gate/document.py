@@ -11,8 +11,9 @@ from lyapcheck.answers.gate.friction import farthest, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.remarks import accepting, proved_otherwise, remarks, without_19
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
-from lyapcheck.answers.running import INFINITE, farthest_unknown, open_as_run
+from lyapcheck.answers.running import INFINITE, SampledCheck, farthest_unknown, open_as_run
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
+from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
 from lyapcheck.promise import all_say
@@ -75,8 +76,9 @@ def _of_one(result: GateResult) -> tuple[list[str], list[str], list[Block]]:
 
 def _of_many(answer: GateAnswer) -> tuple[list[str], list[str], list[Block]]:
     failed = [result for result in answer if result.verdict != ACCEPTED]
-    meanings = dict.fromkeys(_meaning(result) for result in answer if result.verdict == ACCEPTED)
-    lead = [f"accepted: {next(iter(meanings))}"] if len(meanings) == 1 else []
+    accepted = [result for result in answer if result.verdict == ACCEPTED]
+    lead = list(dict.fromkeys(_meaning(result, "accepted: ") for result in accepted))
+    lead = lead if len(lead) == 1 else []
     far = _farthest(answer) if failed else None
     said = [far[1]] if far else []
     said += [f"{result.name}: {text}" for result in failed for text in _fix(result)]
@@ -87,14 +89,28 @@ def _fix(result: GateResult) -> list[str]:
     return [proved_otherwise(result)] if result.standing == BREAKS_19 else repairs(result)[:1]
 
 
-def _meaning(result: GateResult) -> str:
+def _meaning(result: GateResult, before: str = "") -> str:
     """What an accepted set is known to do."""
-    names = [f"({name})" for name in result.deciding]
-    said = [RULES[name].holds for name in result.deciding]
-    words = ", ".join(said) if result.gamma == "true" else f"{', '.join(names)} hold with the printed γ"
     limits = result.limits
+    words = ", ".join(_holds(result, name) for name in result.deciding)
+    if result.gamma != "true":
+        words = f"{', '.join(f'({name})' for name in result.deciding)} hold with the printed γ"
+    elif set(result.deciding) & set(CERTIFICATES) and not _within_limits(result):
+        words += " while no motor saturates"
     where = "for the numbers under [bounds]" if limits.model is None else f"for {limits.model.name}"
-    return result.says(f"{words}, proved {where}{' over its ranges' if limits.varied else ''}")
+    return result.says(f"{before}{words}, proved {where}{' over its ranges' if limits.varied else ''}")
+
+
+def _within_limits(result: GateResult) -> bool:
+    return ACCEPTED in (result.verdict_of(("10i",)), result.verdict_of(("10p",)))
+
+
+def _holds(result: GateResult, name: str) -> str:
+    for check in result.checks:
+        if isinstance(check, SampledCheck) and check.id == name:
+            end = f", {check.narrow} only" if check.narrow else ""
+            return f"{'comes to rest as run' if check.rests else 'stable as run'} (sampled){end}"
+    return RULES[name].holds
 
 
 def _warnings(result: GateResult) -> Iterator[str]:
