@@ -77,11 +77,11 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
 
 def _complaints(result: GateResult) -> list[str]:
     """A line a failed check, with the place of the gain."""
-    from lyapcheck.answers.gate.words import KEYS, advice
+    from lyapcheck.answers.gate.words import RULES, advice
 
     lines = []
     for check in result.failures:
-        place = result.file.place(result.gains, KEYS[check.id], check.joint)
+        place = result.file.place(result.gains, RULES[check.id].key, check.joint)
         where = result.file.path if place is None else f"{result.file.path}:{place.line}:{place.column}"
         lines.append(f"{where}: {result.name} {check.verdict}: {advice(result, check)}")
     return lines

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil
@@ -13,6 +13,7 @@ import numpy as np
 
 from lyapcheck import asked
 from lyapcheck._types import Array, Progress, part, silent
+from lyapcheck.answers.assumed import arm_words, assumed_line, file_words
 from lyapcheck.answers.running import HoldsCheck, holds_checks, running_sentences
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
@@ -25,7 +26,8 @@ from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import shown
-from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.output.document import Bullets, Document, Section, Table, command
+from lyapcheck.output.fields import Field, table
 from lyapcheck.promise import Promise, all_say, promised
 from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.search.rest import resting
@@ -50,23 +52,17 @@ PLACES = 6
 POINTS, TOLERANCE = 1001, 1e-8
 """Samples of a run, and its relative tolerance."""
 JUST_INSIDE = 0.95
-"""Where a run starts, beside the proved bound of rest: simulated friction lets a joint creep."""
+"""Where a run starts, next to the proved bound of rest: simulated friction lets a joint creep."""
+MOST_ROWS = 12
 RULE = "what dry friction leaves of the errors at every state of rest is proved"
-RUNS = (
-    "simulated at rest: the larger |e_i| of this motion's end and of one let go at 95 % of the bound; "
-    "simulated on the way: the largest of this motion"
+NOTES = (
+    "Simulated in floating point, with the dry friction shown; a simulation proves nothing.",
+    "simulated: the larger |e_i| at the end of this motion and of one let go at 95 % of the bound. "
+    "peak: the largest |e_i| of this motion.",
 )
-NONE = "—"
-UNKNOWN = "with unknown gravity"
-WITHOUT = "without --vary, proved"
-LEGEND = (
-    "proved at most: accepted by the checker, for dry friction up to what is stated, at every state of rest."
-)
-SIMULATED = "simulated: {}, in floating point, with that dry friction."
-ONE_RUN = "one run at nominal numbers"
-CORNERS = "the worst of one run at {}, for {}, which proves nothing of what lies between"
+LEGEND = "proved: |e_i| at every state of rest is at most this, for dry friction up to what is stated."
+CORNERS = "simulated: the worst of one run at {}, which proves nothing of what lies between"
 NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
-PROOF = "bounds"
 
 
 @dataclass(frozen=True)
@@ -75,8 +71,7 @@ class BoundsComparison:
 
     Args:
         gains: the gain set.
-        robot: name of the arm.
-        joints: names of its joints, base first.
+        model: the arm.
         dry: N·m, the most that dry friction of each joint may be; none where nothing is known of it.
         promise: of the errors at rest, as they are printed; none where there are none.
         reason: why a joint has no bound; empty where all have one.
@@ -86,7 +81,6 @@ class BoundsComparison:
         simulated_largest: rad, the largest |e_i| of the run.
         simulated_rest: rad, the largest |e_i| at the end of two runs: of the task, and of one let go just
             inside the bound of rest.
-        assumptions: what is taken for granted about the arm.
         varies: the ranges over which the bounds hold, as typed.
         corners: at which of their corners runs were made; the worst of them counts.
         unvaried: the same without these ranges, where something varies.
@@ -94,8 +88,7 @@ class BoundsComparison:
     """
 
     gains: GainSet
-    robot: str
-    joints: tuple[str, ...]
+    model: RobotModel
     dry: tuple[Fraction | None, ...]
     promise: Promise | None
     reason: str
@@ -104,11 +97,15 @@ class BoundsComparison:
     simulated_time: float | None
     simulated_largest: tuple[float, ...]
     simulated_rest: tuple[float, ...]
-    assumptions: tuple[str, ...]
     varies: tuple[str, ...] = ()
     corners: str = ""
     unvaried: BoundsComparison | None = None
     unknown: tuple[Check, ...] = ()
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the joints, base first."""
+        return self.model.joints
 
     @property
     def rest(self) -> tuple[Fraction | None, ...]:
@@ -187,8 +184,7 @@ def compare(
     times = [run.time for run in runs]
     return BoundsComparison(
         gains=gain_set,
-        robot=model.name,
-        joints=model.joints,
+        model=model,
         dry=most,
         promise=promise,
         reason=reason or _reason(gain_set, model.joints, most, errors),
@@ -197,7 +193,6 @@ def compare(
         simulated_time=None if None in times else max(time for time in times if time is not None),
         simulated_largest=tuple(np.max([run.largest for run in runs], axis=0).tolist()),
         simulated_rest=tuple(np.max([run.rest for run in runs], axis=0).tolist()),
-        assumptions=model.assumptions,
         varies=() if varied is None else tuple(one.text for one in varied[1]),
         corners="" if varied is None else corners_text(*varied),
         unvaried=unvaried,
@@ -306,24 +301,56 @@ class Comparisons(Answer):
     Args:
         results: one a gain set.
         file: where the gain sets stand.
+        arm: its name or path, as it was given.
     """
 
     schema = "lyapcheck/bounds/1"
 
     results: tuple[BoundsComparison, ...]
     file: GainFile | None = None
+    arm: str = ""
 
     def document(self) -> Document:
-        """The errors at rest of each gain set, joint by joint, then the simulated times."""
-        behind = (Section(result.gains.name, tuple(_behind(result))) for result in self.results)
-        assumed = dict.fromkeys(text for result in self.results for text in result.assumptions)
-        varies = ", ".join(dict.fromkeys(text for result in self.results for text in result.varies))
-        tried = ", ".join(dict.fromkeys(result.corners for result in self.results if result.corners))
-        runs = CORNERS.format(tried, varies) if varies else ONE_RUN
+        """How far from the goal the arm rests, joint by joint, proved beside simulated."""
+        many = len(self.results) > 1
+        rows = [(result, i) for result in self.results for i in range(len(result.joints))]
+        kept = rows if len(rows) <= MOST_ROWS else [(one, _farthest(one)) for one in self.results]
+        kept.sort(key=lambda row: row[0].proved)
+        said = dict.fromkeys(text for result in self.results for text in _remarks(result, many))
+        whole = [Section("Every joint", (_table(rows, many),))] if kept is not rows else []
         promises = [result.promise for result in self.results if result.promise is not None]
-        legend = [all_say(promises, LEGEND)] if promises else []
-        notes = (*legend, SIMULATED.format(runs), *(f"{text}." for text in assumed))
-        return Document(title(self.results), (*behind, _times(self.results)), notes)
+        notes = [all_say(promises, LEGEND)] if promises else []
+        assumed = (text for result in self.results for text in result.model.assumptions)
+        return Document(
+            title(self.results),
+            (_table(kept, many), *([Bullets(tuple(said)[:3])] if said else [])) if rows else (),
+            (*notes, *NOTES, *dict.fromkeys(assumed)),
+            tuple(self._lead()),
+            (*whole, *([Section("Further remarks", (Bullets(tuple(said)[3:]),))] if len(said) > 3 else [])),
+            assumed_line(self.results[0].model, self.arm) if self.arm and rows else "",
+            self._next(),
+        )
+
+    def _lead(self) -> Iterator[str]:
+        for result in self.results[:2]:
+            name = f"{result.gains.name}, " if len(self.results) > 1 else ""
+            within = f"within {math.degrees(result.delta):g}° of the goal"
+            time = result.simulated_time
+            if time is None:
+                yield f"{name}simulated: not {within} in {result.task.T:g} s"
+            else:
+                yield f"{name}simulated: {within} after {shown(time, '.3g')} s, until {result.task.T:g} s"
+
+    def _next(self) -> str:
+        if self.file is None or not self.results:
+            return command("bounds", "--help")
+        first = min(self.results, key=lambda result: result.proved)
+        again = file_words(self.file, self.arm)
+        if None in first.dry:
+            return command("bounds", *again, "--friction", ",".join(["1"] * len(first.dry)))
+        if first.proved or first.gains.m is None:
+            return command("simulate", *again)
+        return command("tune", *arm_words(self.arm), "--m", first.gains.m)
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, robot, disturbance, simulated, …}]``."""
@@ -359,87 +386,84 @@ def _missing(result: BoundsComparison) -> str:
 
 
 def title(results: Sequence[BoundsComparison]) -> str:
-    """Whether all bounds are proved."""
-    robots = ", ".join(dict.fromkeys(result.robot for result in results))
-    promises = [result.promise for result in results if result.promise is not None and result.proved]
-    whole = len(promises)
+    """How far from the goal one set lets the arm rest, or under how many sets this is proved."""
     if len(results) == 1:
         return _one(results[0])
-    fallen = sum(result.falls for result in results)
-    if fallen:
+    robots = ", ".join(dict.fromkeys(result.model.name for result in results)) or "no arm"
+    known = [result for result in results if result.promise is not None and result.proved]
+    if fallen := sum(result.falls for result in results):
         return f"✗ {robots} falls under {fallen} of {len(results)} gain sets, by gravity unknown to them"
-    if whole == len(results) > 0:
-        return all_say(promises, f"✓ the errors at rest under all {whole} gain sets are proved on {robots}")
-    if not promises:
-        count = len(results)
-        return f"? not all errors at rest are proved under any of {count} gain sets on {robots or 'no arm'}"
-    some = f"? the errors at rest under {whole} of {len(results)} gain sets are proved on {robots}"
-    return all_say(promises, some)
+    if not known:
+        return f"? not all errors at rest are proved under any of {len(results)} gain sets on {robots}"
+    mark = "✓" if len(known) == len(results) else "?"
+    most = max(error for result in known for error in result.unknown_degrees if error is not None)
+    words = f"{mark} {robots} rests at most {angle_up(most)}° from its goal under {len(known)} of"
+    return all_say((result.promise for result in known), f"{words} {len(results)} gain sets, proved")
 
 
 def _one(result: BoundsComparison) -> str:
     over = f" with {', '.join(result.varies)}" if result.varies else ""
-    about = f"{result.gains.name} on {result.robot}{over}:"
-    known = [error for error in result.unknown_degrees if error is not None]
+    about = f"{result.gains.name} on {result.model.name}{over}"
     if result.falls:
         rejected = (check for check in result.unknown if check.verdict == REJECTED)
         joints = ", ".join(result.joints[check.joint or 0] for check in rejected)
-        return f"✗ {about} {joints} cannot hold the gravity that is unknown to the controller"
+        return f"✗ {about}: {joints} cannot hold the gravity that is unknown to the controller"
     if result.promise is not None and result.proved:
+        i = _farthest(result)
+        far = f"{angle_up(result.unknown_degrees[i])}° from the goal ({result.joints[i]})"
         promises = [result.promise, *(check.own_promise for check in result.unknown)]
-        words = f"✓ {about} at every state of rest |e_i| ≤ {angle_up(max(known))}, proved"
-        return all_say(promises, words)
+        return all_say(promises, f"✓ {about}: rests at most {far}, proved")
     rows = zip(result.joints, result.unknown_degrees, strict=True)
     missing = ", ".join(joint for joint, error in rows if error is None)
-    return f"? {about} no error at rest is proved for {missing}"
+    if not missing:
+        return f"? {about}: the errors under unknown gravity are undecided"
+    return f"? {about}: no error at rest is proved for {missing}"
 
 
-def _behind(result: BoundsComparison) -> list[Table | Bullets]:
-    """The errors of a gain set, and why a joint has no bound."""
-    columns: list[tuple[str, Sequence[str]]] = [
-        ("dry friction [N·m]", [NONE if f is None else decimal_text(f) for f in result.dry]),
-        ("proved at most", list(map(angle_up, result.rest_degrees))),
-        ("simulated at rest", list(map(_angle, result.simulated_rest))),
-        ("simulated on the way", list(map(_angle, result.simulated_largest))),
-    ]
-    if result.unknown:
-        columns.insert(2, (UNKNOWN, list(map(angle_up, result.unknown_degrees))))
-    if result.unvaried is not None:
-        columns.insert(2, (WITHOUT, list(map(angle_up, result.unvaried.rest_degrees))))
-    promise = result.promise
-    proved = "" if promise is None else promise.says("proved: |e_i| at every state of rest; ")
-    rows = zip(result.joints, *(cells for _, cells in columns), strict=True)
-    table = Table(("joint", *(head for head, _ in columns)), tuple(rows), f"{proved}{RUNS}:")
-    said = [f"{result.reason}."] if result.reason else []
-    said += [f"{text}." for text in running_sentences(result.unknown, result.joints)]
-    return [table, *([Bullets(tuple(said))] if said else [])]
+def _farthest(result: BoundsComparison) -> int:
+    """The joint with the largest error, or without a bound."""
+    errors = result.unknown_degrees
+    return max(range(len(errors)), key=lambda i: math.inf if errors[i] is None else errors[i])  # type: ignore[arg-type,return-value]
 
 
-def _times(results: Sequence[BoundsComparison]) -> Table:
-    """When the simulated errors are small for good."""
-    angles = ", ".join(dict.fromkeys(f"{math.degrees(result.delta):g}°" for result in results))
-    rows = tuple(
-        (
-            result.gains.name,
-            f"not within {result.task.T:g} s"
-            if result.simulated_time is None
-            else f"{shown(result.simulated_time, '.3g')} s",
-        )
-        for result in results
-    )
-    return Table(("gains", "simulated time"), rows, f"Simulated: all |e_i| ≤ {angles} for good after:")
+def _remarks(result: BoundsComparison, many: bool) -> Iterator[str]:
+    name = f"{result.gains.name}: " if many else ""
+    yield from ([f"{name}{result.reason}"] if result.reason else [])
+    yield from (f"{name}{text}" for text in running_sentences(result.unknown, result.joints))
+    yield from ([CORNERS.format(result.corners)] if result.corners else [])
 
 
-def _angle(value: float) -> str:
-    """A simulated angle in degrees, rounded."""
-    return f"{shown(math.degrees(value), '.3g')}°"
+def _table(rows: Sequence[tuple[BoundsComparison, int]], many: bool) -> Table:
+    shown_if = {
+        "gain set": many,
+        "without --vary [°]": any(result.unvaried is not None for result, _ in rows),
+        "with unknown gravity [°]": any(result.unknown for result, _ in rows),
+    }
+    fields = [field for field in JOINTS if shown_if.get(field.head, True)]
+    return table(fields, rows, keys=1 + many)
 
 
 def angle_up(value: Fraction | None) -> str:
     """A proved angle, degrees, in four digits and never rounded down; ``None`` is without a bound."""
-    if value is None:
-        return "∞"
-    return f"{decimal_text(significant_up(value, 4))}°" if value else "0°"
+    return "∞" if value is None else decimal_text(significant_up(value, 4)) if value else "0"
+
+
+def _seen(value: float) -> str:
+    """A simulated angle in degrees, rounded."""
+    return shown(math.degrees(value), ".3g")
+
+
+JOINTS = (
+    Field("", lambda row: [row.gains.name] * len(row.joints), "gain set", align="l"),
+    Field("", "joints", "joint", align="l"),
+    Field("", "rest_degrees", "proved [°]", angle_up),
+    Field("", "unvaried.rest_degrees", "without --vary [°]", angle_up),
+    Field("", "unknown_degrees", "with unknown gravity [°]", angle_up),
+    Field("", "simulated_rest", "simulated [°]", _seen),
+    Field("", "simulated_largest", "peak, simulated [°]", _seen),
+    Field("", "dry", "dry friction [N·m]", lambda f: "—" if f is None else decimal_text(f)),
+)
+"""What is said of a joint under a gain set."""
 
 
 def comparison_data(result: BoundsComparison) -> dict[str, Any]:
@@ -447,7 +471,7 @@ def comparison_data(result: BoundsComparison) -> dict[str, Any]:
     task, promise = result.task, result.promise
     return {
         "name": result.gains.name,
-        "robot": result.robot,
+        "robot": result.model.name,
         "target": [_degrees(x) for x in task.q_d],
         "start": [_degrees(x) for x in task.q0],
         "settling": {"delta": _degrees(result.delta)},
@@ -465,7 +489,7 @@ def comparison_data(result: BoundsComparison) -> dict[str, Any]:
             "largest": [_degrees(x) for x in result.simulated_largest],
             "rest": [_degrees(x) for x in result.simulated_rest],
         },
-        "assumptions": list(result.assumptions),
+        "assumptions": list(result.model.assumptions),
         "vary": list(result.varies),
         "unvaried": None if result.unvaried is None else comparison_data(result.unvaried),
     }
@@ -485,7 +509,7 @@ def certificates(result: BoundsComparison) -> dict[str, Certificate]:
     if result.promise is None:
         return {}
     name, gains = f"{result.gains.name}.resting", result.gains
-    says = f"how far from the goal it can rest: {gains.name} on {result.robot}"
-    about = About(name, says, gains.m, len(result.joints), PROOF)
+    says = f"how far from the goal it can rest: {gains.name} on {result.model.name}"
+    about = About(name, says, gains.m, len(result.joints), "bounds")
     made = Certificate(about, result.promise.shown.statement, "proved", "enclosure", AtBounds())
     return {f"{file_stem(gains.name)}.resting.json": made}

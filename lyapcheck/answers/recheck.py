@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +14,9 @@ from lyapcheck.errors import argument_error
 from lyapcheck.kernel.coq import Kernel, require_coq
 from lyapcheck.kernel.judge import graded, judged
 from lyapcheck.output.answer import Annotation, Answer, Level
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
-from lyapcheck.rechecking.command import Writer, as_json, text
+from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
+from lyapcheck.output.text import View
+from lyapcheck.rechecking.command import Writer, as_json
 from lyapcheck.rechecking.trusted import GENERAL
 from lyapcheck.temporary import temporary_folder
 
@@ -29,7 +29,7 @@ RULES = {
 }
 ALARM = "the checker is wrong; trust none of these verdicts, and report this"
 WHOSE = "Statements are rendered from their data; what their authors call them stands in quotation marks."
-WIDTH = 11
+MOST_ROWS, MOST_REASONS, CELL = 10, 3, 60
 MEANING = (
     "kernel: Coq's kernel accepted a theorem whose statement is printed from the certificate's own data, and "
     "whose axioms are on the golden list named: real has those of classical real numbers, float also the "
@@ -54,18 +54,65 @@ class Recheck(Answer):
     kernel: tuple[Kernel, ...] = ()
 
     def document(self) -> Document:
-        """Alarms, then every certificate, those that are not accepted first, then what all of it rests on."""
-        parts = (
-            self._alarms(),
-            self._checked(),
-            self._kernel(),
-            self._theorems(),
-            self._granted(),
-            self._code(),
-        )
+        """Every certificate, those that are not accepted first, then what all of it rests on."""
+        rows = [one for status in SIGNS for one in self._with(status)]
+        more = [f"{len(rows) - MOST_ROWS} more are accepted: -v lists them"] if len(rows) > MOST_ROWS else []
+        reasons = [f"{one.file}: {one.reason}" for one in rows if not one.accepted]
+        said = (*self._alarm_texts(), *reasons[: MOST_REASONS - bool(more)], *more)
         unlimited = [name for name in ("seconds", "memory") if name not in self.outcome.limited]
-        notes = (WHOSE, *(f"The system keeps no limit on {name} here." for name in unlimited))
-        return Document(self._title(), tuple(section for part in parts for section in part), notes)
+        special = dict(self._granted())
+        return Document(
+            self._title(),
+            (
+                *([self._table(rows[:MOST_ROWS])] if rows else []),
+                *([Bullets(said)] if said else []),
+                *self._code(),
+            ),
+            (
+                WHOSE,
+                *([MEANING] if self.kernel else []),
+                *(f"The system keeps no limit on {name} here." for name in unlimited),
+                *(f"Every verdict: {text}" for text in GENERAL),
+                *(f"{files}: {text}" for granted, files in special.items() for text in granted),
+            ),
+            (f"Coq's kernel accepts {sum(one.accepted for one in self.kernel)}",) if self.kernel else (),
+            (*self._checked(), *self._theorems()),
+            f"{len(GENERAL)} assumptions of every verdict{', others of some' if special else ''}: --explain",
+            self._next(rows),
+        )
+
+    def _next(self, rows: Sequence[Checked]) -> str:
+        paths = [one.document.path for one in rows]
+        if not paths:
+            return command("recheck", "--help")
+        same = len(paths) > 1 and len({path.parent for path in paths}) == 1
+        return command(
+            "recheck", paths[0].parent if same else paths[0], "-v" if self.trusted else "--trusted"
+        )
+
+    def _table(self, rows: Sequence[Checked]) -> Table:
+        """The verdict on each, and what it states or why it is not accepted."""
+        kernel = {one.file: one.axioms or one.reason for one in self.kernel}
+        heads = (
+            "",
+            "file",
+            "verdict",
+            "grade",
+            *(["axioms in Coq, or why not"] if kernel else []),
+            "statement",
+        )
+        cells = [
+            (
+                SIGNS[one.status],
+                one.file,
+                one.verdict if one.accepted else one.status,
+                one.grade if one.accepted else "",
+                *([kernel.get(one.file, "")] if kernel else []),
+                _begin(one.finding.statement if one.accepted else one.reason),
+            )
+            for one in rows
+        ]
+        return Table(heads, tuple(cells), align="l" * len(heads), keys=4)
 
     def data(self) -> dict[str, Any]:
         """What the checker writes as JSON."""
@@ -103,31 +150,19 @@ class Recheck(Answer):
             for alarm in self.outcome.alarms
         ]
 
-    def _alarms(self) -> Iterator[Section]:
-        if self.outcome.alarms:
-            yield Section("Alarms", (Bullets(tuple(self._alarm_texts())),))
-
     def _checked(self) -> Iterator[Section]:
-        for status in SIGNS:
-            if result := self._with(status):
-                table = _accepted(result) if status == "accepted" else _not_accepted(result)
-                yield Section(f"{status.capitalize()} ({len(result)})", (table,))
+        """What each states, whole, with the words of its author."""
+        for status, sign in SIGNS.items():
+            for one in self._with(status):
+                said = [one.finding.statement] if one.accepted else [one.reason]
+                if one.status == "undecided" and one.finding.statement:
+                    said.append(_open_statement(one))
+                if one.status != "refused" and one.finding.statement:
+                    said.append(_words(one))
+                yield Section(f"{sign} {one.file}: {one.verdict or status}", (Bullets(tuple(said)),))
 
     def _with(self, status: str) -> list[Checked]:
         return [one for one in self.outcome.checked if one.status == status]
-
-    def _kernel(self) -> Iterator[Section]:
-        """What Coq's kernel accepted, and why not the others."""
-        if self.kernel:
-            rows = tuple(
-                (SIGNS["accepted"] if one.accepted else "·", one.file, one.axioms or one.reason)
-                for one in self.kernel
-            )
-            accepted = sum(one.accepted for one in self.kernel)
-            heads = ("", "file", "golden list of its axioms, or why not")
-            yield Section(
-                f"Coq's kernel ({accepted} of {len(rows)})", (Table(heads, rows, align="lll", keys=2),)
-            )
 
     def _theorems(self) -> Iterator[Section]:
         rows = [
@@ -138,16 +173,13 @@ class Recheck(Answer):
             heads = ("theorem", "where it is proved", "certificates that rest on it")
             yield Section("Theorems applied", (Table(heads, tuple(rows), align="lll"),))
 
-    def _granted(self) -> Iterator[Section]:
-        """What every verdict takes for granted, and what only some do, files of which that is so together."""
+    def _granted(self) -> Iterator[tuple[tuple[str, ...], str]]:
+        """What only some verdicts take for granted, files of which that is so together."""
         groups: dict[tuple[str, ...], list[str]] = {}
         for one in self.outcome.checked:
             if granted := self.outcome.granted.get(one.file):
                 groups.setdefault(granted, []).append(one.file)
-        blocks: list[Block] = [Paragraph("By every verdict:"), Bullets(GENERAL)]
-        for granted, files in groups.items():
-            blocks += [Paragraph(f"By {', '.join(files)}:"), Bullets(granted)]
-        yield Section("Taken for granted", tuple(blocks))
+        return ((granted, ", ".join(files)) for granted, files in groups.items())
 
     def _code(self) -> Iterator[Section]:
         """The rules and modules behind all that is proved, and behind all that is refuted."""
@@ -159,23 +191,9 @@ class Recheck(Answer):
             yield Section(f"Trusted for all that is {verdict}", blocks)
 
 
-def _accepted(result: Sequence[Checked]) -> Table:
-    heads = ("", "file", "verdict", "grade", "statement")
-    rows = []
-    for one in result:
-        rows.append((SIGNS[one.status], one.file, one.verdict, one.grade, one.finding.statement))
-        rows.append(("", "", "", "", _words(one)))
-    return Table(heads, tuple(rows), align="lllll", keys=4)
-
-
-def _not_accepted(result: Sequence[Checked]) -> Table:
-    """Why not; and of those that may still be, what they state."""
-    rows = []
-    for one in result:
-        rows.append((SIGNS[one.status], one.file, one.reason))
-        if one.status == "undecided" and one.finding.statement:
-            rows += [("", "", text) for text in (_open_statement(one), _words(one))]
-    return Table(("", "file", "reason"), tuple(rows), align="lll", keys=2)
+def _begin(text: str) -> str:
+    """What a cell has room for; the details have all."""
+    return text if len(text) <= CELL else f"{text[: CELL - 1]}…"
 
 
 def _words(one: Checked) -> str:
@@ -199,7 +217,9 @@ def _annotation(one: Checked) -> Annotation:
     )
 
 
-def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str], None]) -> Writer:
+def writer(
+    name: str, seconds: int, folder: Path | None, progress: Callable[[str], None], view: View | None
+) -> Writer:
     """What writes the outcome of the small checker in a format, once Coq's kernel has judged it as well.
 
     Args:
@@ -208,6 +228,7 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
         folder: where the files for Coq are copied to in the end; ``None``: nowhere. Nothing is read there: a
             compiled file may be of other definitions than its source.
         progress: receives a note on what is going on.
+        view: how a text is shown.
 
     Raises:
         InputError: there is no Coq, or the folder cannot take the files.
@@ -220,11 +241,9 @@ def writer(name: str, seconds: int, folder: Path | None, progress: Callable[[str
             if folder is not None:
                 _copied(place, folder)
         both = graded(outcome, result)
-        if name == "text":
-            return text(both, trusted) + kernel_text(result)
         if name == "json":
             return kernel_json(as_json(both, trusted), result)
-        return Recheck(both, trusted, tuple(result)).written(name)
+        return Recheck(both, trusted, tuple(result)).written(name, view)
 
     return written
 
@@ -242,16 +261,6 @@ def _copied(place: str, folder: Path) -> None:
         raise argument_error("--kernel-files", folder, rule, "name an empty directory") from None
 
 
-def kernel_text(result: list[Kernel]) -> str:
-    """A line a certificate, what the grade means, and how many have it."""
-    lines = [
-        "",
-        *(f"{'kernel' if one.accepted else 'no kernel':<{WIDTH}}{one.file}: {said(one)}" for one in result),
-    ]
-    counted = Counter(one.accepted for one in result)
-    return "\n".join([*lines, MEANING, f"{counted[True]} kernel, {counted[False]} without"]) + "\n"
-
-
 def kernel_json(written: str, result: list[Kernel]) -> str:
     """The JSON of the small checker with ``kernel`` in the row of each certificate."""
     data = json.loads(written)
@@ -263,8 +272,3 @@ def kernel_json(written: str, result: list[Kernel]) -> str:
             "axioms": one.axioms or None,
         }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
-
-
-def said(one: Kernel) -> str:
-    """The golden list, or why there is no kernel verdict."""
-    return f"axioms {one.axioms}" if one.accepted else one.reason

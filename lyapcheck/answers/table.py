@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from lyapcheck.answers.assumed import arm_words
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
@@ -23,7 +24,7 @@ from lyapcheck.family.asymptotes import Asymptotes, asymptotes, gamma_less_than
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import correct_digits, decimals
-from lyapcheck.output.document import Document, Paragraph
+from lyapcheck.output.document import Bullets, Document, command
 from lyapcheck.output.document import Table as Cells
 from lyapcheck.output.fields import Field, data, table
 
@@ -93,9 +94,24 @@ class Table(Answer):
     asymptotes: tuple[Asymptotes, ...] | None = None
 
     def document(self) -> Document:
-        """The constants, where each is reached, what was asked for beside them; all digits correct."""
-        blocks = [table(self._fields, [(row,) for row in self.rows]), self._asymptotes(), self._budget()]
-        return Document(TITLE, (Paragraph(LEGEND), *filter(None, blocks)), tuple(self._notes()))
+        """What was asked for of the constants, all digits correct; the rest with -v."""
+        members = table(self._fields, [(row,) for row in self.rows])
+        first, *others = [one for one in (self._budget(), self._asymptotes(), members) if one is not None]
+        printed = tuple(self._printed())
+        return Document(
+            TITLE,
+            (first, *([Bullets(printed)] if printed else [])),
+            tuple(self._notes()),
+            (LEGEND,),
+            tuple(others),
+            next=self._next(),
+        )
+
+    def _next(self) -> str:
+        member = self.rows[0].m if self.rows else 1
+        if self.budget is None:
+            return command("table", "--m", member, "--robot", "buap3")
+        return command("tune", *arm_words(self.budget.robot), "--m", member)
 
     def data(self) -> dict[str, Any]:
         """``rows: [{m, gamma: {lower, upper}, …}]``, decimal strings that enclose; ``None`` at infinity."""
@@ -158,16 +174,16 @@ class Table(Answer):
         heads = ("m", *self.budget.joints)
         return Cells(heads, tuple(rows), title, "r" + "l" * len(self.budget.joints))
 
+    def _printed(self) -> Iterator[str]:
+        """What is to be said of each printed γ in the table."""
+        for m in (row.m for row in self.rows if row.m in PRINTED_GAMMA):
+            bounds = "an upper bound of h" if printed_bounds(m) else "not an upper bound, h exceeds it"
+            yield f"The paper prints γ_{m} = {decimal_text(PRINTED_GAMMA[m])}: {bounds}."
+
     def _notes(self) -> list[str]:
-        """A line for each printed γ in the table, and what is proved about large m."""
-        printed = [
-            f"The paper prints γ_{row.m} = {decimal_text(PRINTED_GAMMA[row.m])}: "
-            + ("an upper bound of h." if printed_bounds(row.m) else "not an upper bound, h exceeds it.")
-            for row in self.rows
-            if row.m in PRINTED_GAMMA
-        ]
+        """What is proved about large m."""
         grows = [GROWS] if any(row.m > 1 for row in self.rows) else []
-        return [*printed, LIMITS, *grows, *([RESTS] if self.asymptotes else [])]
+        return [LIMITS, *grows, *([RESTS] if self.asymptotes else [])]
 
     def _cells(self, *values: Enclosure | None, digits: int | None = None) -> list[str]:
         shown = self.digits if digits is None else digits

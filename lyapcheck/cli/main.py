@@ -119,11 +119,13 @@ def run(words: Sequence[str]) -> int:
     """
     if not words or words[0] not in NAMES:
         return run_program(words)
+    from lyapcheck.cli.show import viewed
+
     command = load(words[0])
     parser = Parser(prog=f"lyapcheck {words[0]}", description=command.run.__doc__)
     command.arguments(parser)
     try:
-        return int(command.run(**chosen(parser.parse(words[1:]))))
+        return int(command.run(**chosen(viewed(parser.parse(words[1:])))))
     except InputError as error:
         if not error.told:
             _show_problems(words, error)

@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import os
 import sys
+from contextvars import ContextVar
+from dataclasses import replace
 from pathlib import Path
+from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Section
+from lyapcheck.output.text import WIDTH, Depth, View
 from lyapcheck.temporary import pending, try_writing
 
 if TYPE_CHECKING:
@@ -18,6 +22,8 @@ if TYPE_CHECKING:
 
     from lyapcheck.certificate import Certificate
 
+VIEWING = ("quiet", "verbose", "explain", "color")
+_VIEW: ContextVar[View | None] = ContextVar("view", default=None)
 OTHERS_NAMED = 8
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""
@@ -124,8 +130,29 @@ def _is_device(path: Path) -> bool:
     return path.exists() and not path.is_file()
 
 
+def viewed(values: dict[str, Any]) -> dict[str, Any]:
+    """The values of a command line without those that say how a text is shown, which `show` keeps to.
+
+    Colour is for terminals, unless ``NO_COLOR`` is set; ``--color`` goes before both.
+    """
+    if "color" in values:
+        quiet, verbose, explained, colour = (values.pop(name) for name in VIEWING)
+        depth = Depth.QUIET if quiet else Depth.VERBOSE if verbose else Depth.SHORT
+        terminal = sys.stdout.isatty()
+        plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+        coloured = colour == "always" or (colour == "auto" and terminal and not plain)
+        width = get_terminal_size().columns if terminal else WIDTH
+        _VIEW.set(View(Depth.EXPLAINED if explained else depth, coloured, width))
+    return values
+
+
+def current_view() -> View | None:
+    """How the options of the command line have texts shown."""
+    return _VIEW.get()
+
+
 def show(answer: Answer, format: str) -> None:  # noqa: A002
-    """An answer in a format; in colour where a terminal shows it and ``NO_COLOR`` is not set.
+    """An answer in a format; a text as the options of `viewed` say.
 
     Annotations for GitHub are not the whole answer: that goes to the job's summary, if there is one.
     A fault in the wording does not cost what was computed: the data are written, and the fault is raised.
@@ -133,9 +160,8 @@ def show(answer: Answer, format: str) -> None:  # noqa: A002
     Raises:
         InputError: the summary cannot be written.
     """
-    colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
     try:
-        text = answer.written(format, colour)
+        text = answer.written(format, _VIEW.get())
     except Exception:
         sys.stdout.write(_bare(answer))
         sys.stdout.flush()
@@ -160,12 +186,12 @@ def _append_summary(path: str, document: Document) -> None:
 
     text = render(document)
     if len(text.encode()) > LARGEST_SUMMARY:
-        sections = [block for block in document.blocks if isinstance(block, Section)]
+        sections = [block for block in document.details if isinstance(block, Section)]
         others = [section for section in sections if not section.title.startswith("✓")]
         count = len(others)
         while True:
             title = f"{document.title}; {count} of {len(others)} that did not pass are shown"
-            text = render(Document(title, tuple(others[:count]), document.notes))
+            text = render(replace(document, title=title, details=tuple(others[:count])))
             size = len(text.encode())
             if size <= LARGEST_SUMMARY or count <= 1:
                 break

@@ -185,6 +185,7 @@ def require_joints(gain_files: Iterable[GainFile], model: RobotModel) -> None:
 # --- Arguments and options that several commands have.
 
 
+COLOURING = ("auto", "always", "never")
 LOOP = {
     "rate": ("HZ", "Rate of the controller. This and the next options replace [loop] of the files."),
     "period": ("TIME", 'The same as a period, for example "2.5 ms".'),
@@ -324,5 +325,10 @@ class _SwitchOff(Action):
 
 
 def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat) -> None:
-    """``--format``, the name of one of some formats."""
+    """``--format``, the name of one of some formats, and how a text is shown."""
     parser.add_choice("--format", formats, "Output format.", default="text")
+    parser.add_argument("-q", "--quiet", action="store_true", help="Show the first line only.")
+    about = "Add formulas, methods and all rows and columns."
+    parser.add_argument("-v", "--verbose", action="store_true", help=about)
+    parser.add_argument("--explain", action="store_true", help="Add all notes to what -v shows.")
+    parser.add_choice("--color", COLOURING, "Use of colour.", default="auto")

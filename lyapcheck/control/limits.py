@@ -167,6 +167,7 @@ class Limits:
         varied: True if proofs must hold for all ranges of the arm, not only at nominal numbers.
         refuted: stated bounds of gravity that the arm itself breaks, which are not among ``gravity``.
         gravity_notes: notes about ``gravity``.
+        doubts: signs that the arm file is a template or in other units.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
@@ -181,10 +182,16 @@ class Limits:
     varied: bool = False
     refuted: tuple[RefutedBound, ...] = field(default=(), compare=False, repr=False)
     gravity_notes: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
 
     @property
     def n(self) -> int:
         return len(self.joints)
+
+    @property
+    def ranges(self) -> tuple[str, ...]:
+        """What the ranges of --vary cost."""
+        return tuple(text for text in self.assumptions if text.startswith("--vary "))
 
     def resting_on(self, assumptions: tuple[str, ...]) -> Limits:
         return replace(self, assumptions=assumptions)
@@ -235,6 +242,7 @@ def limits_for(
         varied=arm.varied,
         refuted=gravity.refuted,
         gravity_notes=gravity.notes,
+        doubts=arm.doubts,
     )
 
 

@@ -14,6 +14,7 @@ from lyapcheck.output.escapes import document_text
 
 if TYPE_CHECKING:
     from lyapcheck.errors import Problem
+    from lyapcheck.output.text import View
 
 # --- What was judged, case by case: for systems that run checks and show the outcome at a line of a file.
 
@@ -90,18 +91,18 @@ class Answer(ABC):
         """For systems that run checks; none where nothing is judged."""
         return ()
 
-    def written(self, format: str, colour: bool = False) -> str:  # noqa: A002
+    def written(self, format: str, view: View | None = None) -> str:  # noqa: A002
         """The answer in a format, the same bytes for the same answer.
 
         Its ``render`` gets the answer; those of ``text`` and ``DOCUMENTS`` only the document of the answer.
 
         Args:
             format: a value of :class:`~lyapcheck.output.formats.JudgedFormat`: a file of ``output``.
-            colour: with the escape sequences of a terminal; for text alone.
+            view: how much of a text is shown, how wide, and whether in colour.
         """
         renderer = import_module(f"lyapcheck.output.{format}")
         if format == "text":
-            shown: str = renderer.render(self.document(), colour)
+            shown: str = renderer.render(self.document(), view)
             return shown
         whole = self.document() if format in DOCUMENTS else self
         return document_text(renderer.render(whole))

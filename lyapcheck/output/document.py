@@ -5,6 +5,7 @@ All text is plain: no markup, nothing escaped. Renderers escape all of it, so a 
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 
 
@@ -65,8 +66,8 @@ class Table:
         caption: what it shows, where that is not plain from its place.
         align: a letter a column, ``l`` for words, ``r`` for numbers; words in the first column and numbers in
             the others if empty.
-        keys: how many of the first columns say what a row is about, and come again where a table that is too
-            wide for a terminal goes on below.
+        keys: how many of the first columns say what a row is about; these are always shown.
+        drop: columns that a narrow terminal leaves out first, in that order; then those on the right go.
     """
 
     heads: tuple[str, ...]
@@ -74,6 +75,7 @@ class Table:
     caption: str = ""
     align: str = ""
     keys: int = 1
+    drop: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.align:
@@ -96,23 +98,38 @@ Block = Paragraph | Bullets | Code | Equation | Figure | Table | Section
 
 @dataclass(frozen=True)
 class Document:
-    """A whole answer.
+    """A whole answer: the short one that everybody reads, and what `-v` and `--explain` add in a terminal.
 
     Args:
-        title: the answer in one line, the verdict first where there is one.
-        blocks: what supports it.
-        notes: what holds for all of it: legends, assumptions.
+        title: the answer in one line, true for the file as given, the verdict first where there is one.
+        blocks: the table and at most three remarks; a report has sections and figures.
+        notes: legends and what holds for all of it: `--explain`.
+        lead: at most two more lines of the headline.
+        details: formulas, methods, conditions that do not decide: `-v`.
+        assumed: the one line about assumptions.
+        next: one command that can be pasted.
     """
 
     title: str
-    blocks: tuple[Block, ...]
+    blocks: tuple[Block, ...] = ()
     notes: tuple[str, ...] = ()
+    lead: tuple[str, ...] = ()
+    details: tuple[Block, ...] = ()
+    assumed: str = ""
+    next: str = ""
 
     @property
     def body(self) -> tuple[Block, ...]:
-        """The blocks, then the notes: under a heading where they would else belong to the last block."""
+        """All but the title, in the order of the page; notes under a heading if they follow a list."""
+        lead, assumed = ([Paragraph(text) for text in part if text] for part in (self.lead, [self.assumed]))
+        blocks = (*lead, *self.blocks, *self.details, *assumed, *([Code(self.next)] if self.next else []))
         if not self.notes:
-            return self.blocks
+            return blocks
         notes = Bullets(self.notes)
-        joined = self.blocks and isinstance(self.blocks[-1], (Section, Bullets))
-        return (*self.blocks, Section("Notes", (notes,)) if joined else notes)
+        joined = blocks and isinstance(blocks[-1], (Section, Bullets, Code))
+        return (*blocks, Section("Notes", (notes,)) if joined else notes)
+
+
+def command(*words: object) -> str:
+    """A command line of lyapcheck that can be pasted into a shell."""
+    return shlex.join(["lyapcheck", *map(str, words)])

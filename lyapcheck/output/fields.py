@@ -70,10 +70,15 @@ def records(fields: Sequence[Field], row: Any, parts: int = 1) -> list[dict[str,
 
 
 def table(
-    fields: Sequence[Field], rows: Iterable[tuple[Any, ...]], caption: str = "", keys: int = 1, **words: Any
+    fields: Sequence[Field],
+    rows: Iterable[tuple[Any, ...]],
+    caption: str = "",
+    keys: int = 1,
+    drop: tuple[int, ...] = (),
+    **words: Any,
 ) -> Table:
     """Rows for people: each a row alone, or a row and the number of a part; words fill in the heads."""
     seen = [field for field in fields if field.head]
     cells = tuple(tuple(field.text(*row) for field in seen) for row in rows)
     heads = tuple(field.head.format(**words) for field in seen)
-    return Table(heads, cells, caption, "".join(field.align for field in seen), keys)
+    return Table(heads, cells, caption, "".join(field.align for field in seen), keys, drop)

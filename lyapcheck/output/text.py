@@ -1,198 +1,201 @@
-"""A document in a terminal: 80 columns, straight tables, colour where it is wanted."""
+"""A document in a terminal: the headline, one table, remarks, assumptions and the next command.
+
+Tables are never folded: in a narrow terminal they lose columns, which `-v` shows below with the keys.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import zip_longest
+from dataclasses import dataclass
+from enum import IntEnum
 from textwrap import wrap
 from unicodedata import combining, east_asian_width
 
 from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import printable
 
-WIDTH = 80
-GAP = "  "
-LEAST = 12
-"""A column of words is not made narrower than this, nor than its longest word."""
-MOST = 24
-"""A longer word of a sentence in a table is broken where the column ends; a cell of one word never is."""
+WIDTH, LEAST, MOST = 100, 60, 120
+"""Columns where there is no terminal, and the ends of what is used of one."""
+PROSE = 90
+"""Sentences are not wider."""
+GAP = INDENT = "  "
 
 BOLD, DIM, GREEN, RED, YELLOW, PLAIN = (f"\x1b[{code}m" for code in (1, 2, 32, 31, 33, 0))
 COLOURS = {
     **dict.fromkeys(("✓", "proved", "accepted"), GREEN),
-    **dict.fromkeys(("✗", "!", "refuted", "rejected", "refused", "error"), RED),
-    **dict.fromkeys(("?", "undecided"), YELLOW),
+    **dict.fromkeys(("✗", "refuted", "rejected", "refused", "error"), RED),
+    **dict.fromkeys(("?", "!", "undecided"), YELLOW),
 }
 """Of cells that are one of these words, and of titles that begin with one."""
+_NUMBER = re.compile(r"[-−]?\d+(\.\d+)?")
 
 
-def render(document: doc.Document, colour: bool = False) -> str:
-    """The whole document; lines end where they must, also within words that no line could hold."""
-    writer = _Writer(colour)
-    lines = [writer.title(document.title, "═"), *writer.blocks(document.body)]
-    return "\n".join(lines) + "\n"
+class Depth(IntEnum):
+    """How much is shown; each level shows what the one before does, and more."""
+
+    QUIET = 0
+    """The first line."""
+    SHORT = 1
+    """The short answer."""
+    VERBOSE = 2
+    """With details."""
+    EXPLAINED = 3
+    """With notes."""
+
+
+@dataclass(frozen=True)
+class View:
+    """How a document is shown.
+
+    Args:
+        depth: how much of it.
+        colour: with the escape sequences of a terminal.
+        width: columns; held within `LEAST` and `MOST`.
+    """
+
+    depth: Depth = Depth.SHORT
+    colour: bool = False
+    width: int = WIDTH
+
+
+def render(document: doc.Document, view: View | None = None) -> str:
+    """The document as far as a view shows it; only commands and very long words pass the width."""
+    writer = _Writer(view or View())
+    return "\n".join(writer.lines(document)) + "\n"
 
 
 class _Writer:
-    """What a block comes to in lines, with or without colour."""
+    def __init__(self, view: View) -> None:
+        self.colour, self.depth = view.colour, view.depth
+        self.width = min(max(view.width, LEAST), MOST)
 
-    def __init__(self, colour: bool) -> None:
-        self.colour = colour
-
-    def title(self, text: str, rule: str) -> str:
-        lines = _wrapped(text)
-        long = max(map(_width, lines), default=0)
-        return "\n".join([*(self._titled(line) for line in lines), self._in(DIM, rule * long)])
+    def lines(self, document: doc.Document) -> Iterator[str]:
+        yield from map(self._titled, self._wrapped(document.title))
+        if self.depth == Depth.QUIET:
+            return
+        for text in document.lead:
+            yield from self._inset(text)
+        yield from self.blocks(document.blocks)
+        if self.depth >= Depth.VERBOSE:
+            yield from self.blocks(document.details)
+        if self.depth >= Depth.EXPLAINED and document.notes:
+            yield from self.blocks((doc.Section("Notes", (doc.Bullets(document.notes),)),))
+        if document.assumed or document.next:
+            yield ""
+        for text in (document.assumed, document.next and f"next: {document.next}"):
+            command = "lyapcheck " in text  # stays whole, to be pasted
+            lines = [INDENT + printable(text)] if command else self._inset(text)
+            yield from (self._in(DIM, line) for line in lines)
 
     def _titled(self, line: str) -> str:
         mark, space, rest = line.partition(" ")
-        return (
-            f"{self._in(COLOURS[mark], mark)}{space}{self._in(BOLD, rest)}"
-            if mark in COLOURS
-            else self._in(BOLD, line)
-        )
+        if mark not in COLOURS:
+            return self._in(BOLD, line)
+        return f"{self._in(COLOURS[mark], mark)}{space}{self._in(BOLD, rest)}"
 
     def blocks(self, blocks: Iterable[doc.Block]) -> Iterator[str]:
         for block in blocks:
             yield ""
             match block:
                 case doc.Paragraph(text):
-                    yield from _wrapped(text)
+                    yield from self._wrapped(text)
                 case doc.Bullets(items):
-                    yield from self.bullets(items)
+                    yield from (line for item in items for line in self._hanging(item))
                 case doc.Code(text) | doc.Equation(text):
                     yield from (f"    {printable(line)}" for line in text.splitlines())
                 case doc.Figure(path, caption):
-                    yield from _wrapped(f"{caption} [{path}]")
+                    yield from self._wrapped(f"{caption} [{path}]")
                 case doc.Section(title, inner):
-                    yield self.title(title, "─")
+                    yield from map(self._titled, self._wrapped(title))
                     yield from self.blocks(inner)
                 case doc.Table():
                     yield from self.table(block)
 
-    def bullets(self, items: Iterable[str]) -> Iterator[str]:
-        for item in items:
-            first, *rest = _wrapped(item, WIDTH - 2) or [""]
-            yield f"- {first}"
-            yield from (f"  {line}" for line in rest)
-
     def table(self, table: doc.Table) -> Iterator[str]:
         if table.caption:
-            yield from _wrapped(table.caption)
+            yield from self._wrapped(table.caption)
         cells = [tuple(map(printable, row)) for row in (table.heads, *table.rows)]
-        natural = _natural(cells)
-        if _excess(natural) <= 0:
-            yield from self._sheet(cells, natural, table.align)
-            return
-        for number, columns in enumerate(_sheets(table, cells)):
+        columns = [
+            _pointed(column) if side == "r" else column
+            for column, side in zip(zip(*cells, strict=True), table.align, strict=True)
+        ]
+        sheets = _sheets(table, [max(map(_width, column)) for column in columns], self.width)
+        for number, sheet in enumerate(sheets if self.depth >= Depth.VERBOSE else sheets[:1]):
             if number:
                 yield ""
-            align = "".join(table.align[i] for i in columns)
-            sheet = [tuple(row[i] for i in columns) for row in cells]
-            yield from self._sheet(sheet, _fitting(sheet, align), align)
+            align = "".join(table.align[i] for i in sheet)
+            yield from self._sheet(self._cut([columns[i] for i in sheet], align), align)
 
-    def _sheet(self, cells: Sequence[tuple[str, ...]], widths: Sequence[int], align: str) -> Iterator[str]:
-        heads, *rows = cells
-        yield from self._row(heads, widths, align, BOLD)
-        yield self._in(DIM, GAP.join("─" * width for width in widths))
-        for row in rows:
-            yield from self._row(row, widths, align)
+    def _cut(self, columns: Sequence[Sequence[str]], align: str) -> list[Sequence[str]]:
+        """Words cut off where a line has no room for them and nobody asked for all."""
+        shown = list(columns)
+        widths = [max(map(_width, column)) for column in shown]
+        excess = sum(widths) + len(GAP) * (len(widths) - 1) - self.width
+        words = [i for i, side in enumerate(align) if side == "l"]
+        if excess > 0 and words and self.depth < Depth.VERBOSE:
+            widest = max(words, key=lambda i: widths[i])
+            most = max(widths[widest] - excess, 8)
+            shown[widest] = [x if _width(x) <= most else f"{x[: most - 1]}…" for x in shown[widest]]
+        return shown
 
-    def _row(self, row: Sequence[str], widths: Sequence[int], align: str, style: str = "") -> Iterator[str]:
-        """The lines of a row: one, unless a cell is wider than its column."""
-        spaces = [width - _width(cell) for cell, width in zip(row, widths, strict=True)]
-        if min(spaces) >= 0:
-            yield self._line(row, spaces, align, style)
-            return
-        stacks = [_wrapped(cell, width, broken=True) or [""] for cell, width in zip(row, widths, strict=True)]
-        for line in zip_longest(*stacks, fillvalue=""):
-            spaces = [width - _width(cell) for cell, width in zip(line, widths, strict=True)]
-            yield self._line(line, spaces, align, style)
+    def _sheet(self, columns: Sequence[Sequence[str]], align: str) -> Iterator[str]:
+        widths = [max(map(_width, column)) for column in columns]
+        for number, row in enumerate(zip(*columns, strict=True)):
+            parts = []
+            for cell, width, side in zip(row, widths, align, strict=True):
+                space = " " * (width - _width(cell))
+                said = self._in(COLOURS.get(cell, "") if number else BOLD, cell)
+                parts.append(said + space if side == "l" else space + said)
+            yield GAP.join(parts).rstrip()
 
-    def _line(self, cells: Sequence[str], spaces: Sequence[int], align: str, style: str) -> str:
-        """Cells that fit, each with the spaces that fill its column."""
-        if self.colour:
-            cells = [self._in(style or COLOURS.get(cell, ""), cell) for cell in cells]
-        parts = [
-            cell + " " * space if side == "l" else " " * space + cell
-            for cell, space, side in zip(cells, spaces, align, strict=True)
-        ]
-        return GAP.join(parts).rstrip()
+    def _wrapped(self, text: str, less: int = 0) -> list[str]:
+        width = min(self.width, PROSE) - less
+        shown = printable(text)
+        if _width(shown) <= width:
+            return [shown]
+        return wrap(shown, width, break_long_words=False, break_on_hyphens=False)
+
+    def _inset(self, text: str) -> Iterator[str]:
+        return (INDENT + line for line in self._wrapped(text, len(INDENT)) if line)
+
+    def _hanging(self, text: str) -> Iterator[str]:
+        lines = self._wrapped(text, len(INDENT))
+        return (f"{INDENT if number else '- '}{line}" for number, line in enumerate(lines))
 
     def _in(self, style: str, text: str) -> str:
         return f"{style}{text}{PLAIN}" if self.colour and style and text else text
 
 
-def _sheets(table: doc.Table, cells: Sequence[Sequence[str]]) -> list[list[int]]:
-    """The columns that fit side by side, the keys with each lot of them."""
-    least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), table.align, strict=True)]
-    keys = list(range(min(table.keys, len(least))))
-    used = sum(least[i] + len(GAP) for i in keys)
-    sheets: list[list[int]] = [[]]
-    free = WIDTH - used
-    for i in range(len(keys), len(least)):
-        if sheets[-1] and least[i] > free:
-            sheets.append([])
-            free = WIDTH - used
-        sheets[-1].append(i)
-        free -= least[i] + len(GAP)
-    return [[*keys, *sheet] for sheet in sheets]
+def _pointed(column: Sequence[str]) -> Sequence[str]:
+    """Numbers with their decimal points below each other."""
+    after = [_after_point(cell) for cell in column]
+    most = max((places for places in after if places is not None), default=0)
+    return [
+        cell if places is None else cell + " " * (most - places)
+        for cell, places in zip(column, after, strict=True)
+    ]
 
 
-def _fitting(cells: Sequence[Sequence[str]], align: str) -> list[int]:
-    """Widths of columns that make lines of at most `WIDTH`, where wrapping words can do it."""
-    widths = _natural(cells)
-    excess = _excess(widths)
-    if excess <= 0:
-        return widths
-    least = [_least(column, side) for column, side in zip(zip(*cells, strict=True), align, strict=True)]
-    while excess > 0:
-        spare = [width - low for width, low in zip(widths, least, strict=True)]
-        if max(spare) <= 0:
-            break
-        widest = max((i for i in range(len(widths)) if spare[i] > 0), key=lambda i: widths[i])
-        others = [widths[i] for i in range(len(widths)) if spare[i] > 0 and widths[i] < widths[widest]]
-        step = min(excess, spare[widest], max(1, widths[widest] - max(others, default=0)))
-        widths[widest] -= step
-        excess -= step
-    return widths
+def _after_point(cell: str) -> int | None:
+    """The characters from the decimal point on; ``None`` if the cell is no plain number."""
+    return len(cell) - len(cell.partition(".")[0]) if _NUMBER.fullmatch(cell) else None
 
 
-def _natural(cells: Sequence[Sequence[str]]) -> list[int]:
-    """The widths of columns in which no cell is wrapped."""
-    return [max(map(_width, column)) for column in zip(*cells, strict=True)]
-
-
-def _excess(widths: Sequence[int]) -> int:
-    """By how much columns of these widths are too wide for a line."""
-    return sum(widths) + len(GAP) * (len(widths) - 1) - WIDTH
-
-
-def _least(column: Sequence[str], side: str) -> int:
-    """The least width of a column: heads and words may be wrapped at spaces, numbers are not."""
-    head, *body = column
-    lowest = max(map(_width, head.split()), default=0)
-    if side == "l":
-        natural = max(map(_width, body), default=0)
-        longest = max(map(_longest, body), default=0)
-        return max(lowest, min(natural, max(longest, LEAST)))
-    return max([lowest, *map(_width, body)])
-
-
-def _longest(cell: str) -> int:
-    """The width that the words of a cell need."""
-    words = cell.split()
-    longest = max(map(_width, words), default=0)
-    return longest if len(words) < 2 else min(longest, MOST)
-
-
-def _wrapped(text: str, width: int = WIDTH, broken: bool = False) -> list[str]:
-    """The lines of a text; a word that is longer than a line stands on one of its own, or is broken."""
-    shown = printable(text)
-    if _width(shown) <= width:
-        return [shown]
-    return wrap(shown, width, break_long_words=broken, break_on_hyphens=False)
+def _sheets(table: doc.Table, widths: Sequence[int], most: int) -> list[list[int]]:
+    """The columns that fit side by side, the most important first, the keys with each lot of them."""
+    keys = list(range(min(table.keys, len(widths))))
+    others = [i for i in range(len(keys), len(widths)) if i not in table.drop]
+    others += reversed(table.drop)
+    sheets: list[list[int]] = []
+    while others or not sheets:
+        taken: list[int] = []
+        free = most - sum(widths[i] + len(GAP) for i in keys)
+        while others and (widths[others[0]] <= free or not taken):
+            free -= widths[others[0]] + len(GAP)
+            taken.append(others.pop(0))
+        sheets.append(sorted([*keys, *taken]))
+    return sheets
 
 
 _ODD = re.compile("[^\x20-\u02ff\u0370-\u0482\u2010-\u20cf\u2100-\u22ff\u2500-\u257f✓✗]")

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.check.proof import ClaimResult
-from lyapcheck.answers.gate.words import joint_name
+from lyapcheck.answers.gate.words import Row
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.all_of import AllOf
@@ -84,9 +84,7 @@ def as_the_gate_judges(
 def _stated(result: GateResult, condition: str) -> Statement | Missing:
     """What the gate judged, all joints together."""
     checks = [check for check in result.checks if check.id == condition]
-    parts = [
-        (joint_name(result, one), one.judgement.statement) for one in checks if one.judgement is not None
-    ]
+    parts = [(Row(result, one).joint, one.judgement.statement) for one in checks if one.judgement is not None]
     if len(parts) < len(checks) or not parts:
         reasons = [one.reason for one in checks if one.judgement is None]
         return Missing(reasons[0] if reasons else "the gate has not looked at it")

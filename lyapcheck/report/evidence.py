@@ -70,7 +70,7 @@ def evidence(report: Report) -> Iterator[Section]:
 
 def _told(document: Document) -> Iterator[Block]:
     """An answer in its own words."""
-    yield from document.blocks
+    yield from (*document.blocks, *document.details)
     if document.notes:
         yield Bullets(document.notes)
 

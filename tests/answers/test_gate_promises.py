@@ -155,11 +155,11 @@ def test_rest_under_dry_friction_is_that_of_the_largest_in_the_range(tmp_path):
     assert error is not None
     assert 0 <= float(error) - math.atanh(6 / 8) < 1e-5
     leaves = f"dry friction (assumed) leaves at most {math.degrees(math.atanh(0.75)):.2f}°"
-    assert invoke("gate", path).output.splitlines()[0] == f"! 1 accepted; {leaves}"
+    assert invoke("gate", path).output.splitlines()[0] == f"! a: accepted; {leaves}"
     wider = invoke("gate", path, "--vary", "coulomb=0..9").output.splitlines()[0]
-    assert wider == "! 1 accepted; dry friction (assumed) may hold j1 anywhere"
+    assert wider == "! a: accepted; dry friction (assumed) may hold j1 anywhere"
     narrow = invoke("gate", path, "--vary", "coulomb=0..0").output.splitlines()[0]
-    assert narrow == "✓ 1 accepted"
+    assert narrow == "✓ a: accepted"
 
 
 def test_gate_tune_and_bounds_say_the_same_of_rest(tmp_path):

@@ -354,7 +354,7 @@ def _without():
 
 @pytest.mark.slow
 def test_both_doors_have_the_same_options_and_say_the_same(folder):
-    for options in ([], ["--format", "json"], ["--trusted", "--full"]):
+    for options in (["--format", "json"], ["--format", "json", "--trusted", "--full"]):
         first, second = (run(folder, *options, command=command) for command in (MODULE, COMMAND))
         assert (first.returncode, first.stdout) == (second.returncode, second.stdout) != (2, "")
     shown = [run("--help", command=command).stdout for command in (MODULE, COMMAND)]

@@ -131,7 +131,7 @@ def action(folder, environment, **inputs):
             GOOD,
             "",
             0,
-            "::notice title=lyapcheck gate::! 1 accepted; dry friction (assumed) leaves at",
+            "::notice title=lyapcheck gate::! mine: accepted; dry friction (assumed) leaves at",
         ),
         (GOOD, "buap3-small", 1, "::error file=gains.toml,line=6"),
         (BAD, "", 1, "::error file=gains.toml,line=6,col=11"),

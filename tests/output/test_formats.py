@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import dataclass
+from importlib import import_module
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -16,7 +17,7 @@ from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Sectio
 from lyapcheck.output.escapes import document_text, latex_text, printable
 from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.output.json import LONGEST, laid_out
-from lyapcheck.output.text import WIDTH, render
+from lyapcheck.output.text import Depth, View, render
 from tests.helpers.letters import letters
 
 NASTY = [
@@ -139,6 +140,10 @@ def test_an_answer_prints_as_text_and_shows_itself_in_a_notebook():
     assert Sample("a")._repr_html_() == Sample("a").written("html")
 
 
+def render_as(format, document):  # noqa: A002
+    return import_module(f"lyapcheck.output.{format}").render(document)
+
+
 # --- the terminal ------------------------------------------------------------------------------------
 
 LINES = st.lists(st.text("abcdef", min_size=1, max_size=14), max_size=40).map(" ".join)
@@ -153,34 +158,46 @@ def tables(draw):
     return Table(heads, tuple(draw(st.lists(row, min_size=1, max_size=4))), align=align)
 
 
-@given(tables())
-def test_a_table_of_words_and_numbers_fits_in_a_terminal(table):
-    """Words are wrapped and columns moved below each other; every number stands whole."""
-    text = render(Document("t", (table,)))
-    assert all(len(line) <= WIDTH for line in text.splitlines())
-    for row in table.rows:
-        for cell, side in zip(row, table.align, strict=True):
-            if side == "r":
-                assert cell in text
+@given(tables(), st.integers(60, 120))
+def test_a_table_fits_in_a_terminal_and_numbers_stand_whole(table, width):
+    """Columns are left out and words cut off by default; with -v the others follow below."""
+    text = render(Document("t", (table,)), View(width=width))
+    assert all(len(line) <= width for line in text.splitlines())
+    assert len(text.splitlines()) == 3 + len(table.rows)
+    whole = render(Document("t", (table,)), View(Depth.VERBOSE, width=width))
+    assert all(cell in whole for row in table.rows for cell in row)
 
 
-def test_columns_are_straight_and_numbers_to_the_right():
-    table = Table(("joint", "value"), (("base", "1.5"), ("shoulder", "-22.25"), ("关节", "3")))
-    assert render(Document("t", (table,))).splitlines()[3:] == [
+def test_columns_are_straight_and_decimal_points_below_each_other():
+    table = Table(("joint", "value"), (("base", "1.5"), ("shoulder", "-22.25"), ("关节", "3"), ("x", "none")))
+    assert render(Document("t", (table,))).splitlines()[2:] == [
         "joint      value",
-        "────────  ──────",
-        "base         1.5",
+        "base        1.5",
         "shoulder  -22.25",
-        "关节           3",
+        "关节        3",
+        "x           none",
     ]
 
 
-def test_columns_that_do_not_fit_go_on_below_with_their_keys():
-    table = Table(("m", "a", "b"), (("1", "1" * 40, "2" * 40),))
-    text = render(Document("t", (table,)))
-    assert text.count("m  ") == 2
-    assert "1" * 40 in text
-    assert "2" * 40 in text
+def test_the_least_important_columns_are_dropped_and_follow_with_more():
+    row = ("1", "1" * 40, "2" * 40, "3" * 20)
+    table = Table(("m", "a", "b", "c"), (row,), drop=(1,))
+    text = render(Document("t", (table,)), View(width=80))
+    assert [part in text for part in row] == [True, False, True, True]
+    whole = render(Document("t", (table,)), View(Depth.VERBOSE, width=80))
+    assert whole.count("m  ") == 2
+    assert all(part in whole for part in row)
+
+
+def test_each_depth_adds_to_the_one_before():
+    document = Document("✓ a", (Bullets(("b",)),), ("f",), ("c",), (Code("d"),), "e", "lyapcheck gate 'x y'")
+    shown = [render(document, View(depth)) for depth in Depth]
+    assert shown[:2] == ["✓ a\n", "✓ a\n  c\n\n- b\n\n  e\n  next: lyapcheck gate 'x y'\n"]
+    assert "    d\n" in shown[2]
+    assert "- f\n" not in shown[2]
+    assert "- f\n" in shown[3]
+    for format in ("markdown", "html", "latex"):  # noqa: A001
+        assert all(text in render_as(format, document) for text in ("a", "c", "e", "x y"))
 
 
 def test_rows_of_other_lengths_are_refused():
@@ -191,8 +208,8 @@ def test_rows_of_other_lengths_are_refused():
 def test_colour_adds_nothing_but_colour():
     table = Table(("", "verdict"), (("✓", "proved"), ("✗", "refuted"), ("?", "undecided")), align="ll")
     document = Document("✗ 1 refuted", (table, Bullets(("proved",))), ("a note",))
-    coloured = render(document, colour=True)
-    assert re.sub(r"\x1b\[\d+m", "", coloured) == render(document)
+    coloured = render(document, View(Depth.EXPLAINED, colour=True))
+    assert re.sub(r"\x1b\[\d+m", "", coloured) == render(document, View(Depth.EXPLAINED))
     assert "\x1b[31mrefuted\x1b[0m" in coloured
     assert "- proved" in coloured
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.statement import verdict_statement
-from lyapcheck.answers.gate.words import RULES, joint_name
+from lyapcheck.answers.gate.words import RULES, Row
 from lyapcheck.answers.running import SampledCheck
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
@@ -59,7 +59,7 @@ def whole(result: GateResult) -> Certificate | None:
         if isinstance(kept, GateAccepted) and not kept.stability and one.shown == "proved":
             about = replace(about, says=f"{result.name}: {', '.join(kept.conditions)}")
         return Certificate(about, one.statement, one.shown, one.grade, _proof(one))
-    names = [f"{check.id} {joint_name(result, check)}" for check in checks]
+    names = [f"{check.id} {Row(result, check).joint}" for check in checks]
     parts = AllOf(tuple((name, outcome.statement) for name, (_, outcome) in zip(names, known, strict=True)))
     if result.verdict == REJECTED:
         first = next(k for k, (check, _) in enumerate(known) if check.verdict == REJECTED)
@@ -117,9 +117,9 @@ def _certificate(result: GateResult, check: Check) -> Certificate | None:
     outcome = check.judgement
     if outcome is None or outcome.proof is None:
         return None
-    parts = [result.name, check.id, *([] if check.joint is None else [joint_name(result, check)])]
+    parts = [result.name, check.id, *([] if check.joint is None else [Row(result, check).joint])]
     narrow = check.narrow if isinstance(check, SampledCheck) else ""
-    says = f"{result.name}, {joint_name(result, check)}: {narrow or RULES[check.id]}"
+    says = f"{result.name}, {Row(result, check).joint}: {narrow or RULES[check.id].formula}"
     about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
     return Certificate(about, outcome.statement, outcome.shown, outcome.grade, outcome.proof)
 

@@ -99,6 +99,11 @@ class GateResult:
             return self.verdict
         return BREAKS_19 if not others or self.verdict_of(others) == ACCEPTED else self.verdict
 
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """What is taken for granted, in sentences."""
+        return (*self.grounds.premises, *self.limits.assumptions)
+
     def says(self, words: str) -> str:
         """Words of proof about a set that is accepted.
 
@@ -185,7 +190,7 @@ def judged_sets(
     kept = certificates_of(gain_file)
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress, kept)
     if rests_on:
-        limits = limits.resting_on((*limits.gravity_notes, *rests_on))
+        limits = limits.resting_on((*limits.ranges, *limits.gravity_notes, *rests_on))
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
     questions = GateQuestions(gain_file, limits, gamma)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 from math import degrees
+from typing import TYPE_CHECKING, NamedTuple
 
 from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult
 from lyapcheck.answers.running import HOLDS, SAMPLED, SampledCheck
@@ -16,46 +18,77 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.sampling import time_text
 from lyapcheck.files.decimals import decimal_text, scaled_text
 from lyapcheck.output.digits import at_least, at_most, correct_digits, decimals
+from lyapcheck.output.fields import Field
 from lyapcheck.promise import promised
 
+if TYPE_CHECKING:
+    from lyapcheck.files.places import Place
+
+DIGITS, MARGIN_DIGITS = 20, 12
+"""Significant digits of limits and of margins in data; people see fewer."""
 SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
+
+class Rule(NamedTuple):
+    """A condition: its formula, what it means if it holds, the gain to look at, and what is compared."""
+
+    formula: str
+    holds: str
+    key: str = ""
+    subject: str = ""
+
+
 RULES = {
-    "10": "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ)",
-    "10p": "k_p + k_v < (τmax − k_g)/(√n γ)",
-    "10i": "k_p + k_v ≤ (τmax − k_g)/γ",
-    "19": "k_v < λmin(B)/(√n γ)",
-    "scalar": "dV/dt < 0 at each state but the goal with the ε₀ shown, from norms alone",
-    "global": "dV/dt < 0 at each state but the goal with the ε₀ shown, box by box",
-    "lasalle": "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
-    "with or without friction (Khalil 2002, corollary 4.2)",
-    SAMPLED: "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
-    "whatever the inertia, or with --within by an energy that falls; values are periods; joints are "
-    "revolute, readings exact and unwrapped",
-    HOLDS: "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
-    DAMPED: "k_v > 0, which the theory asks for: without it a joint has only its own friction to damp it",
-    GRAVITY: "|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture",
-}
-KEYS = {
-    "10": "kp",
-    "10p": "kp",
-    "10i": "kp",
-    "19": "kv",
-    "scalar": "",
-    "global": "",
-    "lasalle": "",
-    SAMPLED: "kv",
-    HOLDS: "kp",
-    DAMPED: "kv",
-    GRAVITY: "",
-}
-"""The gain to look at when a check fails."""
-_SUBJECTS = {"10": "λmax(K_p) + λmax(K_v)", "10p": "k_p + k_v", "10i": "k_p + k_v", "19": "k_v"}
+    "10": Rule(
+        "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ)", "the torque norm is within (10)", "kp",
+        "λmax(K_p) + λmax(K_v)",
+    ),
+    "10p": Rule("k_p + k_v < (τmax − k_g)/(√n γ)", "no motor saturates (10p)", "kp", "k_p + k_v"),
+    "10i": Rule("k_p + k_v ≤ (τmax − k_g)/γ", "no motor saturates (10i)", "kp", "k_p + k_v"),
+    "19": Rule("k_v < λmin(B)/(√n γ)", "k_v is within (19)", "kv", "k_v"),
+    "scalar": Rule(
+        "dV/dt < 0 at each state but the goal with the ε₀ shown, from norms alone", "stable (scalar)"
+    ),
+    "global": Rule("dV/dt < 0 at each state but the goal with the ε₀ shown, box by box", "stable (global)"),
+    "lasalle": Rule(
+        "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
+        "with or without friction (Khalil 2002, corollary 4.2)",
+        "stable (lasalle)",
+    ),
+    SAMPLED: Rule(
+        "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
+        "whatever the inertia, or with --within by an energy that falls; values are periods; joints are "
+        "revolute, readings exact and unwrapped",
+        "stable as run (sampled)", "kv",
+    ),
+    HOLDS: Rule(
+        "sup |Δg| + f < k_p, for what pulls unknown to the controller, and dry friction f",
+        "unknown gravity is held (holds)", "kp",
+    ),
+    DAMPED: Rule(
+        "k_v > 0, which the theory asks for: without it a joint has only its own friction to damp it", "",
+        "kv",
+    ),
+    GRAVITY: Rule("|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture", ""),
+}  # fmt: skip
 
 
-def joint_name(result: GateResult, check: Check) -> str:
-    """The joint's name, or ``all``."""
-    return "all" if check.joint is None else result.limits.joints[check.joint]
+class Row(NamedTuple):
+    """A check of a gain set."""
+
+    result: GateResult
+    check: Check
+
+    @property
+    def joint(self) -> str:
+        """The joint's name, or ``all``."""
+        return "all" if self.check.joint is None else self.result.limits.joints[self.check.joint]
+
+    @property
+    def place(self) -> Place | None:
+        """Where the gain to look at stands in its file."""
+        result, check = self
+        return result.file.place(result.gains, RULES[check.id].key, check.joint)
 
 
 def spoken_verdict(check: Check) -> str:
@@ -81,7 +114,9 @@ def value_text(check: Check) -> str:
         return time_text(check.value)
     if check.id == HOLDS and check.value is not None:
         return at_most(check.value, 6)
-    return "none" if check.value is None else decimal_text(check.value)
+    if check.value is None:
+        return "none"
+    return decimal_text(check.value) if RULES[check.id].subject else f"ε₀ = {at_least(check.value)}"
 
 
 def limit_text(check: Check) -> str:
@@ -94,7 +129,7 @@ def limit_text(check: Check) -> str:
         return "none" if check.limit is None else f"{at_least(1000 * check.limit.lower)} ms"
     if check.id == DAMPED:
         return "k_v > 0"
-    if check.id not in (*_SUBJECTS, HOLDS):
+    if check.id != HOLDS and not RULES[check.id].subject:
         return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
     return "none" if check.limit is None else _digits(check.limit)
 
@@ -104,9 +139,17 @@ def _digits(limit: Enclosure) -> str:
     return correct_digits(limit, 6)
 
 
-def limit_ends(limit: Enclosure, digits: int) -> tuple[str, str]:
-    """The limit between two decimals."""
-    return _decimals(limit.lower.as_integer_ratio(), limit.upper.as_integer_ratio(), digits)
+def exact(check: Check) -> str | None:
+    """What was compared, as a decimal."""
+    return None if check.value is None else decimal_text(check.value)
+
+
+def _limit_ends(row: Row) -> dict[str, str] | None:
+    limit = row.check.limit
+    if limit is None:
+        return None
+    ends = _decimals(limit.lower.as_integer_ratio(), limit.upper.as_integer_ratio(), DIGITS)
+    return dict(zip(("lower", "upper"), ends, strict=True))
 
 
 @lru_cache(maxsize=256)  # of integers, since hashing fractions takes longer
@@ -117,7 +160,9 @@ def _decimals(lower: tuple[int, int], upper: tuple[int, int], digits: int) -> tu
 def largest_text(check: Check) -> str:
     """The largest value that passes, with as many decimal places as the user wrote, or ``none``."""
     largest = check.largest_admissible
-    if check.id not in (*_SUBJECTS, SAMPLED) or (isinstance(check, SampledCheck) and check.narrow):
+    if check.id != SAMPLED and not RULES[check.id].subject:
+        return ""
+    if isinstance(check, SampledCheck) and check.narrow:
         return ""
     return "none" if largest is None else largest.text
 
@@ -162,32 +207,50 @@ def advice(result: GateResult, check: Check) -> str:
     """What is wrong and what to change, in one sentence; of an accepted check its narrow scope."""
     if check.verdict == ACCEPTED:
         return check.narrow if isinstance(check, SampledCheck) else ""
-    return f"({check.id}) {joint_name(result, check)}: {_broken(result, check)}"
+    return f"({check.id}) {Row(result, check).joint}: {broken(result, check)}"
 
 
-def advices(result: GateResult) -> list[str]:
-    """The same for all that decides and was not accepted, joints of which the same is said together."""
+def by_joints(result: GateResult, text: Callable[[GateResult, Check], str]) -> list[str]:
+    """A text for all that decides and was not accepted, joints of which the same is said together."""
     said: dict[tuple[str, str], list[str]] = {}
     for check in result.failures:
-        said.setdefault((check.id, _broken(result, check)), []).append(joint_name(result, check))
+        said.setdefault((check.id, text(result, check)), []).append(Row(result, check).joint)
     lines = [f"({name}) {', '.join(joints)}: {text}" for (name, text), joints in said.items()]
     if result.verdict == UNDECIDED and not result.failures:
         lines.append(result.grounds.missing)
     return lines
 
 
-def _broken(result: GateResult, check: Check) -> str:
+def repairs(result: GateResult) -> list[str]:
+    """What to change, for all that decides and was not accepted."""
+    return by_joints(result, lambda _, check: repaired(result, check))
+
+
+def advices(result: GateResult) -> list[str]:
+    """The same with what is wrong."""
+    return by_joints(result, broken)
+
+
+def repaired(result: GateResult, check: Check) -> str:
+    """What to change; where no number is too large, what is wrong."""
+    numbers = check.verdict == REJECTED and check.limit is not None and RULES[check.id].subject
+    return repair(result, check) if numbers else broken(result, check)
+
+
+def broken(result: GateResult, check: Check) -> str:
+    """What is wrong and what to change."""
     if check.verdict == REJECTED and isinstance(check, SampledCheck) and check.refuted is not None:
         return unstable_text(check.refuted, check.rests)
     if check.verdict == REJECTED and isinstance(check, HoldsCheck):
         return falls(check, result.limits.joints)
     if check.limit is None or check.verdict == "undecided":
         return check.reason or _exceeded(result, check)
-    broken = (
-        f"{_SUBJECTS[check.id]} = {value_text(check)} breaks {RULES[check.id]} = {limit_text(check)}, "
+    rule = RULES[check.id]
+    said = (
+        f"{rule.subject} = {value_text(check)} breaks {rule.formula} = {limit_text(check)}, "
         f"margin {margin_text(check)}"
     )
-    return f"{broken}; {_repair(result, check)}"
+    return f"{said}; {repair(result, check)}"
 
 
 def _exceeded(result: GateResult, check: Check) -> str:
@@ -205,7 +268,8 @@ def _exceeded(result: GateResult, check: Check) -> str:
     return ""
 
 
-def _repair(result: GateResult, check: Check) -> str:
+def repair(result: GateResult, check: Check) -> str:
+    """What makes a check pass that failed, in a few words."""
     if check.largest_admissible is None:
         return "no k_v > 0 meets it without friction" if check.id == "19" else "gravity alone needs the motor"
     most = largest_text(check)
@@ -227,3 +291,25 @@ def _passes(check: Check, words: str) -> str:
         return "lower it"
     promise, _ = promised(check.threshold.asked(check.largest_admissible), check.admitted)
     return "lower it" if promise is None else promise.says(words)
+
+
+FIELDS = (
+    Field("", lambda row: SYMBOLS[row.check.verdict], " ", align="l"),
+    Field("", "result.name", "gain set", align="l"),
+    Field("id", "check.id", "condition", align="l"),
+    Field("joint", lambda row: None if row.check.joint is None else row.joint),
+    Field("", "joint", "joint", align="l"),
+    Field("verdict", lambda row: spoken_verdict(row.check)),
+    Field("value", lambda row: exact(row.check)),
+    Field("", lambda row: value_text(row.check), "value [N·m]"),
+    Field("limit", _limit_ends),
+    Field("", lambda row: limit_text(row.check), "limit"),
+    Field("margin", lambda row: None if row.check.limit is None else margin_text(row.check, MARGIN_DIGITS)),
+    Field("", lambda row: margin_shown(row.check), "margin"),
+    Field("largest_admissible", lambda row: row.check.largest_admissible and largest_text(row.check)),
+    Field("", lambda row: largest_shown(row.check), "max allowed"),
+    Field("line", "place.line"),
+    Field("column", "place.column"),
+    Field("message", lambda row: advice(*row)),
+)
+"""What is said of a check, for programs and for people."""

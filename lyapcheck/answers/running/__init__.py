@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.check.certificate import Certificate
 
-INFINITE = "No rate is known: what is said is of (11), for a controller of infinite rate; see [loop]."
+INFINITE = "no [loop] gives a rate: judged for a controller of infinite rate, as in (11)"
 
 __all__ = [
     "HOLDS",

@@ -274,7 +274,8 @@ def farthest_unknown(checks: Sequence[Check]) -> tuple[Fraction, str] | None:
     if not held or len(held) < sum(check.id == HOLDS for check in checks):
         return None
     most = max(one.error or Fraction(0) for one in held)
-    words = f"{_cause(held)} leaves at most {degrees_above(most)}"
+    leave = " and dry friction leave" if any(one.friction for one in held) else " leaves"
+    words = f"{held[0].unknown}{leave} at most {degrees_above(most)}"
     return most * DEGREES, all_say((one.promise for one in held), words)
 
 

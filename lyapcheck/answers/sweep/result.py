@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from lyapcheck.answers.sweep.question import Row
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, at_most
-from lyapcheck.output.document import Block, Bullets, Document, Figure, Section, Table
+from lyapcheck.output.document import Bullets, Document, Figure, Section, Table, command
 from lyapcheck.output.html import blocks, page
 from lyapcheck.output.mathml import Markup, element
 from lyapcheck.verdicts import Exit
@@ -19,6 +19,7 @@ from lyapcheck.verdicts import Exit
 MOST_CELLS = 3_000
 """Of one map; a larger one could not be read."""
 MOST_MAPS = 40
+MOST_ROWS = 12
 DIGITS = 3
 """Significant digits of a cell."""
 Arm = tuple[str, tuple[str, ...]]
@@ -147,6 +148,7 @@ class SweepAnswer(Answer):
         path: of the plan.
         tally: counts and maps.
         figures: whether the maps are drawn beside the document.
+        certificates: the folder that has some; empty where there are none.
     """
 
     schema = "lyapcheck/sweep/1"
@@ -154,6 +156,7 @@ class SweepAnswer(Answer):
     path: str
     tally: Tally
     figures: bool = False
+    certificates: str = ""
 
     @property
     def exit_code(self) -> Exit:
@@ -166,11 +169,37 @@ class SweepAnswer(Answer):
         return Exit.UNDECIDED if verdicts & set(OPEN) or not verdicts else Exit.PROVED
 
     def document(self) -> Document:
-        """Counts, why nothing was decided, and a table or a drawing of each map."""
+        """Counts, what failed first; why nothing was decided; a table or a drawing of each map."""
         maps = tuple(self._map(number, one) for number, one in enumerate(self.maps, start=1))
         notes = [LEGEND] if maps else []
         notes += [OBSERVED] if any(verdict == "observed" for _, _, verdict in self.tally.counts) else []
-        return Document(self._title(), (*self._counts(), *self._reasons(), *maps), tuple(notes))
+        order = {ERROR: 0, **dict.fromkeys(WRONG, 1), **dict.fromkeys(OPEN, 2)}
+        rows = sorted(
+            ((arm_text(arm), ask, verdict, str(n)) for (arm, ask, verdict), n in self.tally.counts.items()),
+            key=lambda row: order.get(row[2], 3),
+        )
+        reasons = [
+            f"{count} times: {reason}" if count > 1 else reason
+            for reason, count in sorted(self.tally.reasons.items(), key=lambda pair: -pair[1])
+        ]
+        more = [f"{len(rows) - MOST_ROWS} further rows: -v"] if len(rows) > MOST_ROWS else []
+        said = (*more, *reasons)
+        whole = [_counts(rows)] if more else []
+        return Document(
+            self._title(),
+            (*([_counts(rows[:MOST_ROWS])] if rows else []), *([Bullets(said[:3])] if said else [])),
+            tuple(notes),
+            ("maps over m and k_v: -v, or index.html with --out",) if maps else (),
+            (
+                *whole,
+                *([Section("Further reasons", (Bullets(said[3:10]),))] if said[3:] else []),
+                *maps,
+            ),
+            "each arm is assumed to be as its file says: lyapcheck robot ARM --assumptions",
+            command("recheck", self.certificates)
+            if self.certificates
+            else command("sweep", self.path, "--out", "sweep"),
+        )
 
     def data(self) -> dict[str, Any]:
         """``results: [{robot, variation, ask, verdict, count}], maps: [{robot, …, cells: [{m, kv, …}]}]``."""
@@ -204,22 +233,6 @@ class SweepAnswer(Answer):
         parts = ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
         return f"{SIGNS[self.exit_code]} {total} question{'' if total == 1 else 's'}: {parts or 'none asked'}"
 
-    def _counts(self) -> Iterator[Block]:
-        rows = [
-            (arm_text(arm), ask, verdict, str(count))
-            for (arm, ask, verdict), count in self.tally.counts.items()
-        ]
-        if rows:
-            yield Table(("arm", "question", "verdict", "count"), tuple(rows), align="lllr", keys=3)
-
-    def _reasons(self) -> Iterator[Block]:
-        reasons = sorted(self.tally.reasons.items(), key=lambda pair: -pair[1])
-        if reasons:
-            shown = tuple(
-                f"{count} times: {reason}" if count > 1 else reason for reason, count in reasons[:10]
-            )
-            yield Section("Why not more was decided", (Bullets(shown),))
-
     def _map(self, number: int, one: Map) -> Section:
         title = f"{one.measure.title}: {arm_text(one.arm)}"
         if self.figures:
@@ -227,6 +240,10 @@ class SweepAnswer(Answer):
         heads = ("m", *one.columns)
         rows = tuple((m, *(one.measure.text(one.cells.get((m, kv))) for kv in one.columns)) for m in one.rows)
         return Section(title, (Table(heads, rows, caption="m down, k_v in N·m across"),))
+
+
+def _counts(rows: Sequence[tuple[str, ...]]) -> Table:
+    return Table(("arm", "question", "verdict", "count"), tuple(rows), align="lllr", keys=3)
 
 
 def stem(number: int, one: Map) -> str:

@@ -101,7 +101,7 @@ def run(
             )
     if folder is not None:
         write_certificates(folder, *map(certificates_of, result))
-    show(Comparisons(tuple(result), gain_file), format)
+    show(Comparisons(tuple(result), gain_file, name), format)
     if any(one.falls for one in result):
         return Exit.REFUTED
     return Exit.PROVED if all(one.proved for one in result) else Exit.UNDECIDED

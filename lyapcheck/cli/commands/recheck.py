@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.judgement import MOST, Limits
 from lyapcheck.check.recheck import Outcome
+from lyapcheck.cli.show import current_view
 from lyapcheck.cli.values import add_format
 from lyapcheck.libraries import installed, lacking
 from lyapcheck.rechecking import command
@@ -63,13 +64,13 @@ def run(
 
         folder = None if kernel_files is None else open_folder("--kernel-files", kernel_files)
         with progress("kernel") as advance:
-            both = writer(format, seconds, folder, lambda note: advance(0, note))
+            both = writer(format, seconds, folder, lambda note: advance(0, note), current_view())
             return command.run(certificates, format, full, trusted, seconds, memory, {format: both})
 
     def written(outcome: Outcome, with_trusted: bool) -> str:
         from lyapcheck.answers.recheck import Recheck
 
-        return Recheck(outcome, with_trusted).written(format)
+        return Recheck(outcome, with_trusted).written(format, current_view())
 
-    formats = {format: written} | dict(FORMATS)  # text and JSON are the checker's own
+    formats = {format: written, "json": FORMATS["json"]}  # which is the checker's own
     return command.run(certificates, format, full, trusted, seconds, memory, formats)

@@ -9,7 +9,7 @@ from lyapcheck import store
 from lyapcheck.cli.show import show
 from lyapcheck.cli.values import add_format
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Document, Paragraph, Table
+from lyapcheck.output.document import Document, Table, command
 from lyapcheck.output.formats import Format
 from lyapcheck.store import Held
 from lyapcheck.verdicts import Exit
@@ -41,14 +41,13 @@ class Kept(Answer):
     def document(self) -> Document:
         """A row a kind."""
         total = sum(kind.bytes for kind in self.kinds)
-        title = "The store is empty" if not total else f"{total} bytes are kept"
-        if self.cleared:
-            title = "The store was cleared"
+        title = "The store was cleared" if self.cleared else f"{total} bytes are kept between runs"
         rows = tuple(
             (kind.kind, str(kind.files), str(kind.bytes), WHAT.get(kind.kind, "")) for kind in self.kinds
         )
-        table = Table(("kind", "files", "bytes", "what"), rows, align="lrrl")
-        return Document(title, (table,) if rows else (Paragraph("Nothing is kept yet."),))
+        table = Table(("kind", "files", "bytes", "content"), rows, align="lrrl")
+        after = command("store", "--clear") if total else command("init", "bench")
+        return Document(title, (table,) if rows else (), next=after)
 
     def data(self) -> dict[str, Any]:
         """``results: [{kind, files, bytes}]``."""

@@ -80,7 +80,8 @@ def run(
     with progress("sweep") as advance:
         result = asked(read, processors() if jobs is None else jobs, scheduler)
         _count(result if folder is None else folder.written(result), read.count, tally, advance)
-    answer = SweepAnswer(read.path, tally)
+    made = out is not None and any((out / "certificates").glob("*.json"))
+    answer = SweepAnswer(read.path, tally, certificates=str(out and out / "certificates") if made else "")
     if folder is not None:
         folder.put(files(SweepAnswer(read.path, tally, figures=True)))
     show(answer, format)

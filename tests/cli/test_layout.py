@@ -1,0 +1,108 @@
+"""The layout of every text answer: a headline, one table, few remarks, a next command that works."""
+
+import shlex
+from pathlib import Path
+
+import pytest
+
+from lyapcheck.output.answer import Answer
+from lyapcheck.output.document import Bullets, Paragraph, Section, Table
+from lyapcheck.output.text import PROSE, Depth, View, render
+from tests.helpers.command import invoke
+
+ROOT = Path(__file__).parents[2]
+TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
+ASKED = {
+    "gate, accepted": ("gate", "gains.toml"),
+    "gate, rejected": ("gate", "saturating.toml"),
+    "gate, breaks (19)": ("gate", "gains.toml", "--condition", "10p", "--condition", "19"),
+    "gate, undecided": ("gate", "own.toml", "--condition", "scalar"),
+    "gate, several sets": ("gate", TABLE2),
+    "gate, several files": ("gate", "gains.toml", "own.toml"),
+    "gate, ranges": ("gate", "gains.toml", "--vary", "viscous=-30%..+30%", "--vary", "payload=0..1"),
+    "gate, as run": ("gate", "gains.toml", "--rate", "1000", "--unknown-payload", "0.2"),
+    "gate, seven joints": ("gate", PANDA),
+    "bounds": ("bounds", "gains.toml", "--time", "1"),
+    "bounds, several sets": ("bounds", TABLE2, "--time", "1"),
+    "sweep": ("sweep", "plan.toml", "--jobs", "1"),
+    "table": ("table", "--m", "1:3"),
+    "table, of an arm": ("table", "--m", "1:3", "--robot", "buap3"),
+    "recheck": ("recheck", str(ROOT / "tests/kernel/certificates/2.1.json")),
+    "store": ("store",),
+}
+"""A command line for each kind of answer, in a folder with the files of `init` and a gain file on buap3."""
+SATURATING = """robot = "buap3"
+[[gains]]
+name = "a"
+m = 1
+kp = [60, 40, 5]
+kv = [0.2, 0.2, 0.2]
+"""
+OWN = """[[gains]]
+name = "b"
+m = 1
+kp = [40]
+kv = [1]
+[bounds]
+viscous_min = 2
+torque = [60]
+gravity = [4.905]
+"""
+PLAN = """robots = ["reyes-kelly2"]
+questions = ["gate"]
+[grid]
+m = [1]
+kp = [[20, 5]]
+kv = [0.02]
+"""
+FILES = {"saturating.toml": SATURATING, "own.toml": OWN, "plan.toml": PLAN}
+TALL = 24
+"""Lines for three joints."""
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_with_files(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    assert invoke("init", ".").exit_code == 0
+
+
+@pytest.fixture
+def documents(monkeypatch):
+    """The documents of what is answered."""
+    result = []
+    written = Answer.written
+
+    def kept(answer, *rest, **more):
+        result.append(answer.document())
+        return written(answer, *rest, **more)
+
+    monkeypatch.setattr(Answer, "written", kept)
+    return result
+
+
+@pytest.mark.parametrize("words", ASKED.values(), ids=ASKED)
+def test_an_answer_is_short_and_its_next_command_works(words, documents):
+    done = invoke(*words)
+    assert done.exit_code in (0, 1, 3), done.stderr
+    (document,) = documents
+    assert done.stdout == render(document)
+    assert len(document.lead) <= 2
+    assert not any(isinstance(block, Section) for block in document.blocks)
+    assert sum(isinstance(block, Table) for block in document.blocks) <= 1
+    remarks = [block.items for block in document.blocks if isinstance(block, Bullets)]
+    remarks += [(block.text,) for block in document.blocks if isinstance(block, Paragraph)]
+    assert sum(map(len, remarks)) <= 3
+    for width in (80, 100):
+        lines = render(document, View(width=width)).splitlines()
+        assert len(lines) <= TALL
+        assert lines.index("") <= (3 if width == 100 else 4)
+        assert all(len(line) <= width for line in lines if "lyapcheck " not in line)
+    assert invoke(*words, "-q").stdout.splitlines() == render(document, View(Depth.QUIET)).splitlines()
+    assert len(document.title) <= PROSE
+    program, *after = shlex.split(document.next)
+    assert program == "lyapcheck"
+    assert after != list(words)
+    assert invoke(*after).exit_code in (0, 1, 3), document.next
