@@ -22,7 +22,7 @@ from lyapcheck.output.fields import Field
 from lyapcheck.promise import promised
 
 if TYPE_CHECKING:
-    from lyapcheck.files.places import Place
+    from lyapcheck.files.toml import Place
 
 DIGITS, MARGIN_DIGITS = 20, 12
 """Significant digits of limits and of margins in data; people see fewer."""
