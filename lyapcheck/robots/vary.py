@@ -242,7 +242,8 @@ def require_movable(model: RobotModel, varies: Sequence[Vary]) -> None:
     wrong = [one for one in varies if one.name != PAYLOAD and not any(map(one.matches, keys))]
     if wrong:
         rule = f"cannot vary on {model.name}, an arm of a URDF file; its friction, limits and masses can"
-        known = (*MOTOR, *MASSES, PAYLOAD)
+        rotors = any(key.endswith(ROTOR) for key in model.numbers)
+        known = (*MOTOR, *(part for part in MASSES if rotors or part != MASSES[0]), PAYLOAD)
         repair = f"use {', '.join(known)}, or one joint's, such as {keys[-1]}"
         raise InputError(_unknown(wrong, [*known, *keys], rule, repair))
 

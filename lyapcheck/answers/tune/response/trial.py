@@ -12,7 +12,6 @@ import numpy as np
 
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.output.digits import at_most
 from lyapcheck.simulate import results as indices
 from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.many import Runs, simulate_many
@@ -97,7 +96,7 @@ class Wishes:
             "peak_share": "≤ {} of each torque limit",
             "rest_error": "dry friction leaves ≤ {}°",
         }
-        return "; ".join(forms[name].format(at_most(value, 6)) for name, value in self.given.items())
+        return "; ".join(forms[name].format(f"{value:g}") for name, value in self.given.items())
 
 
 @dataclass(frozen=True)
