@@ -62,7 +62,7 @@ class ReportAnswer(Answer):
             "verdict": [{"subject": b.subject, "word": b.word, "tone": b.tone} for b in badges(report)],
             "sentences": list(sentences(report)),
             "counts": report.counts(),
-            "findings": [plain(finding) for finding in report.findings],
+            "findings": [_found(finding) for finding in report.findings],
             "table": report.table.data()["rows"],
             "derive": report.derived.data(),
             "tiles": [
@@ -105,6 +105,13 @@ def plain(row: Any) -> dict[str, Any]:
     data = asdict(replace(row, promise=None))
     del data["promise"]
     return data
+
+
+def _found(finding: Finding) -> dict[str, Any]:
+    """A finding with the keys that it had when witnesses were searched for as small as they are."""
+    data = plain(finding)
+    witness = data["witness"] and data["witness"] | {"small": False, "figure": ""}
+    return data | {"witness": witness}
 
 
 def _robot(model: RobotModel) -> dict[str, Any]:

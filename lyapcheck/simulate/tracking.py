@@ -197,6 +197,8 @@ class Tracking(Course[TrackingRun]):
         points: samples of the run.
     """
 
+    easier = 100.0  # only W feels the kinks of q̈_d at the ends of a motion, and it is no more than a check
+
     def __init__(
         self,
         gain_set: GainSet,
