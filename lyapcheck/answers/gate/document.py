@@ -33,8 +33,9 @@ def document(answer: GateAnswer) -> Document:
     if any(result.record is None or result.record.period is None for result in answer):
         lead.append(INFINITE)
     said = list(dict.fromkeys([*(text for result in answer for text in _warnings(result)), *said]))
-    rows = sorted(_rows(answer), key=lambda row: row.check.verdict == ACCEPTED)
-    blocks: list[Block] = [_table(rows[:MOST_ROWS], len(answer) > 1)] if rows else []
+    many = len(answer) > 1
+    rows = sorted(_rows(answer), key=lambda row: (row.check.verdict == ACCEPTED, many and _room(row.check)))
+    blocks: list[Block] = [_table(rows[:MOST_ROWS], many)] if rows else []
     if len(rows) > MOST_ROWS:
         said.insert(0, f"{len(rows) - MOST_ROWS} further rows: -v shows them")
     blocks += [Bullets(tuple(said[:MOST_REMARKS]))] if said else []
