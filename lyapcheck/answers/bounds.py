@@ -43,7 +43,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
     from lyapcheck.simulate.task import Task
 
-if TYPE_CHECKING:
     Varied = tuple[RobotModel, Sequence[Vary]]
     """An arm with ranges, and which."""
 
@@ -180,8 +179,8 @@ def compare(
     runs = []
     for index, arm in enumerate(arms):
         progress((0 if varied is None else 0.4) + 0.6 * index / len(arms), "simulation")
-        runs.append(_Runs.of(gain_set, arm, task, delta, dry, errors))
-    times = [run.time for run in runs]
+        runs.append(_run(gain_set, arm, task, delta, dry, errors))
+    times, largest, last = zip(*runs, strict=True)
     return BoundsComparison(
         gains=gain_set,
         model=model,
@@ -190,22 +189,16 @@ def compare(
         reason=reason or _reason(gain_set, model.joints, most, errors),
         task=task,
         delta=delta,
-        simulated_time=None if None in times else max(time for time in times if time is not None),
-        simulated_largest=tuple(np.max([run.largest for run in runs], axis=0).tolist()),
-        simulated_rest=tuple(np.max([run.rest for run in runs], axis=0).tolist()),
+        simulated_time=None if None in times else max(times),
+        simulated_largest=tuple(np.max(largest, axis=0).tolist()),
+        simulated_rest=tuple(np.max(last, axis=0).tolist()),
         varies=() if varied is None else tuple(one.text for one in varied[1]),
         corners="" if varied is None else corners_text(*varied),
         unvaried=unvaried,
-        unknown=_unknown(gain_set, whole, record, known if len(known) == len(most) else None),
+        unknown=()
+        if record is None or record.knows_gravity
+        else holds_checks(gain_set, whole, record, known if len(known) == len(most) else None),
     )
-
-
-def _unknown(
-    gains: GainSet, arm: RobotModel, record: LoopRecord | None, dry: Sequence[Fraction] | None
-) -> tuple[Check, ...]:
-    if record is None or record.knows_gravity:
-        return ()
-    return holds_checks(gains, arm, record, dry)
 
 
 def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
@@ -251,38 +244,23 @@ def _reason(
     return "" if None not in errors else "h at the bounds does not decide it; raise k_p"
 
 
-@dataclass(frozen=True)
-class _Runs:
-    """What runs of one arm show: see `BoundsComparison`."""
-
-    time: float | None
-    largest: tuple[float, ...]
-    rest: tuple[float, ...]
-
-    @classmethod
-    def of(
-        cls,
-        gain_set: GainSet,
-        model: RobotModel,
-        task: Task,
-        delta: float,
-        dry: Sequence[Fraction] | None,
-        errors: Sequence[Fraction | None],
-    ) -> _Runs:
-        """The task, and a motion let go just inside the bound of rest."""
-        known = [0.0 if number is None else float(number.value) for number in model.coulomb]
-        friction = known if dry is None else [float(f) for f in dry]
-        let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
-        paths = [
-            SetPoint(set_up(gain_set, model, task.q_d, q0, w0, T=task.T, eps0=None), POINTS, friction).once(
-                TOLERANCE
-            )
-            for q0, w0 in ((task.q0, task.w0), (let_go, None))
-        ]
-        t, (e, other) = paths[0].t, [np.array(task.q_d) - path.y[:, : model.n] for path in paths]
-        ends = np.max(np.abs([e[-1], other[-1]]), axis=0)
-        largest = np.max(np.abs(e), axis=0)
-        return cls(inside_from(t, e, delta), tuple(largest.tolist()), tuple(ends.tolist()))
+def _run(
+    gain_set: GainSet,
+    model: RobotModel,
+    task: Task,
+    delta: float,
+    dry: Sequence[Fraction] | None,
+    errors: Sequence[Fraction | None],
+) -> tuple[float | None, Array, Array]:
+    """Time, largest and last errors of the task, and the last of a motion let go just inside the bound."""
+    known = [0.0 if number is None else float(number.value) for number in model.coulomb]
+    friction = known if dry is None else [float(f) for f in dry]
+    let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
+    starts = ((task.q0, task.w0), (let_go, None))
+    setups = (set_up(gain_set, model, task.q_d, q0, w0, T=task.T, eps0=None) for q0, w0 in starts)
+    paths = [SetPoint(one, POINTS, friction).once(TOLERANCE) for one in setups]
+    e, other = (np.abs(np.array(task.q_d) - path.y[:, : model.n]) for path in paths)
+    return inside_from(paths[0].t, e, delta), e.max(axis=0), np.maximum(e[-1], other[-1])
 
 
 def inside_from(t: Array, e: Array, delta: float) -> float | None:

@@ -7,18 +7,19 @@ import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.check.recheck import Checked, Outcome
 from lyapcheck.errors import argument_error
-from lyapcheck.kernel.coq import Kernel, require_coq
-from lyapcheck.kernel.judge import graded, judged
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import View
 from lyapcheck.rechecking.command import Writer, as_json
 from lyapcheck.rechecking.trusted import GENERAL
 from lyapcheck.temporary import temporary_folder
+
+if TYPE_CHECKING:
+    from lyapcheck.kernel.coq import Kernel
 
 SIGNS = {"refused": "✗", "undecided": "?", "accepted": "✓"}
 """What must be seen first comes first."""
@@ -56,9 +57,9 @@ class Recheck(Answer):
     def document(self) -> Document:
         """Every certificate, those that are not accepted first, then what all of it rests on."""
         rows = [one for status in SIGNS for one in self._with(status)]
-        more = [f"{len(rows) - MOST_ROWS} more are accepted: -v lists them"] if len(rows) > MOST_ROWS else []
+        more = [f"{len(rows) - MOST_ROWS} more: -v lists them"] if len(rows) > MOST_ROWS else []
         reasons = [f"{one.file}: {one.reason}" for one in rows if not one.accepted]
-        said = (*self._alarm_texts(), *reasons[: MOST_REASONS - bool(more)], *more)
+        said = (*more, *self._alarm_texts(), *reasons[: MOST_REASONS - len(more)])
         unlimited = [name for name in ("seconds", "memory") if name not in self.outcome.limited]
         special = dict(self._granted())
         return Document(
@@ -91,7 +92,7 @@ class Recheck(Answer):
         )
 
     def _table(self, rows: Sequence[Checked]) -> Table:
-        """The verdict on each, and what it states or why it is not accepted."""
+        """The verdict on each, and what it states or why it is not accepted; first reasons are remarks."""
         kernel = {one.file: one.axioms or one.reason for one in self.kernel}
         heads = (
             "",
@@ -108,9 +109,11 @@ class Recheck(Answer):
                 one.verdict if one.accepted else one.status,
                 one.grade if one.accepted else "",
                 *([kernel.get(one.file, "")] if kernel else []),
-                _begin(one.finding.statement if one.accepted else one.reason),
+                _begin(one.finding.statement if one.accepted else one.reason)
+                if one.accepted or number >= MOST_REASONS - 1
+                else "see below",
             )
-            for one in rows
+            for number, one in enumerate(rows)
         ]
         return Table(heads, tuple(cells), align="l" * len(heads), keys=4)
 
@@ -233,6 +236,9 @@ def writer(
     Raises:
         InputError: there is no Coq, or the folder cannot take the files.
     """
+    from lyapcheck.kernel.coq import require_coq
+    from lyapcheck.kernel.judge import graded, judged
+
     require_coq()
 
     def written(outcome: Outcome, trusted: bool) -> str:

@@ -81,7 +81,7 @@ def test_the_title_counts_sets_or_names_the_only_one(paper, undecided):
 def test_failing_rows_come_first_and_details_have_all(paper):
     document = paper.document()
     (table,) = [block for block in document.blocks if isinstance(block, Table)]
-    assert [row[:2] for row in table.rows] == [("✗", "tau_m2"), ("✗", "tau_m3"), ("✓", "tau_m1")]
+    assert [row[:2] for row in table.rows] == [("✗", "tau_m3"), ("✗", "tau_m2"), ("✓", "tau_m1")]
     *sections, formulas = document.details
     for section, result in zip(sections, paper, strict=True):
         every, (*_, bullets) = section.blocks[0], section.blocks

@@ -109,7 +109,7 @@ def test_without_a_model_the_bound_is_a_premise(tmp_path):
     )
     done = invoke("gate", str(path), "--certificates", str(tmp_path / "made"))
     assert "premise: gravity exerts up to (49) N·m" in said(done)
-    outcome = invoke("recheck", str(tmp_path / "made"))
+    outcome = invoke("recheck", str(tmp_path / "made"), "-v")
     assert (outcome.exit_code, "for which no g is given" in said(outcome)) == (0, True)
 
 
@@ -121,7 +121,7 @@ def test_recheck_shows_the_arm_with_its_ranges(tmp_path):
     invoke("gate", path, "--vary", "payload=0..5", "--certificates", str(tmp_path / "made"))
     statement = json.loads((tmp_path / "made" / "a.json").read_text())["statement"]
     assert (statement["parameters"], statement["k_g"]) == ([["1", "6"]], ["2943/100"])
-    outcome = invoke("recheck", str(tmp_path / "made"))
+    outcome = invoke("recheck", str(tmp_path / "made"), "-v")
     assert (outcome.exit_code, "p1 in 1 … 6" in said(outcome)) == (0, True)
 
 

@@ -104,4 +104,4 @@ def test_certificates_are_accepted_by_recheck(tmp_path):
             assert (end is not None) == (f"{constant['name']}.{side}.json" in files)
     checked = invoke("recheck", str(made))
     assert checked.exit_code == 0
-    assert "0 refused, 0 undecided" in checked.stdout
+    assert checked.stdout.startswith(f"✓ {len(files)} accepted")

@@ -33,8 +33,9 @@ def document(answer: GateAnswer) -> Document:
     if any(result.record is None or result.record.period is None for result in answer):
         lead.append(INFINITE)
     said = list(dict.fromkeys([*(text for result in answer for text in _warnings(result)), *said]))
-    rows = sorted(_rows(answer), key=lambda row: row.check.verdict == ACCEPTED)
-    blocks: list[Block] = [_table(rows[:MOST_ROWS], len(answer) > 1)] if rows else []
+    many = len(answer) > 1
+    rows = sorted(_rows(answer), key=lambda row: (row.check.verdict == ACCEPTED, many and _room(row.check)))
+    blocks: list[Block] = [_table(rows[:MOST_ROWS], many)] if rows else []
     if len(rows) > MOST_ROWS:
         said.insert(0, f"{len(rows) - MOST_ROWS} further rows: -v shows them")
     blocks += [Bullets(tuple(said[:MOST_REMARKS]))] if said else []
@@ -81,28 +82,22 @@ def _of_many(answer: GateAnswer) -> tuple[list[str], list[str], list[Block]]:
     lead = lead if len(lead) == 1 else []
     far = _farthest(answer) if failed else None
     said = [far[1]] if far else []
-    said += [f"{result.name}: {text}" for result in failed for text in _fix(result)]
+    for result in failed:
+        fixes = [proved_otherwise(result)] if result.standing == BREAKS_19 else repairs(result)
+        said += [f"{result.name}: {text}" for text in fixes[:1]]
     return lead, said, [_section(result) for result in answer]
-
-
-def _fix(result: GateResult) -> list[str]:
-    return [proved_otherwise(result)] if result.standing == BREAKS_19 else repairs(result)[:1]
 
 
 def _meaning(result: GateResult, before: str = "") -> str:
     """What an accepted set is known to do."""
-    limits = result.limits
+    limits, torques = result.limits, [result.verdict_of((name,)) for name in ("10i", "10p")]
     words = ", ".join(_holds(result, name) for name in result.deciding)
     if result.gamma != "true":
         words = f"{', '.join(f'({name})' for name in result.deciding)} hold with the printed γ"
-    elif set(result.deciding) & set(CERTIFICATES) and not _within_limits(result):
+    elif set(result.deciding) & set(CERTIFICATES) and ACCEPTED not in torques:
         words += " while no motor saturates"
     where = "for the numbers under [bounds]" if limits.model is None else f"for {limits.model.name}"
     return result.says(f"{before}{words}, proved {where}{' over its ranges' if limits.varied else ''}")
-
-
-def _within_limits(result: GateResult) -> bool:
-    return ACCEPTED in (result.verdict_of(("10i",)), result.verdict_of(("10p",)))
 
 
 def _holds(result: GateResult, name: str) -> str:
@@ -188,12 +183,11 @@ def _rows(answer: GateAnswer) -> list[Row]:
     """The deciding checks of one set, or of each of many the one that fails or is tightest."""
     if len(answer) == 1:
         return [Row(answer[0], check) for check in answer[0].checks if answer[0].decides(check)]
-    return [Row(result, check) for result in answer if (check := _tightest(result)) is not None]
-
-
-def _tightest(result: GateResult) -> Check | None:
-    deciding = [check for check in result.checks if result.decides(check)]
-    return min(result.failures or deciding, key=_room, default=None)
+    rows = []
+    for result in answer:
+        deciding = result.failures or [check for check in result.checks if result.decides(check)]
+        rows += [Row(result, min(deciding, key=_room))] if deciding else []
+    return rows
 
 
 def _room(check: Check) -> Fraction:

@@ -15,14 +15,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.otherwise import unknown_function
-from lyapcheck.answers.gate.shown import DIGITS, Numbers, numbers_of, shown_gravity
+from lyapcheck.answers.gate.shown import DIGITS, Numbers, is_stated, numbers_of, shown_gravity, stated
 from lyapcheck.asked import gate_accepted, gravity_kept
-from lyapcheck.check.judgement import MAX_ARM
-from lyapcheck.check.kinds.gate_accepted import TORQUES, GateAccepted, GateParts
+from lyapcheck.check.kinds.gate_accepted import TORQUES, GateParts
 from lyapcheck.control.conditions import CONDITIONS, Check
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.family.registry import named
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
 
@@ -105,22 +102,16 @@ class GateQuestions:
         gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else Gravity(tuple(self.limits.gravity))
         if gravity is None:
             return Grounds(missing=self._why_not)
-        one, missing = self._gains(gains, gravity.k_g, numbers)
+        one, missing = self._gains(gains, numbers)
         if one is None:
             return Grounds(missing=missing)
         promises = (one,) if gravity.promise is None else (gravity.promise, one)
         return Grounds((*promises, *known), gravity.premises)
 
-    def _gains(
-        self, gains: GainSet, k_g: tuple[Fraction, ...], numbers: tuple[str, ...]
-    ) -> tuple[Promise | None, str]:
-        parameters, viscous, limits = self._arm
-        statement = GateAccepted(
-            len(k_g), (), (), parameters, k_g, viscous, limits,
-            gains.family, gains.m, tuple(gains.kp), tuple(gains.kv), numbers, (),
-        )  # fmt: skip
+    def _gains(self, gains: GainSet, numbers: tuple[str, ...]) -> tuple[Promise | None, str]:
+        statement = stated(gains, self.limits, self._arm, numbers)
         judged = judged_statement(statement, (GateParts((), digits, ()) for digits in DIGITS))
-        asked = gate_accepted(gains, self.limits.model, self.file.bounds, k_g, numbers)
+        asked = gate_accepted(gains, self.limits.model, self.file.bounds, statement.k_g, numbers)
         return promised(asked, judged)
 
     @cached_property
@@ -131,6 +122,5 @@ class GateQuestions:
         """Whether the checker knows h and γ of a set."""
         key = gains.family, gains.m
         if key not in self._known:
-            bounded = self.gamma == "true" and named(*key).bounded and self.limits.n <= MAX_ARM
-            self._known[key] = bounded and not unknown_function(gains)
+            self._known[key] = is_stated(gains, self.limits, self.gamma)
         return self._known[key]

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.otherwise import friction_of
+from lyapcheck.answers.gate.otherwise import friction_of, unknown_function
+from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
 from lyapcheck.check.kinds.identity import SameHarmonics
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
 from lyapcheck.check.statement import Ends, Monomials, Proof
+from lyapcheck.control.conditions import CONDITIONS
 from lyapcheck.control.gravity import levers
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves
+from lyapcheck.family.registry import named
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
 
@@ -39,6 +45,32 @@ def numbers_of(limits: Limits, viscous_min: Fraction | None) -> Numbers:
         friction = friction_of(model, viscous_min, True) or tuple(b.bounds for b in model.viscous)
     parameters = () if model is None else tuple(number.bounds for number in model.parameters.values())
     return parameters, friction, limits.torque
+
+
+def is_stated(gains: GainSet, limits: Limits, gamma: str) -> bool:
+    """Whether a statement can speak of a set: the checker knows its h, and γ is the certified one."""
+    known = gamma == "true" and named(gains.family, gains.m).bounded and limits.n <= MAX_ARM
+    return known and not unknown_function(gains)
+
+
+def stated(gains: GainSet, limits: Limits, numbers: Numbers, conditions: Sequence[str]) -> GateAccepted:
+    """That a set meets conditions on numbers, so far without gravity and stability."""
+    parameters, friction, torque = numbers
+    return GateAccepted(
+        joints=limits.n,
+        gravity=(),
+        potential=(),
+        parameters=parameters,
+        k_g=tuple(map(Fraction, limits.gravity)),
+        viscous=friction,
+        limits=tuple(None if limit is None else Fraction(limit) for limit in torque),
+        family=gains.family,
+        m=gains.m,
+        kp=tuple(map(Fraction, gains.kp)),
+        kv=tuple(map(Fraction, gains.kv)),
+        conditions=tuple(name for name in CONDITIONS if name in conditions),
+        stability=(),
+    )
 
 
 @dataclass(frozen=True)

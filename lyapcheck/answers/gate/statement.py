@@ -11,9 +11,8 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.otherwise import unknown_function
-from lyapcheck.answers.gate.shown import DIGITS, numbers_of, shown_gravity
-from lyapcheck.check.judgement import LARGEST, MAX_ARM
+from lyapcheck.answers.gate.shown import DIGITS, is_stated, numbers_of, shown_gravity, stated
+from lyapcheck.check.judgement import LARGEST
 from lyapcheck.check.kinds.gate_accepted import (
     TORQUES,
     BrokenCondition,
@@ -23,11 +22,10 @@ from lyapcheck.check.kinds.gate_accepted import (
 )
 from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.statement import Proof, Statement
-from lyapcheck.control.conditions import ACCEPTED, CONDITIONS, REJECTED
+from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.control.gravity import steep_postures
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
-from lyapcheck.family.registry import named
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
@@ -58,25 +56,11 @@ def _statement(result: GateResult) -> GateAccepted | None:
     """The statement, so far without gravity; ``None`` for another γ, or an h unknown to the checker."""
     limits, gains = result.limits, result.gains
     torques = {"10", *TORQUES} & set(result.deciding)
-    known = result.gamma == "true" and named(gains.family, gains.m).bounded and not unknown_function(gains)
-    if not known or limits.n > MAX_ARM or (torques and None in limits.torque):
+    if not is_stated(gains, limits, result.gamma) or (torques and None in limits.torque):
         return None
-    parameters, friction, torque = numbers_of(limits, result.file.bounds.viscous_min)
-    return GateAccepted(
-        joints=limits.n,
-        gravity=(),
-        potential=(),
-        parameters=parameters,
-        k_g=tuple(map(Fraction, limits.gravity)),
-        viscous=friction,
-        limits=tuple(None if limit is None else Fraction(limit) for limit in torque),
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(map(Fraction, gains.kp)),
-        kv=tuple(map(Fraction, gains.kv)),
-        conditions=tuple(name for name in CONDITIONS if name in result.deciding),
-        stability=tuple(its for its, _ in _stability(result)),
-    )
+    numbers = numbers_of(limits, result.file.bounds.viscous_min)
+    its = tuple(statement for statement, _ in _stability(result))
+    return replace(stated(gains, limits, numbers, result.deciding), stability=its)
 
 
 def _stability(result: GateResult) -> Iterator[tuple[Statement, Proof]]:
