@@ -39,7 +39,7 @@ def table(head, rows):
 
 def cell(text):
     """Text that ends no cell and starts no tag."""
-    return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").replace("<", "&lt;")
+    return re.sub(r"<(?=[A-Za-z/!])", "&lt;", re.sub(r"\s+", " ", str(text)).replace("|", r"\|").replace("``", "`"))
 
 
 # --- Commands.
@@ -75,9 +75,10 @@ def command_page(name, text, parser):
         value = action.metavar or (action.dest.upper() if action.nargs != 0 else "")
         called = ", ".join(action.option_strings) or value
         shown = f"{called} {value}" if action.option_strings and action.nargs != 0 else called
-        more = " May be repeated." if type(action).__name__ == "_AppendAction" else ""
+        about = (action.help or "").replace("%(default)s", str(action.default)).replace("%%", "%")
+        repeated = type(action).__name__ == "_AppendAction" and "repeated" not in about
         groups["Options" if action.option_strings else "Arguments"].append(
-            [f"`{shown}`", (action.help or "").replace("%(default)s", str(action.default)) + more]
+            [f"`{shown}`", about + (" May be repeated." if repeated else "")]
         )
     for title, rows in groups.items():
         if rows:
@@ -277,7 +278,15 @@ def entry(name, value):
 
 def wrapped(text):
     """A signature; one too long for a line has a line for each argument."""
-    return text if len(text) <= 90 else text.replace("(", "(\n    ", 1).replace(", ", ",\n    ")
+    if len(text) <= 90:
+        return text
+    depth, result = 0, []
+    for letter in text:
+        depth += (letter in "([") - (letter in ")]")
+        result.append(letter)
+        if depth == 1 and letter in "(,":
+            result.append("\n   " if letter == "," else "\n    ")
+    return "".join(result)
 
 
 def paragraphs(text):
@@ -309,7 +318,8 @@ def paragraphs(text):
 
 def plain(text):
     """Prose of a docstring: doubled backticks are single in Markdown, and nothing else has a meaning."""
-    text = text.replace("``", "`").replace("<", "&lt;")
+    text = text.replace("``", "`")
+    text = re.sub(r"<(?=[A-Za-z/!])", "&lt;", text)
     return "".join(
         part if number % 2 else re.sub(r"([*_\[\]$])", r"\\\1", part)
         for number, part in enumerate(re.split(r"(`[^`]*`)", text))
