@@ -93,7 +93,9 @@ def markdown(notebook, name):
                 parts.append(f"```text\n{text.rstrip()}\n```")
             if "image/png" in data:
                 picture = "".join(data["image/png"]).replace("\n", "")
-                parts.append(f'<img alt="Figure drawn by the code above" src="data:image/png;base64,{picture}">')
+                parts.append(
+                    f'<img alt="Figure drawn by the code above" src="data:image/png;base64,{picture}">'
+                )
     return "\n\n".join([*parts, f"A test runs this notebook and compares its output: {{download}}`{name}`."])
 
 

@@ -39,7 +39,9 @@ def table(head, rows):
 
 def cell(text):
     """Text that ends no cell and starts no tag."""
-    return re.sub(r"<(?=[A-Za-z/!])", "&lt;", re.sub(r"\s+", " ", str(text)).replace("|", r"\|").replace("``", "`"))
+    return re.sub(
+        r"<(?=[A-Za-z/!])", "&lt;", re.sub(r"\s+", " ", str(text)).replace("|", r"\|").replace("``", "`")
+    )
 
 
 # --- Commands.
@@ -131,7 +133,9 @@ def json_sections():
             done = subprocess.run(words, cwd=folder, capture_output=True, text=True, env=os.environ | kept)
             data = json.loads(done.stdout)
             rows = [[f"`{key}`", ", ".join(sorted(kinds))] for key, kinds in keys_of(data).items()]
-            about = f"The keys of the answer to `lyapcheck {line} --format json`, schema `{data['schema']}`.\n"
+            about = (
+                f"The keys of the answer to `lyapcheck {line} --format json`, schema `{data['schema']}`.\n"
+            )
             result[f"commands/{name}.md"] = f"\n\n## JSON\n\n{about}\n{table(['key', 'type'], rows)}"
     return result
 
@@ -179,9 +183,7 @@ def files():
         title, about = HEADS[kind]
         parts = [f"# {title}", about]
         for name, keys in tables.items():
-            lines = [
-                [f"`{k.name}`", k.type, k.unit, k.default, code(k.example), k.about] for k in keys
-            ]
+            lines = [[f"`{k.name}`", k.type, k.unit, k.default, code(k.example), k.about] for k in keys]
             heading = f"`{name}`" if name and name[0] in "[kir" and "number" not in name else name
             parts.append(f"## {heading or 'Top of the file'}")
             parts.append(table(["key", "type", "unit", "default", "example", "meaning"], lines))
@@ -228,7 +230,9 @@ def claims():
     tree = ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and str(node.module).startswith("lyapcheck."):
-            homes |= {alias.asname or alias.name: node.module.removeprefix("lyapcheck.") for alias in node.names}
+            homes |= {
+                alias.asname or alias.name: node.module.removeprefix("lyapcheck.") for alias in node.names
+            }
     head = "# Names of lyapcheck.claims\n\nA proof script imports these names from `lyapcheck.claims`."
     groups = {task: [] for task in TASKS.values()}
     for name in sorted(module.__all__, key=str.lower):
@@ -269,7 +273,8 @@ def entry(name, value):
         rows = [
             [f"`{member}`", (inspect.getdoc(kept) or "").partition("\n\n")[0]]
             for member, kept in vars(value).items()
-            if member[0] != "_" and (callable(kept) or isinstance(kept, (property, classmethod, staticmethod)))
+            if member[0] != "_"
+            and (callable(kept) or isinstance(kept, (property, classmethod, staticmethod)))
         ]
         if rows:
             parts.append(table(["member", "meaning"], rows))
@@ -380,7 +385,9 @@ def main(words):
     """Write the pages, or name those that differ."""
     wanted = pages()
     changed = [path for path, text in wanted.items() if not same(REFERENCE / path, text)]
-    surplus = [path for path in (REFERENCE / "commands").glob("*.md") if f"commands/{path.name}" not in wanted]
+    surplus = [
+        path for path in (REFERENCE / "commands").glob("*.md") if f"commands/{path.name}" not in wanted
+    ]
     if "--check" in words:
         print(*changed, *surplus, sep="\n")
         return 1 if changed or surplus else 0
