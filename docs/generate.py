@@ -1,4 +1,4 @@
-"""Write the reference pages from the code: ``python -m docs.generate``, or ``--check`` that they are as it says."""
+"""Write the reference pages: ``python -m docs.generate``. With ``--check`` name those that differ."""
 
 import ast
 import contextlib
@@ -130,7 +130,9 @@ def json_sections():
         kept = {"XDG_CACHE_HOME": str(Path(folder, "cache"))}
         for name, line in ASKED.items():
             words = [sys.executable, "-m", "lyapcheck", *line.split(), "--format", "json"]
-            done = subprocess.run(words, cwd=folder, capture_output=True, text=True, env=os.environ | kept)
+            done = subprocess.run(
+                words, cwd=folder, capture_output=True, text=True, check=False, env=os.environ | kept
+            )
             data = json.loads(done.stdout)
             rows = [[f"`{key}`", ", ".join(sorted(kinds))] for key, kinds in keys_of(data).items()]
             about = (
@@ -374,7 +376,7 @@ def template(node):
 
 
 def pages(answers=True):
-    """The generated pages by path below ``docs/reference``; without ``answers`` those sections are left out."""
+    """The generated pages by path below ``docs/reference``, with or without the keys of JSON answers."""
     result = commands() | files() | claims() | python_names() | messages()
     for path, section in json_sections().items() if answers else ():
         result[path] += section
@@ -384,7 +386,10 @@ def pages(answers=True):
 def main(words):
     """Write the pages, or name those that differ."""
     wanted = pages()
-    changed = [path for path, text in wanted.items() if not same(REFERENCE / path, text)]
+    have = {
+        str(path.relative_to(REFERENCE)): path.read_text(encoding="utf-8") for path in REFERENCE.rglob("*.md")
+    }
+    changed = [path for path, text in wanted.items() if have.get(path) != text]
     surplus = [
         path for path in (REFERENCE / "commands").glob("*.md") if f"commands/{path.name}" not in wanted
     ]
@@ -397,11 +402,6 @@ def main(words):
         (REFERENCE / path).parent.mkdir(parents=True, exist_ok=True)
         (REFERENCE / path).write_text(wanted[path], encoding="utf-8")
     return 0
-
-
-def same(path, text):
-    """Whether a file has this text."""
-    return path.is_file() and path.read_text(encoding="utf-8") == text
 
 
 if __name__ == "__main__":

@@ -172,7 +172,8 @@ class Motion:
 
     def __repr__(self) -> str:
         errors = ", ".join(f"{x:.3g}" for x in self.indices.final_error)
-        return f"<{type(self).__name__}: {self.name} on {self.robot}, {self.task.T:g} s, final error ({errors})°>"
+        about = f"{self.name} on {self.robot}, {self.task.T:g} s, final error ({errors})°"
+        return f"<{type(self).__name__}: {about}>"
 
     def plot(self) -> Any:
         """Draw the errors over time as a Matplotlib figure."""
