@@ -5,11 +5,12 @@ BIN := .venv/bin
 # As commands do: the matrices are small, and threads of BLAS only wait for each other.
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: report screenshots site test test-slow test-robots test-mujoco test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
+.PHONY: report reference screenshots site test test-slow test-robots test-mujoco test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
 
 help:
 	@echo "make report     check the paper's arm and gains for m = 1, 2, 3; writes reports/"
 	@echo "make site       the documents as a site, in build/site/"
+	@echo "make reference  write docs/reference/ from the code"
 	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
 	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
@@ -32,7 +33,10 @@ report: .venv/.ready
 site:
 	$(PYTHON) -m venv build/docs
 	build/docs/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r docs/requirements.lock
-	NO_MKDOCS_2_WARNING=1 build/docs/bin/mkdocs build --strict --quiet
+	build/docs/bin/sphinx-build --quiet --fail-on-warning --keep-going -d build/doctrees docs build/site
+
+reference: .venv/.ready
+	$(BIN)/python -m docs.generate
 
 screenshots: .venv/.ready
 	$(BIN)/python -m tests.report.screenshots

@@ -27,7 +27,11 @@ html_math_renderer = "mathml"
 KINDS = {
     "Tutorials": ["install", "tutorial", "tutorial_proof"],
     "How to": ["tune", "ci", "friction", "uncertainty", "urdf", "sweep", "export", "own_proof", "extend"],
-    "Reference": ["reference/commands", "reference/files", "reference/python", "reference/claims"],
+    "Reference": [
+        "reference/commands", "reference/conditions", "reference/files", "reference/gain_files",
+        "reference/arm_files", "reference/plan_files", "reference/reference_files", "reference/python",
+        "reference/python_names", "reference/claims", "format", "reference/messages", "reference/glossary",
+    ],
     "Explanation": [
         "verdicts", "assumptions", "epsilon", "paper", "kernel", "architecture", "related",
     ],
@@ -58,7 +62,8 @@ def add_navigation(app, page, source):
     for kind, group in groups.items():
         if group:
             lines = "\n".join(f"/{other}" for other in group)
-            source[0] += f"\n\n```{{toctree}}\n:hidden:\n:caption: {kind}\n\n{lines}\n```\n"
+            caption = f":caption: {kind}\n" if kind else ""
+            source[0] += f"\n\n```{{toctree}}\n:hidden:\n{caption}\n{lines}\n```\n"
 
 
 class NotebookParser(MystParser):
@@ -88,7 +93,9 @@ def markdown(notebook, name):
                 parts.append(f"```text\n{text.rstrip()}\n```")
             if "image/png" in data:
                 picture = "".join(data["image/png"]).replace("\n", "")
-                parts.append(f'<img alt="Figure drawn by the code above" src="data:image/png;base64,{picture}">')
+                parts.append(
+                    f'<img alt="Figure drawn by the code above" src="data:image/png;base64,{picture}">'
+                )
     return "\n\n".join([*parts, f"A test runs this notebook and compares its output: {{download}}`{name}`."])
 
 

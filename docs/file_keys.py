@@ -24,11 +24,34 @@ LOOP = (
     Key("period", PERIOD, "s, ms or us", "none", '"2.5 ms"', "Sampling period, in place of `rate`."),
     Key("longest", PERIOD, "s, ms or us", "the period", '"3 ms"', "Longest interval between two readings."),
     Key("delay", "whole number 0–1000", "samples", "1", "1", "Delay from a reading to its torque."),
-    Key("velocity", "`difference` or `measured`", "", "`difference`", '"measured"', "Source of the joint velocity."),
+    Key(
+        "velocity",
+        "`difference` or `measured`",
+        "",
+        "`difference`",
+        '"measured"',
+        "Source of the joint velocity.",
+    ),
     Key("filter", "1–100 numbers", "", "none", "[0.5, 0.5]", "Taps of the velocity filter, newest first."),
-    Key("lowpass", "number > 0", "Hz", "none", "50", "Cut-off of a first-order filter, in place of `filter`."),
-    Key("encoder", "text or whole number", "bits or counts per turn", "that of the arm", '"17 bits"', "Encoder of every joint."),
-    Key("unknown_payload", "number ≥ 0", "kg", "0", "2", "Mass at the last link that the controller does not know."),
+    Key(
+        "lowpass", "number > 0", "Hz", "none", "50", "Cut-off of a first-order filter, in place of `filter`."
+    ),
+    Key(
+        "encoder",
+        "text or whole number",
+        "bits or counts per turn",
+        "that of the arm",
+        '"17 bits"',
+        "Encoder of every joint.",
+    ),
+    Key(
+        "unknown_payload",
+        "number ≥ 0",
+        "kg",
+        "0",
+        "2",
+        "Mass at the last link that the controller does not know.",
+    ),
     Key("gravity_error", "number 0–1000", "%", "0", "5", "Error of the controller's g(q)."),
 )
 GAINS = (

@@ -1,4 +1,4 @@
-"""Write the reference pages from the code: ``python -m docs.generate``, or ``--check`` that they are as it says."""
+"""Write the reference pages: ``python -m docs.generate``. With ``--check`` name those that differ."""
 
 import ast
 import contextlib
@@ -39,7 +39,9 @@ def table(head, rows):
 
 def cell(text):
     """Text that ends no cell and starts no tag."""
-    return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").replace("<", "&lt;")
+    return re.sub(
+        r"<(?=[A-Za-z/!])", "&lt;", re.sub(r"\s+", " ", str(text)).replace("|", r"\|").replace("``", "`")
+    )
 
 
 # --- Commands.
@@ -75,9 +77,10 @@ def command_page(name, text, parser):
         value = action.metavar or (action.dest.upper() if action.nargs != 0 else "")
         called = ", ".join(action.option_strings) or value
         shown = f"{called} {value}" if action.option_strings and action.nargs != 0 else called
-        more = " May be repeated." if type(action).__name__ == "_AppendAction" else ""
+        about = (action.help or "").replace("%(default)s", str(action.default)).replace("%%", "%")
+        repeated = type(action).__name__ == "_AppendAction" and "repeated" not in about
         groups["Options" if action.option_strings else "Arguments"].append(
-            [f"`{shown}`", (action.help or "").replace("%(default)s", str(action.default)) + more]
+            [f"`{shown}`", about + (" May be repeated." if repeated else "")]
         )
     for title, rows in groups.items():
         if rows:
@@ -127,10 +130,14 @@ def json_sections():
         kept = {"XDG_CACHE_HOME": str(Path(folder, "cache"))}
         for name, line in ASKED.items():
             words = [sys.executable, "-m", "lyapcheck", *line.split(), "--format", "json"]
-            done = subprocess.run(words, cwd=folder, capture_output=True, text=True, env=os.environ | kept)
+            done = subprocess.run(
+                words, cwd=folder, capture_output=True, text=True, check=False, env=os.environ | kept
+            )
             data = json.loads(done.stdout)
             rows = [[f"`{key}`", ", ".join(sorted(kinds))] for key, kinds in keys_of(data).items()]
-            about = f"The keys of the answer to `lyapcheck {line} --format json`, schema `{data['schema']}`.\n"
+            about = (
+                f"The keys of the answer to `lyapcheck {line} --format json`, schema `{data['schema']}`.\n"
+            )
             result[f"commands/{name}.md"] = f"\n\n## JSON\n\n{about}\n{table(['key', 'type'], rows)}"
     return result
 
@@ -178,9 +185,7 @@ def files():
         title, about = HEADS[kind]
         parts = [f"# {title}", about]
         for name, keys in tables.items():
-            lines = [
-                [f"`{k.name}`", k.type, k.unit, k.default, code(k.example), k.about] for k in keys
-            ]
+            lines = [[f"`{k.name}`", k.type, k.unit, k.default, code(k.example), k.about] for k in keys]
             heading = f"`{name}`" if name and name[0] in "[kir" and "number" not in name else name
             parts.append(f"## {heading or 'Top of the file'}")
             parts.append(table(["key", "type", "unit", "default", "example", "meaning"], lines))
@@ -227,7 +232,9 @@ def claims():
     tree = ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and str(node.module).startswith("lyapcheck."):
-            homes |= {alias.asname or alias.name: node.module.removeprefix("lyapcheck.") for alias in node.names}
+            homes |= {
+                alias.asname or alias.name: node.module.removeprefix("lyapcheck.") for alias in node.names
+            }
     head = "# Names of lyapcheck.claims\n\nA proof script imports these names from `lyapcheck.claims`."
     groups = {task: [] for task in TASKS.values()}
     for name in sorted(module.__all__, key=str.lower):
@@ -268,7 +275,8 @@ def entry(name, value):
         rows = [
             [f"`{member}`", (inspect.getdoc(kept) or "").partition("\n\n")[0]]
             for member, kept in vars(value).items()
-            if member[0] != "_" and (callable(kept) or isinstance(kept, (property, classmethod, staticmethod)))
+            if member[0] != "_"
+            and (callable(kept) or isinstance(kept, (property, classmethod, staticmethod)))
         ]
         if rows:
             parts.append(table(["member", "meaning"], rows))
@@ -277,7 +285,15 @@ def entry(name, value):
 
 def wrapped(text):
     """A signature; one too long for a line has a line for each argument."""
-    return text if len(text) <= 90 else text.replace("(", "(\n    ", 1).replace(", ", ",\n    ")
+    if len(text) <= 90:
+        return text
+    depth, result = 0, []
+    for letter in text:
+        depth += (letter in "([") - (letter in ")]")
+        result.append(letter)
+        if depth == 1 and letter in "(,":
+            result.append("\n   " if letter == "," else "\n    ")
+    return "".join(result)
 
 
 def paragraphs(text):
@@ -309,7 +325,8 @@ def paragraphs(text):
 
 def plain(text):
     """Prose of a docstring: doubled backticks are single in Markdown, and nothing else has a meaning."""
-    text = text.replace("``", "`").replace("<", "&lt;")
+    text = text.replace("``", "`")
+    text = re.sub(r"<(?=[A-Za-z/!])", "&lt;", text)
     return "".join(
         part if number % 2 else re.sub(r"([*_\[\]$])", r"\\\1", part)
         for number, part in enumerate(re.split(r"(`[^`]*`)", text))
@@ -359,7 +376,7 @@ def template(node):
 
 
 def pages(answers=True):
-    """The generated pages by path below ``docs/reference``; without ``answers`` those sections are left out."""
+    """The generated pages by path below ``docs/reference``, with or without the keys of JSON answers."""
     result = commands() | files() | claims() | python_names() | messages()
     for path, section in json_sections().items() if answers else ():
         result[path] += section
@@ -369,8 +386,13 @@ def pages(answers=True):
 def main(words):
     """Write the pages, or name those that differ."""
     wanted = pages()
-    changed = [path for path, text in wanted.items() if not same(REFERENCE / path, text)]
-    surplus = [path for path in (REFERENCE / "commands").glob("*.md") if f"commands/{path.name}" not in wanted]
+    have = {
+        str(path.relative_to(REFERENCE)): path.read_text(encoding="utf-8") for path in REFERENCE.rglob("*.md")
+    }
+    changed = [path for path, text in wanted.items() if have.get(path) != text]
+    surplus = [
+        path for path in (REFERENCE / "commands").glob("*.md") if f"commands/{path.name}" not in wanted
+    ]
     if "--check" in words:
         print(*changed, *surplus, sep="\n")
         return 1 if changed or surplus else 0
@@ -380,11 +402,6 @@ def main(words):
         (REFERENCE / path).parent.mkdir(parents=True, exist_ok=True)
         (REFERENCE / path).write_text(wanted[path], encoding="utf-8")
     return 0
-
-
-def same(path, text):
-    """Whether a file has this text."""
-    return path.is_file() and path.read_text(encoding="utf-8") == text
 
 
 if __name__ == "__main__":

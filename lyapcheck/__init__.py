@@ -49,6 +49,14 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.tracking import TrackingRun
     from lyapcheck.simulate.tracking import track as run_tracking
     from lyapcheck.simulate.trial import experiment as run_experiment
+    from lyapcheck.tasks import (
+        bounds,
+        decide,
+        export_controller,
+        read_certificates,
+        simulate_motion,
+        tune_for_targets,
+    )
     from lyapcheck.verdicts import Exit, Grade, Verdict
 
     __version__: str
@@ -88,11 +96,14 @@ __all__ = [
     "Tuning",
     "Verdict",
     "__version__",
+    "bounds",
     "build_report",
     "build_table",
+    "decide",
     "derivation",
     "epsilon",
     "explain",
+    "export_controller",
     "gamma_less_than",
     "gate",
     "hyperbolic_constants",
@@ -101,6 +112,7 @@ __all__ = [
     "lyapunov_graph",
     "named_family",
     "paper_gain_file",
+    "read_certificates",
     "read_gain_file",
     "read_plan",
     "read_reference",
@@ -111,8 +123,10 @@ __all__ = [
     "run_proof",
     "run_simulation",
     "run_tracking",
+    "simulate_motion",
     "sweep",
     "torque",
+    "tune_for_targets",
     "tune_gains",
 ]
 
@@ -150,11 +164,14 @@ _HOMES = {
     "TrackingRun": "simulate.tracking",
     "Tuning": "answers.tune.answer",
     "Verdict": "verdicts",
+    "bounds": "tasks",
     "build_report": "report.build:build",
     "build_table": "answers.table",
+    "decide": "tasks",
     "derivation": "answers.derive",
     "epsilon": "answers.epsilon",
     "explain": "answers.explain",
+    "export_controller": "tasks",
     "gamma_less_than": "family.asymptotes",
     "gate": "answers.gate",
     "hyperbolic_constants": "check.numbers.balls",
@@ -163,6 +180,7 @@ _HOMES = {
     "lyapunov_graph": "lyapunov.graph",
     "named_family": "family.registry:named",
     "paper_gain_file": "control.gains",
+    "read_certificates": "tasks",
     "read_gain_file": "control.gains",
     "read_plan": "answers.sweep",
     "read_reference": "simulate.reference",
@@ -173,8 +191,10 @@ _HOMES = {
     "run_proof": "answers.check.run",
     "run_simulation": "simulate.closed_loop:simulate",
     "run_tracking": "simulate.tracking:track",
+    "simulate_motion": "tasks",
     "sweep": "answers.sweep",
     "torque": "export.torque",
+    "tune_for_targets": "tasks",
     "tune_gains": "answers.tune.tuning:tune",
 }
 """The module of each public name, and its name there if that is another."""

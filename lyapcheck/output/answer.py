@@ -74,6 +74,13 @@ class Answer(ABC):
     problems: Sequence[Problem] = ()
     """Input that could not be used; the rest was."""
 
+    def __init_subclass__(cls, **settings: Any) -> None:
+        super().__init_subclass__(**settings)
+        cls.__repr__ = Answer.__repr__  # type: ignore[method-assign]  # that of a dataclass fills the screen
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self.document().title}>"
+
     @abstractmethod
     def document(self) -> Document:
         """For people."""

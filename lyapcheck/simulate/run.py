@@ -184,6 +184,17 @@ class Motion:
     without_dry_friction: bool = False
     """Whether the arm file gives dry friction that the run leaves out."""
 
+    def __repr__(self) -> str:
+        errors = ", ".join(f"{x:.3g}" for x in self.indices.final_error)
+        about = f"{self.name} on {self.robot}, {self.task.T:g} s, final error ({errors})°"
+        return f"<{type(self).__name__}: {about}>"
+
+    def plot(self) -> Any:
+        """Draw the errors over time as a Matplotlib figure."""
+        from lyapcheck.report.figures.motion import draw_errors
+
+        return draw_errors(f"{self.name} on {self.robot}", self.t, self.e, self.joints)
+
     @property
     def name(self) -> str:
         """The name of the gain set."""
@@ -227,7 +238,7 @@ class Promises:
     """Per joint: |τ_i| stayed within the motor's limit; none where the arm has no limit."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Run(Motion):
     """A motion to a set point, where w = q̇."""
 

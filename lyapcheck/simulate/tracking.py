@@ -58,7 +58,7 @@ class Promise:
     """Why there is no ε₀."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class TrackingRun(Motion):
     """A motion along a reference, where w = q̇ − q̇_d."""
 

@@ -1,0 +1,226 @@
+"""Tasks of a user in one call each: names, paths or objects in, answers out, angles in degrees."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from lyapcheck.errors import argument_error
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from pathlib import Path
+
+    from lyapcheck._types import Progress
+    from lyapcheck.answers.bounds import Comparisons
+    from lyapcheck.answers.export import Export
+    from lyapcheck.answers.tune.response.answer import BenchTuning
+    from lyapcheck.check.files import Document
+    from lyapcheck.check.statement import Statement
+    from lyapcheck.claims.decision import Decision
+    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.robots.plant import RobotModel
+    from lyapcheck.simulate.run import Run
+    from lyapcheck.simulate.task import Task
+
+
+def tune_for_targets(
+    robot: str,
+    *,
+    members: Sequence[int] = (1,),
+    overshoot: float | None = None,
+    settle: float | None = None,
+    peak_share: float | None = None,
+    rest_error: float | None = None,
+    target_deg: Sequence[float] | None = None,
+    start_deg: Sequence[float] | None = None,
+    seconds: float = 5.0,
+    on_progress: Progress | None = None,
+) -> BenchTuning:
+    """Find gains that meet targets in a simulated motion and that the gate accepts.
+
+    Args:
+        robot: a built-in arm, or the path of an arm file.
+        members: the orders m to try.
+        overshoot: largest overshoot, % of the step.
+        settle: largest settling time (2 %), s.
+        peak_share: largest share of each torque limit, in (0, 1].
+        rest_error: largest steady-state error under dry friction, degrees.
+        target_deg: desired joint angles. Default: 45 degrees per joint.
+        start_deg: initial joint angles. Default: 0.
+        seconds: duration of the motion.
+        on_progress: receives the fraction done.
+
+    Raises:
+        InputError: the arm or a target cannot be used, or no target is given.
+
+    Soundness: the gate proves stability and torque limits. The motion is simulated.
+    """
+    from lyapcheck.answers.tune.response.trial import Trials, Wishes
+    from lyapcheck.answers.tune.response.tuning import tune_for
+    from lyapcheck.robots import load
+
+    wishes = Wishes(overshoot, settle, peak_share, rest_error)
+    if not wishes.given:
+        raise argument_error("targets", "", "are missing", "give overshoot=5, settle=1.5 or rest_error=2")
+    task = _task(load(robot), target_deg, start_deg, seconds)
+    return tune_for(robot, Trials(wishes, (task,)), members, on_progress=on_progress)
+
+
+def bounds(
+    gain_file: GainFile | str | Path,
+    robot: str | None = None,
+    *,
+    target_deg: Sequence[float] | None = None,
+    start_deg: Sequence[float] | None = None,
+    seconds: float = 10.0,
+    within_deg: float = 1.0,
+) -> Comparisons:
+    """Bound the steady-state error under dry friction, beside a simulated motion.
+
+    Args:
+        gain_file: a gain file or its path.
+        robot: an arm that replaces the arm of the file.
+        target_deg: desired joint angles. Default: 45 degrees per joint.
+        start_deg: initial joint angles. Default: 0.
+        seconds: duration of the motion.
+        within_deg: error for the simulated time, degrees.
+
+    Raises:
+        InputError: the file, the arm or an angle cannot be used.
+    """
+    from lyapcheck.answers.bounds import Comparisons, compare
+
+    file, model = _on_arm(gain_file, robot)
+    task = _task(model, target_deg, start_deg, seconds)
+    delta = math.radians(within_deg)
+    return Comparisons(tuple(compare(one, model, task, delta) for one in file.gains), file)
+
+
+def simulate_motion(
+    gain_set: GainSet | str | Path,
+    robot: RobotModel | str,
+    *,
+    target_deg: Sequence[float] | None = None,
+    start_deg: Sequence[float] | None = None,
+    seconds: float = 5.0,
+) -> Run:
+    """Simulate the closed loop (11) from rest; ``run.plot()`` draws it.
+
+    Args:
+        gain_set: a gain set, or the path of a gain file with one gain set.
+        robot: an arm, its name or the path of its file.
+        target_deg: desired joint angles. Default: 45 degrees per joint.
+        start_deg: initial joint angles. Default: 0.
+        seconds: duration.
+
+    Raises:
+        InputError: the gains, the arm or an angle cannot be used.
+
+    Soundness: floating point. A simulation proves nothing.
+    """
+    from lyapcheck.robots import load
+    from lyapcheck.simulate.closed_loop import simulate
+
+    model = load(robot) if isinstance(robot, str) else robot
+    task = _task(model, target_deg, start_deg, seconds)
+    return simulate(gain_set, model, task.q_d, task.q0, T=task.T)
+
+
+def export_controller(
+    gain_file: GainFile | str | Path, robot: str | None = None, *, rate: float | str
+) -> Export:
+    """Write each gain set as C99; ``answer.sets[i].files`` has the text of each file.
+
+    Args:
+        gain_file: a gain file or its path.
+        robot: an arm that replaces the arm of the file.
+        rate: of the controller, Hz.
+
+    Raises:
+        InputError: the file, the arm or the rate cannot be used.
+    """
+    from lyapcheck.answers.export import export
+    from lyapcheck.control.sampling import record_of
+    from lyapcheck.files.loop import LoopEntry
+
+    hertz = Fraction(str(rate))
+    if hertz <= 0:
+        raise argument_error("rate", str(rate), "must be above 0", "give Hz, for instance rate=1000")
+    file, model = _on_arm(gain_file, robot)
+    loop = record_of(LoopEntry(period=1 / hertz), file.loop, model.loop)
+    assert loop is not None
+    return export(file, model, loop, robot)
+
+
+def decide(statement: Statement, m: int | None = None, n: int | None = None) -> Decision:
+    """Decide one statement that is made with the names of ``lyapcheck.claims``.
+
+    Args:
+        statement: what is claimed.
+        m: the order of h_m, for the record in its certificate.
+        n: the number of joints, likewise.
+
+    Soundness: a search proposes a proof or a counterexample. A fresh process of the checker decides.
+
+    Example:
+        >>> from lyapcheck.claims import identity, sinh, cosh, var
+        >>> x = var("x")
+        >>> decide(identity(cosh(x) ** 2 - sinh(x) ** 2, 1)).word
+        'proved'
+    """
+    from lyapcheck.certificate import Certificate
+    from lyapcheck.check.certificate import About
+    from lyapcheck.claims.decision import decided
+    from lyapcheck.claims.fresh_check import judge_afresh
+    from lyapcheck.claims.procedures import propose
+
+    finding, key = propose(statement), ("statement", m)
+    if finding.proof is None:
+        return decided(finding, None, statement)
+    about = About("statement", "", m, n, "")
+    made = Certificate(about, statement, finding.verdict.value, finding.grade.label, finding.proof)
+    return decided(finding, judge_afresh({key: made}).get(key), statement)
+
+
+def read_certificates(paths: Iterable[str | Path]) -> list[Document]:
+    """Find the certificates among files and folders, for `recheck`.
+
+    Args:
+        paths: files, and folders of which every ``.json`` file is read.
+
+    Raises:
+        Unreadable: a path that is no certificate file and no folder.
+    """
+    from lyapcheck.check.files import gather
+
+    return gather(paths)
+
+
+def _on_arm(gain_file: GainFile | str | Path, robot: str | None) -> tuple[GainFile, RobotModel]:
+    """The gain file and its arm.
+
+    Raises:
+        InputError: no arm is named.
+    """
+    from lyapcheck.control.gains import gain_file_of
+    from lyapcheck.robots import load
+    from lyapcheck.robots.choice import named
+
+    file = gain_file_of(gain_file)
+    name = named(robot, file.robot)
+    if name is None:
+        raise argument_error("robot", "", "is missing", 'give robot="buap3", or robot = "…" in the gain file')
+    return file, load(name)
+
+
+def _task(
+    model: RobotModel, target: Sequence[float] | None, start: Sequence[float] | None, seconds: float
+) -> Task:
+    """The motion between two postures in degrees."""
+    from lyapcheck.simulate.task import task_for
+
+    goal = [45.0] * model.n if target is None else target
+    first = None if start is None else [math.radians(x) for x in start]
+    return task_for(model.n, [math.radians(x) for x in goal], first, None, seconds)
