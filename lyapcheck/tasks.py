@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.bounds import Comparisons
     from lyapcheck.answers.export import Export
     from lyapcheck.answers.tune.response.answer import BenchTuning
-    from lyapcheck.check.files import Document
+    from lyapcheck.check.recheck import Document
     from lyapcheck.check.statement import Statement
     from lyapcheck.claims.decision import Decision
     from lyapcheck.control.gains import GainFile, GainSet
@@ -193,7 +193,7 @@ def read_certificates(paths: Iterable[str | Path]) -> list[Document]:
     Raises:
         Unreadable: a path that is no certificate file and no folder.
     """
-    from lyapcheck.check.files import gather
+    from lyapcheck.check.recheck import gather
 
     return gather(paths)
 
