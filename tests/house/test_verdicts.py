@@ -21,7 +21,7 @@ HEADING, SORTING, COLOURS = "a heading or a label", "an order in which verdicts 
 CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
-    "answers.bounds": (1, CERTIFICATE),
+    "answers.bounds.answer": (1, CERTIFICATE),
     "answers.check.proof": (4, "an order of verdicts, and a word that promises alone may say"),
     "answers.epsilon.result": (4, "the name of a rule"),
     "answers.epsilon.certificates": (3, CERTIFICATE),

@@ -1,4 +1,4 @@
-"""How far from their goal gain sets let an arm rest under dry friction: proved, beside simulated motions."""
+"""Errors at rest, proved beside simulated, for people and for programs."""
 
 from __future__ import annotations
 
@@ -6,52 +6,33 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from lyapcheck import asked
-from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.answers.assumed import arm_words, assumed_line, file_words
-from lyapcheck.answers.running import HoldsCheck, holds_checks, running_sentences
+from lyapcheck.answers.running import running_sentences
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
-from lyapcheck.check.kinds.resting import AtBounds, Resting
+from lyapcheck.check.kinds.resting import AtBounds
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED
-from lyapcheck.errors import argument_error
-from lyapcheck.family import named
+from lyapcheck.control.judgement import REJECTED
 from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import Field, table
-from lyapcheck.promise import Promise, all_say, promised
-from lyapcheck.robots.vary import corners, corners_text
-from lyapcheck.search.rest import resting
-from lyapcheck.simulate.closed_loop import SetPoint
-from lyapcheck.simulate.task import set_up
+from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
-    from lyapcheck.control.conditions import Check
-    from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.control.judgement import JudgedStatement
-    from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
-    from lyapcheck.simulate.task import Task
 
     Varied = tuple[RobotModel, Sequence[Vary]]
     """An arm with ranges, and which."""
 
-PLACES = 6
-"""Decimals of a degree."""
-POINTS, TOLERANCE = 1001, 1e-8
-"""Samples of a run, and its relative tolerance."""
-JUST_INSIDE = 0.95
-"""Where a run starts, next to the proved bound of rest: simulated friction lets a joint creep."""
+from lyapcheck.answers.bounds.compare import BoundsComparison
+
 MOST_ROWS = 12
 RULE = "what dry friction leaves of the errors at every state of rest is proved"
 NOTES = (
@@ -62,214 +43,6 @@ NOTES = (
 LEGEND = "proved: |e_i| at every state of rest is at most this, for dry friction up to what is stated."
 CORNERS = "simulated: the worst of one run at {}, which proves nothing of what lies between"
 NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
-
-
-@dataclass(frozen=True)
-class BoundsComparison:
-    """Bounds at rest, proved, and what was seen in runs with dry friction, in floating point.
-
-    Args:
-        gains: the gain set.
-        model: the arm.
-        dry: N·m, the most that dry friction of each joint may be; none where nothing is known of it.
-        promise: of the errors at rest, as they are printed; none where there are none.
-        reason: why a joint has no bound; empty where all have one.
-        task: the motion that was simulated.
-        delta: δ, rad.
-        simulated_time: s, from when on every |e_i| ≤ δ within the run; none if it was not reached.
-        simulated_largest: rad, the largest |e_i| of the run.
-        simulated_rest: rad, the largest |e_i| at the end of two runs: of the task, and of one let go just
-            inside the bound of rest.
-        varies: the ranges over which the bounds hold, as typed.
-        corners: at which of their corners runs were made; the worst of them counts.
-        unvaried: the same without these ranges, where something varies.
-        unknown: what gravity that the controller does not know makes of them, where a record says so.
-    """
-
-    gains: GainSet
-    model: RobotModel
-    dry: tuple[Fraction | None, ...]
-    promise: Promise | None
-    reason: str
-    task: Task
-    delta: float
-    simulated_time: float | None
-    simulated_largest: tuple[float, ...]
-    simulated_rest: tuple[float, ...]
-    varies: tuple[str, ...] = ()
-    corners: str = ""
-    unvaried: BoundsComparison | None = None
-    unknown: tuple[Check, ...] = ()
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """Names of the joints, base first."""
-        return self.model.joints
-
-    @property
-    def rest(self) -> tuple[Fraction | None, ...]:
-        """rad, |e_i| at every state of rest; none for a joint without a bound."""
-        return _errors(self.promise, len(self.joints))
-
-    @property
-    def rest_degrees(self) -> tuple[Fraction | None, ...]:
-        """The same in degrees."""
-        return tuple(None if error is None else error * DEGREES for error in self.rest)
-
-    @property
-    def proved(self) -> bool:
-        """Whether each joint has a bound, whatever gravity is unknown."""
-        return None not in self.rest and all(check.verdict == ACCEPTED for check in self.unknown)
-
-    @property
-    def falls(self) -> bool:
-        """Whether a joint is refuted to hold the gravity that the controller does not know."""
-        return any(check.verdict == REJECTED for check in self.unknown)
-
-    @property
-    def unknown_degrees(self) -> tuple[Fraction | None, ...]:
-        """Errors at rest with what is unknown as well; those of dry friction where that is nothing."""
-        result = list(self.rest_degrees)
-        for check in self.unknown:
-            if isinstance(check, HoldsCheck) and check.joint is not None:
-                result[check.joint] = None if check.error is None else check.error * DEGREES
-        return tuple(result)
-
-
-def compare(
-    gain_set: GainSet,
-    model: RobotModel,
-    task: Task,
-    delta: float,
-    dry: Sequence[Fraction] | None = None,
-    *,
-    varied: Varied | None = None,
-    record: LoopRecord | None = None,
-    on_progress: Progress | None = None,
-) -> BoundsComparison:
-    """The bounds at rest and the run.
-
-    Args:
-        gain_set: the controller, of a bounded family.
-        model: the arm.
-        task: start, goal and duration of the run.
-        delta: δ, rad.
-        dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
-        varied: the arm with ranges, and what varies; the bounds are asked over them as well.
-        record: what the controller does not know of gravity; runs know all of it.
-        on_progress: receives the share done.
-
-    Raises:
-        InputError: an unbounded h.
-    """
-    progress = on_progress or silent
-    if not named(gain_set.family, gain_set.m).bounded:
-        rule = f"{gain_set.name} has an unbounded h, of which no error at rest is judged"
-        raise argument_error("gains", gain_set.name, rule, "choose gains of a bounded family")
-    unvaried = None
-    if varied is not None:
-        unvaried = compare(gain_set, model, task, delta, dry, on_progress=part(progress, 0, 0.4))
-    whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
-    known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
-    most = tuple(known_most if dry is None else dry)
-    known = [f for f in most if f is not None]
-    shown = resting(gain_set, known) if len(known) == len(most) else None
-    promise, reason = (None, "") if shown is None else _promised(gain_set, known, shown)
-    errors = _errors(promise, model.n)
-    runs = []
-    for index, arm in enumerate(arms):
-        progress((0 if varied is None else 0.4) + 0.6 * index / len(arms), "simulation")
-        runs.append(_run(gain_set, arm, task, delta, dry, errors))
-    times, largest, last = zip(*runs, strict=True)
-    return BoundsComparison(
-        gains=gain_set,
-        model=model,
-        dry=most,
-        promise=promise,
-        reason=reason or _reason(gain_set, model.joints, most, errors),
-        task=task,
-        delta=delta,
-        simulated_time=None if None in times else max(times),
-        simulated_largest=tuple(np.max(largest, axis=0).tolist()),
-        simulated_rest=tuple(np.max(last, axis=0).tolist()),
-        varies=() if varied is None else tuple(one.text for one in varied[1]),
-        corners="" if varied is None else corners_text(*varied),
-        unvaried=unvaried,
-        unknown=()
-        if record is None or record.knows_gravity
-        else holds_checks(gain_set, whole, record, known if len(known) == len(most) else None),
-    )
-
-
-def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
-    """The promise of what is printed, in degrees and rounded up; or why there is none."""
-    assert isinstance(shown.statement, Resting)
-    unit = Fraction(1, 10**PLACES)
-    errors = [
-        None if error is None else ceil(error * DEGREES / unit) * unit / DEGREES
-        for error in shown.statement.errors
-    ]
-    return promised(asked.resting(gains, dry, errors), shown)
-
-
-def _errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
-    """rad, what is promised of each joint."""
-    if promise is None:
-        return (None,) * n
-    assert isinstance(promise.asked, Resting)
-    return promise.asked.errors
-
-
-def _reason(
-    gains: GainSet,
-    joints: tuple[str, ...],
-    dry: tuple[Fraction | None, ...],
-    errors: tuple[Fraction | None, ...],
-) -> str:
-    """Why joints have no bound, and what to do."""
-    unknown = [joint for joint, f in zip(joints, dry, strict=True) if f is None]
-    if unknown:
-        return (
-            f"nothing is known of the dry friction of {', '.join(unknown)}; give --friction, or state it as "
-            "coulomb in the arm file"
-        )
-    rows = zip(joints, gains.kp, dry, errors, strict=True)
-    weak = [
-        f"k_p = {decimal_text(k)} N·m of {joint} does not exceed its dry friction of {decimal_text(f)} N·m"
-        for joint, k, f, e in rows
-        if e is None and f is not None and f >= k
-    ]
-    if weak:
-        return f"{'; '.join(weak)}: raise k_p"
-    return "" if None not in errors else "h at the bounds does not decide it; raise k_p"
-
-
-def _run(
-    gain_set: GainSet,
-    model: RobotModel,
-    task: Task,
-    delta: float,
-    dry: Sequence[Fraction] | None,
-    errors: Sequence[Fraction | None],
-) -> tuple[float | None, Array, Array]:
-    """Time, largest and last errors of the task, and the last of a motion let go just inside the bound."""
-    known = [0.0 if number is None else float(number.value) for number in model.coulomb]
-    friction = known if dry is None else [float(f) for f in dry]
-    let_go = [x - JUST_INSIDE * float(e or 0) for x, e in zip(task.q_d, errors, strict=True)]
-    starts = ((task.q0, task.w0), (let_go, None))
-    setups = (set_up(gain_set, model, task.q_d, q0, w0, T=task.T, eps0=None) for q0, w0 in starts)
-    paths = [SetPoint(one, POINTS, friction).once(TOLERANCE) for one in setups]
-    e, other = (np.abs(np.array(task.q_d) - path.y[:, : model.n]) for path in paths)
-    return inside_from(paths[0].t, e, delta), e.max(axis=0), np.maximum(e[-1], other[-1])
-
-
-def inside_from(t: Array, e: Array, delta: float) -> float | None:
-    """The first sample from which on every |e_i| ≤ δ."""
-    outside = np.flatnonzero(np.abs(e).max(axis=1) > delta)
-    if outside.size == 0:
-        return float(t[0])
-    last = int(outside[-1])
-    return float(t[last + 1]) if last + 1 < t.size else None
 
 
 @dataclass(frozen=True)
