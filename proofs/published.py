@@ -903,6 +903,25 @@ for figure, gains in (("4", ("47", "120", "10")),):
         stands="ours",
     )
 proof.add(
+    "F.reach",
+    f"Figs. 6 and 8 show torques beyond k_p γ + k_v γ + k_g of Table 2, and {READING} N·m more",
+    all_of(
+        **{
+            f"figure_{f}_{joint}": Constant(
+                (expr(TABLE_2[name][1][k]) + TABLE_2[name][2][k]) * gamma(int(name[1]))
+                + GRAVITY[joint]
+                + READING
+                < expr(at)
+            )
+            for f, name, joint, at in FIGURES
+            if f in ("6", "8")
+            for k in [JOINTS.index(joint)]
+        }
+    ),
+    "Figs. 6 and 8",
+    stands="ours",
+)
+proof.add(
     "F.limits",
     "the torques that the figures show at the start are inside the limits of Table 1",
     all_of(**{f"figure_{f}_{joint}": Constant(expr(at) <= TABLE_1[joint]) for f, _, joint, at in FIGURES}),
@@ -1002,8 +1021,8 @@ def _(m):
     stands="ours",
 )
 def _(n, robot):
-    """Where every q̇_i is x."""
-    C_q, here = coriolis_matrix(robot.fixed(), [x] * n), {f"q{i}": 1 for i in range(1, n + 1)}
+    """Where every q̇_i is x thousand rad/s."""
+    C_q, here = coriolis_matrix(robot.fixed(), [1000 * x] * n), {f"q{i}": 1 for i in range(1, n + 1)}
     rows = zip(robot.joints, C_q, torque_limits(robot), strict=True)
     return all_of(**{joint: for_all(total(row).at(**here) <= limit) for joint, row, limit in rows})
 

@@ -70,7 +70,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     study = None if subject.own else printed_experiment(of_the_report, model)
     cells, for_sets = jobs.map.result().result
     parts = [with_the_map(job.result().result, for_sets) for job in jobs.sets]
-    proofs, small = jobs.proofs.result().result
+    proofs, small, by_size = jobs.proofs.result().result
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
@@ -101,6 +101,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         epsilon=epsilon,
         claims=claims,
         others=tuple(row for row in rows if row.proof != "published"),
+        by_size=by_size,
         runs=runs,
         sensitivity=study,
         findings=weighed,

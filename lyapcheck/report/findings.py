@@ -29,7 +29,10 @@ if TYPE_CHECKING:
 SAME = 0.02
 """An index of the nominal arm this close to the printed one, relatively, counts as confirmed."""
 LIGHTER = {"Section 4": "C", "Section 5": "D"}
-"""What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``."""
+"""What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``.
+
+One that no sentence of the paper makes weighs ``E``.
+"""
 Small = Mapping[str, WitnessRow]
 
 
@@ -102,12 +105,15 @@ def _finding(
         fails=note.fails,
         consequence=note.consequence,
         repair=note.repair,
+        mended=note.mended,
         witness=witness,
         figure=(own.figure if own else "") or note.figure,
     )
 
 
 def _lighter(rows: Sequence[ClaimRow]) -> str:
+    if rows and all(row.stands == "ours" for row in rows):
+        return "E"
     parts = (weight for part, weight in LIGHTER.items() if rows and rows[0].section.startswith(part))
     return next(parts, "B")
 

@@ -14,10 +14,11 @@ from lyapcheck.errors import InputError
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import KINDS, LINKED, EpsilonRow, RunRow
+from lyapcheck.report.model import KINDS, LINKED, BySize, EpsilonRow, RunRow
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.check import ClaimResult
     from lyapcheck.answers.derive import Derivation
     from lyapcheck.certificate import Certificate
     from lyapcheck.claims.smallest import RefutedBelow
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
 
-    Proofs = tuple[list["ProofData"], dict[str, RefutedBelow]]
-    """The paper's claims and then those of the other proofs, and small witnesses of what is refuted."""
+    Proofs = tuple[list["ProofData"], dict[str, RefutedBelow], tuple[BySize, ...]]
+    """The paper's claims, then those of the other proofs; small witnesses; verdicts that change with n."""
     Map = tuple[list[MapCell], dict[str, Certificate]]
 
 REST = 0.7853981633974483
@@ -54,6 +55,9 @@ OTHERS = {
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
 CHAIN = "Section 3"
 """The part of the paper whose refuted claims deserve a small witness."""
+SIZES = range(1, 7)
+"""How many joints the paper's claims of these kinds are asked for; others are for every n, or of an arm."""
+OF_NORMS = ("NormBound", "Implies", "ForSmall")
 MODULES = {"python-flint": "flint"}
 """How a package is imported, where that is not its name."""
 SHOWN = 6
@@ -153,7 +157,7 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
     wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
     if own:
         chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
-        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], {}
+        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], {}, ()
     proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
     wanted: dict[str, list[int]] = {}
     for row in proofs[0].rows:
@@ -164,7 +168,26 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
         if note.ask and sets and not wanted.keys() & set(note.claims):
             wanted |= {name: [note.ask["m"]] for name in note.claims}
             sets.setdefault(note.ask["m"], next(iter(sets.values())))
-    return proofs, smallest_witnesses(PROOF, wanted, load(robot), sets)
+    return proofs, smallest_witnesses(PROOF, wanted, load(robot), sets), _by_size(proofs[0].rows, ms)
+
+
+def _by_size(rows: Sequence[ClaimRow], ms: Sequence[int]) -> tuple[BySize, ...]:
+    """The claims about norms and between numbers, for each n of ``SIZES``, where the verdicts differ."""
+    from lyapcheck.answers.check.run import run_proof
+
+    its_own = (row for row in rows if row.stands != "ours" and row.n is not None)
+    only = list(dict.fromkeys(row.id for row in its_own if row.kind in OF_NORMS))
+    found: dict[tuple[str, int | None], dict[int, ClaimResult]] = {}
+    for n in SIZES:
+        for row in run_proof(PROOF, ms, n=n, only=only).claims:
+            found.setdefault((row.id, row.m), {})[n] = row
+    changing = {
+        key: sizes for key, sizes in found.items() if len({row.verdict for row in sizes.values()}) > 1
+    }
+    return tuple(
+        BySize(claim, m, sizes[SIZES[0]].comment, {n: row.verdict.value for n, row in sizes.items()})
+        for (claim, m), sizes in changing.items()
+    )
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:

@@ -124,6 +124,13 @@ GRADES = {
 }
 
 
+WHOSE = {
+    "quoted": "The paper's own.",
+    "implied": "Implied: the paper's argument or its tables rely on it.",
+    "ours": "Ours: a further question or a repair. It can be no error of the paper.",
+}
+
+
 def claims_section(report: Report) -> Markup:
     """The claims of the paper and of the proofs that go round it, each with all its members."""
     rows = report.every_claim
@@ -244,7 +251,8 @@ def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str
 
 def _chip(row: ClaimRow) -> Markup:
     word, verdict = row.decision.word, row.verdict
-    member = " ".join([*filter(None, [row.gains]), *([] if row.m is None else [f"m={row.m}"]), ""])
+    letters = (f"{name}={value}" for name, value in (("m", row.m), ("n", row.n)) if value is not None)
+    member = " ".join([*filter(None, [row.gains]), *letters, ""])
     shown = [element("span", member, class_="m"), f"{SYMBOLS[verdict]} {word}"]
     return element("span", shown, class_=f"chip {verdict}", data_m=row.m)
 
@@ -256,6 +264,7 @@ def _details(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[s
     carries = [element("a", name, href=f"#{name}") for name in used_by.get(own, ())]
     lines = [
         _line("In the paper", _place(report, first)) if first.place else None,
+        _line("Whose sentence", WHOSE[first.stands]) if first.proof == "published" else None,
         _line("Rests on", _joined(rests)) if rests else None,
         _line("Carries", _joined(carries)) if carries else None,
     ]
