@@ -999,6 +999,7 @@ for name, says, statement in CONCLUSIONS:
 
 proof.adopt("scalar.py", "h.bounds", section="Section 3: the family")
 proof.adopt("tracking.py", "21", section="Remark II: tracking by (21)", stands="quoted")
+proof.section("Remark II: tracking by (21)")
 
 
 @proof.claim("21.rest", "if q_d is constant, (21) becomes (6), for every n", "Remark II, (21)")

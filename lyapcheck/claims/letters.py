@@ -95,7 +95,7 @@ def _vector(other: object) -> AnyVector:
         )
     if not isinstance(other, AnyVector):
         raise TypeError(
-            f"@ multiplies vectors and matrices, and a {type(other).__name__} is neither; write s * x for numbers"
+            f"@ multiplies vectors and matrices, and a {type(other).__name__} is neither; write s * x"
         )
     return other
 
