@@ -10,7 +10,7 @@ from itertools import groupby
 from lyapcheck.output.html import fold
 from lyapcheck.output.mathml import Markup, element, latex, sentence
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import Report, anchor
+from lyapcheck.report.model import Report, anchor, behind
 from lyapcheck.report.text import SYMBOLS, plural
 from lyapcheck.verdicts import Verdict
 
@@ -191,7 +191,7 @@ def _graph(report: Report) -> Markup:
     chosen = [row for row in report.claims if row.m in (m, None)]
     words = (
         f"What rests on what in the paper, for m = {m}: each claim stands right of those it uses; "
-        "click one to read it."
+        "click one to read it. Point at a refuted one to see what falls with it."
     )
     folded = element(
         "div",
@@ -201,7 +201,26 @@ def _graph(report: Report) -> Markup:
         role="region",
         aria_label="Graph",
     )
-    return fold("The graph of claims", folded, element("p", words), classes="fold graph", opened=True)
+    return fold(
+        "The graph of claims", folded, element("p", words), _falls(chosen), classes="fold graph", opened=True
+    )
+
+
+def _falls(rows: Sequence[ClaimRow]) -> Markup | None:
+    """The refuted claims that others rest on, each with all that falls with it, directly or not."""
+    lines = []
+    for row in rows:
+        fallen = [one for one in rows if one.id != row.id and row.id in behind(one.id, rows)]
+        if row.verdict == "refuted" and fallen:
+            links = _joined([_link(one.proof, one.id) for one in fallen])
+            head = element("th", _link(row.proof, row.id), scope="row")
+            lines.append(element("tr", head, element("td", links)))
+    if not lines:
+        return None
+    heads = [
+        element("th", words, scope="col") for words in ("refuted", "what falls with it, as it is printed")
+    ]
+    return element("table", element("thead", element("tr", heads)), element("tbody", lines))
 
 
 def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
