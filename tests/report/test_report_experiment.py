@@ -51,7 +51,7 @@ def found():
 @pytest.fixture(scope="module")
 def files(found):
     model = load("buap3")
-    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "map"), ())
+    empty = dict.fromkeys(("epsilon", "claims", "others", "by_size", "runs", "map"), ())
     found_out = findings(NOTES, (), {}, (), found)
     report = Report(
         robot=model,

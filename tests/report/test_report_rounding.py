@@ -40,7 +40,7 @@ def test_the_drawing_shows_none_either(maps):
 
 def test_the_map_of_a_report_shows_an_eps0_as_it_is_proved():
     cells = tuple(MapCell(1, kv, eps0, 1.0, 0.5, True) for kv, eps0 in PROVED.items())
-    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
+    empty = dict.fromkeys(("epsilon", "claims", "others", "by_size", "runs", "findings"), ())
     empty |= {"sensitivity": None, "figures": {}}
     about = {"robot": load("buap3"), "table": build_table((1,)), "gate": GateAnswer(()), "map": cells}
     about |= {"derived": derivation(1)}
