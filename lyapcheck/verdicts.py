@@ -59,3 +59,7 @@ def exit_code(verdicts: Iterable[Verdict]) -> Exit:
     if Verdict.UNDECIDED in result or not result:
         return Exit.UNDECIDED
     return Exit.PROVED
+
+
+STANDS = ("quoted", "implied", "ours")
+"""Whose sentence a claim is: the text's own, one that the text needs or relies on, or one of the script's."""

@@ -2,6 +2,8 @@
 
 Every claim says what the paper says and states it as data; what comes of it is computed.
 Ids follow the numbers of the paper's equations; e is q̃ and w is q̇.
+``stands`` says whose sentence a claim is: quoted from the paper, implied by its argument, or ours.
+Ours can be no error of the paper: further questions, and the repairs that reports print (R).
 
 What the proposition says is classical by LaSalle's theorem (``kelly_santibanez.py``). Here it is about the
 printed proof of it; where that breaks, ``scalar.py`` and ``every_function.py`` go round.
@@ -18,12 +20,14 @@ from lyapcheck.claims import (
     above,
     agrees,
     all_of,
+    any_vector,
     below,
     bounded,
     companion,
     constant_goal,
     coriolis_at_rest,
     coriolis_bounded,
+    coriolis_matrix,
     damping_below,
     dh,
     diagonal,
@@ -59,15 +63,62 @@ from lyapcheck.claims import (
     total,
     var,
     vector,
+    zero_vector,
 )
 
 proof = Proof(
     "published",
     "A family of hyperbolic-type control schemes for robot manipulators, as published",
     reference="reyes2019family",
+    stands="quoted",
 )
 
 x = var("x")
+
+proof.section("Section 1: the literature")
+
+PD, PID = "takegaki_arimoto.py", "pid.py"
+proof.add(
+    "1.PD",
+    "PD control with gravity compensation regulates an arm globally",
+    companion(PD).theorem,
+    "Section 1, [31]",
+)
+proof.add(
+    "1.PID",
+    "PID control is asymptotically stable in a region about the goal",
+    companion(PID).theorem(),
+    "Section 1, [13, 33]",
+)
+
+
+def not_decidable_here(reason):
+    """The statement of a sentence that no computation decides."""
+
+    def state():
+        raise lacking(f"not decidable here: {reason}")
+
+    return state
+
+
+proof.add(
+    "1.local",
+    "for PID control, until now, stability is valid only in a local sense",
+    not_decidable_here("what was known at a date is a question to libraries"),
+    "Section 1, [13, 33]",
+)
+proof.add(
+    "1.others",
+    "what the other works cited show, of their own controllers",
+    not_decidable_here("their texts are not part of this paper; proofs/ has some of them"),
+    "Section 1, [1] to [34]",
+)
+proof.add(
+    "1.first",
+    "the family is the first in joint space that combines bounded hyperbolic functions so",
+    not_decidable_here("what was known at a date is a question to libraries"),
+    "Section 1",
+)
 
 proof.section("Section 2: the robot")
 
@@ -78,6 +129,16 @@ def _(robot):
 
 
 proof.add("2.2", "a constant β_M bounds ‖M(q)‖", mass_bounded, "Property 2.2, (2)")
+
+
+@proof.claim("2.2.strict", "‖M(q)‖ < β_M strictly, as (2) is printed, for some β_M", "(2)")
+def _(robot):
+    """Below any bound lies every other."""
+    N = Reals()
+    (shown, more), (size,) = N.positive("shown more"), N.nonnegative("size")
+    return all_of(bounded=mass_bounded(robot), larger=N.implies((size <= shown,), size < shown + more))
+
+
 proof.add("2.3", "C(q, 0) = 0", coriolis_at_rest, "Property 2.3")
 proof.add("2.4", "Ṁ(q) = C(q,q̇)ᵀ + C(q,q̇), and both are symmetric", rate_of_mass, "Property 2.4, (3)")
 proof.add(
@@ -134,6 +195,11 @@ def _(m):
     return Constant(gamma(m) < gamma(m + 1))
 
 
+@proof.claim("7p", "γ_m is the peak of h_m: above 1, to which h_m tends", "after (7)")
+def _(m):
+    return Constant(expr(1) < gamma(m))
+
+
 @proof.claim("8", "the printed derivative is the derivative of h_m", "(8)")
 def _(m):
     return identity(diff(h(m, x), "x"), dh(m, x))
@@ -172,12 +238,27 @@ def _(n):
     return T.implies((triangle, norm_h_e <= sqrt(n) * γ, norm_h_w <= sqrt(n) * γ), bound_9(n))
 
 
+@proof.claim("9.hold", "‖g‖ ≤ ‖τmax‖, by (9), lets the motors hold the arm at rest at every q_d", "after (9)")
+def _(n):
+    """Joint by joint: the first joint stands for each."""
+    N, joints = Reals(), range(1, n + 1)
+    g, limit = (N.nonnegative(" ".join(f"{kind}{i}" for i in joints)) for kind in ("abs_g", "limit"))
+    norms = total(g_i**2 for g_i in g) <= total(limit_i**2 for limit_i in limit)
+    return N.implies((norms,), g[0] ** 2 <= limit[0] ** 2)
+
+
+@proof.claim("9.hold.arm", "the motors of this arm can hold it at rest at every q_d", "after (9)")
+def _(robot):
+    rows = zip(robot.joints, gravity_bounds(robot), torque_limits(robot), strict=True)
+    return all_of(**{joint: Constant(expr(gravity) <= limit) for joint, gravity, limit in rows})
+
+
 @proof.claim("10", "λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ) implies ‖τ‖ ≤ ‖τmax‖", "(10)", uses=["9"])
 def _(n):
     return T.implies((bound_9(n), kp + kv <= (τ_max - k_g) / (sqrt(n) * γ)), norm_τ <= τ_max)
 
 
-@proof.claim("10j", "condition (10) keeps every joint's torque inside its own limit", "after (10); Remark I")
+@proof.claim("10j", "condition (10) keeps every joint's torque inside its own limit", "Remark I")
 def _(m, n, robot):
     limits, gravity = torque_limits(robot), gravity_bounds(robot)
     norm, bound = (sqrt(total(expr(value) ** 2 for value in values)) for values in (limits, gravity))
@@ -219,6 +300,7 @@ def bounded_torque(share, gravity, limit):
     "k_pi + k_vi < (τmax_i − k_gi)/(√n γ) implies |τ_i| ≤ τmax_i",
     "Section 4, tuning rule",
     uses=["7a", "2.8"],
+    stands="implied",
 )
 def _(n):
     triangle = norm_τ <= kp * abs_h_e + kv * abs_h_w + abs_g
@@ -227,7 +309,10 @@ def _(n):
 
 
 @proof.claim(
-    "10p.gains", "the gains at hand meet the per-joint rule with the true γ", "Section 4, tuning rule"
+    "10p.gains",
+    "the gains at hand meet the per-joint rule with the true γ",
+    "Section 4, tuning rule",
+    stands="implied",
 )
 def _(m, n, robot, gains):
     rows = zip(robot.joints, gains.kp, gains.kv, torque_limits(robot), gravity_bounds(robot), strict=True)
@@ -307,7 +392,7 @@ def _(m):
     return property_of("V is radially unbounded", V_of(m))
 
 
-@proof.claim("12d", "V is differentiable at q̃ = 0, where ‖q̃‖ is not", "(12)", uses=["8"])
+@proof.claim("12d", "V is differentiable at q̃ = 0, where ‖q̃‖ is not", "(12)", uses=["8"], stands="implied")
 def _(m):
     return property_of("V is continuously differentiable", V_of(m))
 
@@ -337,6 +422,16 @@ def _():
         terms_9_and_13=every_n(t[8] + t[12], -ε_e * h_e @ C.T @ w, positive=[r]),
         sum=every_n(total(t), total(loops.terms(S)), positive=[r]),
     )
+
+
+FIRST = Reals()
+μ, (y_w, y_h) = FIRST.positive("mu")[0], FIRST.real("w eps_h")
+
+
+@proof.claim("13.first", "the first term of (13) is positive definite in q̃ and q̇", "after (13)")
+def _():
+    """In one joint: as ε₀ is any positive number, εh(q̃) is any real one."""
+    return FIRST.implies((expr(0) < y_w**2 + y_h**2,), expr(0) < μ * (y_w - y_h) ** 2 / 2)
 
 
 proof.section("Section 3: the bounds of (16)")
@@ -462,7 +557,7 @@ TERMS = (
 
 for k, says, known, rests_on in TERMS:
 
-    @proof.claim(f"16.{k}", says, f"(16), term {k}", uses=[*rests_on, "15"])
+    @proof.claim(f"16.{k}", says, f"(16), term {k}", uses=[*rests_on, "15"], stands="implied")
     def _(m, n, k=k, known=known):
         """Of term 8 by L = sup h(x)/x, as L² ≤ nργ; the norm of diag(h') is at most that of the vector h'."""
         if k == 6:
@@ -517,17 +612,17 @@ def det_positive(n):
 
 LINE_1, LINE_2 = (partial(line_17, with_eps0=yes) for yes in (True, False))
 IMPLICATIONS = (
-    ("17a", "the first line of (17) implies det Θ > 0", "(17)", LINE_1, det_positive),
-    ("17b", "det Θ > 0 implies the first line of (17)", "(17)", det_positive, LINE_1),
-    ("17c", "the second line of (17) implies the first", "(17)", LINE_2, LINE_1),
-    ("17d", "the first line of (17) implies the second", "(17)", LINE_1, LINE_2),
-    ("18", "every ε₀ in (18) makes Θ positive definite", "(18)", LINE_2, det_positive),
+    ("17a", "the first line of (17) implies det Θ > 0", "quoted", LINE_1, det_positive),
+    ("17b", "det Θ > 0 implies the first line of (17)", "ours", det_positive, LINE_1),
+    ("17c", "the second line of (17) implies the first", "implied", LINE_2, LINE_1),
+    ("17d", "the first line of (17) implies the second", "quoted", LINE_1, LINE_2),
+    ("18", "every ε₀ in (18) makes Θ positive definite", "implied", LINE_2, det_positive),
 )
 """(18) is the second line of (17), solved for ε; Θ ≻ 0 needs det Θ > 0."""
 
-for name, says, place, given, conclusion in IMPLICATIONS:
+for name, says, stands, given, conclusion in IMPLICATIONS:
 
-    @proof.claim(name, says, place)
+    @proof.claim(name, says, f"({name[:2]})", stands=stands)
     def _(n, given=given, conclusion=conclusion):
         return implies(tuple(R.known.values()), (share <= 1, given(n)), conclusion(n))
 
@@ -541,6 +636,16 @@ def end_18(n):
 def condition_19(n, **numbers):
     """λmax(K_v) < λmin(B)/(√n γ)."""
     return kv.at(**numbers) < (b / (sqrt(n) * γ)).at(**numbers)
+
+
+@proof.claim(
+    "12.any",
+    "ε₀ is any positive number: given (19), each makes Θ positive definite",
+    "(12)",
+    stands="implied",
+)
+def _(n):
+    return implies(tuple(R.known.values()), (share <= 1, condition_19(n)), det_positive(n))
 
 
 @proof.claim("18e", "given (19), some ε₀ > 0 makes Θ positive definite", "(18), (19)")
@@ -561,7 +666,12 @@ def _(n):
     )
 
 
-@proof.claim("19n", "(19) is necessary: gains that break it admit no ε₀ > 0 with dV/dt < 0", "after (19)")
+@proof.claim(
+    "19n",
+    "(19) is necessary: gains that break it admit no ε₀ > 0 with dV/dt < 0",
+    "after (19)",
+    stands="ours",
+)
 def _(m, n, robot, gains):
     """For the gains at hand and all gains with another multiple of their K_v."""
     least = min(number.value for number in robot.viscous)
@@ -579,6 +689,7 @@ def numbers_at_hand(m, robot, gains):
     "18.gains",
     "for the gains at hand, with bounds of β_M and k_c, every ε₀ in (18) makes Θ positive definite",
     "(18)",
+    stands="implied",
 )
 def _(m, n, robot, gains):
     """At q̃ = 0, where ε = ε₀ is largest, for ε₀ = x times the end of (18), 0 < x < 1."""
@@ -591,7 +702,7 @@ def _(m, n, robot, gains):
     return for_all(ε0 / 4 * (flat + ε0 * steep) ** 2 < whole * low, 0, 1, open_low=True, open_high=True)
 
 
-@proof.claim("19.gains", "the gains at hand meet (19) with the true γ", "(19)")
+@proof.claim("19.gains", "the gains at hand meet (19) with the true γ", "(19)", stands="implied")
 def _(m, n, robot, gains):
     return Constant(condition_19(n, **numbers_at_hand(m, robot, gains)))
 
@@ -613,6 +724,15 @@ def _(m):
     form = ε * reach**2 * K_p.min * a**2 - ε * side * a * b + low * b**2
     return strict(loop, V, rate=form, where=[reach * K_v.max < B.min], small=True, **lower)
 
+
+proof.add(
+    "P.strict",
+    "dV/dt is negative definite because V > 0 and dV/dt < 0 are satisfied",
+    not_decidable_here(
+        "the sentence gives what it concludes as its reason; dV/dt < 0 is claim 16, and scalar.py proves it"
+    ),
+    "after (19)",
+)
 
 proof.section("Section 4: Tables 1 and 2")
 
@@ -637,6 +757,7 @@ for name, (torque, *_) in TABLE_2.items():
             f"Table 2 ({name}) repeats Table 1's torque limit of the {joint}: {value} N·m",
             identity(value, TABLE_1[joint]),
             "Tables 1 and 2",
+            stands="implied",
         )
 
 
@@ -656,12 +777,14 @@ for m in (1, 2, 3):
             f"the gains of m{m} meet the per-joint rule with the {source} γ_{m}",
             meets_10p(f"m{m}", bound),
             "Section 4, Table 2",
+            stands="implied",
         )
         proof.add(
             f"T2.19.m{m}.{source}",
             f"λmax(K_v) = {largest} of m{m} meets (19) with the {source} γ_{m}",
             Constant(expr(largest) < expr(VISCOUS_MIN) / (sqrt(3) * bound)),
             "(19), Table 2",
+            stands="implied",
         )
 
 _, PD_KP, PD_KV = TABLE_2["pd"]
@@ -701,15 +824,36 @@ for name, (*errors, norm) in STEADY.items():
         "Section 4",
     )
 
+SETTLING = ("1.4", "0.994", "0.997", "0.929", "0.892", "0.923", "0.867", "1.14", "0.959", "0.952")
+proof.add(
+    "S4.period",
+    "the sampling period, 2.5 ms, is less than 10 % of every settling time that is printed",
+    all_of(**{f"of_{k}": Constant(expr("0.0025") < expr(s) / 10) for k, s in enumerate(SETTLING, 1)}),
+    "Section 4",
+)
+
 L2 = {"m1": "25.4006", "m2": "24.6892", "m3": "23.4006", "pd": "27.8546"}
 ratio = var("L2") / var("L2_pd")
-for name, percent in (("m1", "8"), ("m2", "11.36"), ("m3", "16")):
+
+
+def near(value, printed, by):
+    """A number is a printed one, or at most so far from it."""
+    return all_of(above=Constant(expr(printed) - by <= value), below=Constant(value <= expr(printed) + by))
+
+
+for name, percent in (("m1", "8"), ("m3", "16")):
     proof.add(
         f"S4.percent.{name}",
-        f"{name} improves the L2 index of the PD by {percent} %",
-        agrees(100 * (1 - ratio), percent, L2=L2[name], L2_pd=L2["pd"]),
+        f"{name} improves the L2 index of the PD by roughly {percent} %, that is to one part in a hundred",
+        near(100 * (1 - expr(L2[name]) / L2["pd"]), percent, 1),
         "Section 4",
     )
+proof.add(
+    "S4.percent.m2",
+    "m2 improves the L2 index of the PD by 11.36 %",
+    agrees(100 * (1 - ratio), "11.36", L2=L2["m2"], L2_pd=L2["pd"]),
+    "Section 4",
+)
 proof.add(
     "S4.ratio.m3",
     "the L2 index of m3 is 84 % of that of the PD",
@@ -729,16 +873,66 @@ FIGURES = (
     ("10", "pd", "shoulder", "120"),
     ("10", "pd", "elbow", "12"),
 )
+READING = "2"
+"""N·m by which a torque may be misread in a plot."""
+
+
+def response(name, joint):
+    """h_m of the first error, or the error itself in degrees."""
+    degrees = expr(INITIAL_ERROR[JOINTS.index(joint)])
+    return degrees if name == "pd" else h(int(name[1]), degrees * pi / 180)
+
+
 for figure, name, joint, torque in FIGURES:
-    index = JOINTS.index(joint)
-    degrees = expr(INITIAL_ERROR[index])
-    response = degrees if name == "pd" else h(int(name[1]), degrees * pi / 180)
+    gain = TABLE_2[name][1][JOINTS.index(joint)]
     proof.add(
         f"F.{figure}.{joint}",
-        f"Fig. {figure} starts at the torque that Table 2 gives for the {joint}: {torque} N·m",
-        agrees(var("kp") * response, torque, solve_for="kp", kp=TABLE_2[name][1][index]),
+        f"Fig. {figure} starts at the torque that Table 2 gives for the {joint}: {torque} N·m, "
+        f"read to ± {READING} N·m",
+        near(gain * response(name, joint), torque, READING),
         f"Fig. {figure}",
+        stands="implied",
     )
+for figure, gains in (("4", ("47", "120", "10")),):
+    fits = [(gain, *row[1:]) for row in FIGURES if row[0] == figure for gain in [gains[JOINTS.index(row[2])]]]
+    proof.add(
+        f"F.{figure}.fit",
+        f"gains of {', '.join(gains)} give the torques of Fig. {figure} to ± 0.005 N·m",
+        all_of(**{joint: agrees(var("kp") * response(name, joint), at, kp=k) for k, name, joint, at in fits}),
+        f"Fig. {figure}",
+        stands="ours",
+    )
+proof.add(
+    "F.reach",
+    f"Figs. 6 and 8 show torques beyond k_p γ + k_v γ + k_g of Table 2, and {READING} N·m more",
+    all_of(
+        **{
+            f"figure_{f}_{joint}": Constant(
+                (expr(TABLE_2[name][1][k]) + TABLE_2[name][2][k]) * gamma(int(name[1]))
+                + GRAVITY[joint]
+                + READING
+                < expr(at)
+            )
+            for f, name, joint, at in FIGURES
+            if f in ("6", "8")
+            for k in [JOINTS.index(joint)]
+        }
+    ),
+    "Figs. 6 and 8",
+    stands="ours",
+)
+proof.add(
+    "F.limits",
+    "the torques that the figures show at the start are inside the limits of Table 1",
+    all_of(**{f"figure_{f}_{joint}": Constant(expr(at) <= TABLE_1[joint]) for f, _, joint, at in FIGURES}),
+    "Section 4; Remark I",
+)
+proof.add(
+    "F.limits.later",
+    "all torques stay inside the limits of Table 1 until the end of each run",
+    not_decidable_here("the runs are printed as pictures only; 10p.gains decides it for all motions of (11)"),
+    "Section 4; Remark I",
+)
 
 proof.section("Section 5: conclusions")
 
@@ -798,9 +992,105 @@ CONCLUSIONS = (
     ),
 )
 for name, says, statement in CONCLUSIONS:
-    proof.add(f"S5.{name}", says, statement, "Section 5")
+    whose = "quoted" if name == "norm" else "ours"
+    proof.add(f"S5.{name}", says, statement, "Section 5", stands=whose)
 
 # Remark II: tracking --------------------------------------------------------------------------------------
 
 proof.adopt("scalar.py", "h.bounds", section="Section 3: the family")
-proof.adopt("tracking.py", "21", section="Remark II: tracking by (21)")
+proof.adopt("tracking.py", "21", section="Remark II: tracking by (21)", stands="quoted")
+proof.section("Remark II: tracking by (21)")
+
+
+@proof.claim("21.rest", "if q_d is constant, (21) becomes (6), for every n", "Remark II, (21)")
+def _(m):
+    """Against any vector z: q̇_d = 0, q̈_d = 0 and dq̃/dt = −q̇, whose h is −h(q̇) by entries."""
+    z, still = any_vector("z"), zero_vector()
+    h_rate = -h_w
+    torque_21 = K_p @ h_e + K_v @ h_rate + M @ still + C @ still + any_vector("g") + B @ still
+    return all_of(
+        odd=identity(h(m, -x), -h(m, x)),
+        every_n=every_n(z @ torque_21, z @ (K_p @ h_e - K_v @ h_w + any_vector("g"))),
+    )
+
+
+@proof.claim(
+    "21.torque",
+    "the torque C(q, q̇)q̇_d in (21) has a bound: for q = 1 rad and q̇_d = 1 rad/s in every joint it stays "
+    "inside the motor's limit, whatever q̇ is",
+    "Remark II, (21)",
+    stands="ours",
+)
+def _(n, robot):
+    """Where every q̇_i is x thousand rad/s."""
+    C_q, here = coriolis_matrix(robot.fixed(), [1000 * x] * n), {f"q{i}": 1 for i in range(1, n + 1)}
+    rows = zip(robot.joints, C_q, torque_limits(robot), strict=True)
+    return all_of(**{joint: for_all(total(row).at(**here) <= limit) for joint, row, limit in rows})
+
+
+proof.section("Repairs", stands="ours")
+
+proof.add("R.7b", "‖h_m(x)‖ ≤ L_m‖x‖", lambda m, n: norm_bound(h(m, x), n, secant_of(m), power=1), "(7)")
+ROUNDED_UP = {1: "1", 2: "1.054", 3: "1.115"}
+
+
+@proof.claim("R.7g", "γ_m rounded up (1, 1.054, 1.115 for m = 1, 2, 3) bounds h_m", "Table 2")
+def _(m):
+    if m not in ROUNDED_UP:
+        raise lacking(f"the repair names no γ for m = {m}; it does for m = 1, 2, 3")
+    return for_all(h(m, x) <= ROUNDED_UP[m])
+
+
+@proof.claim("R.8b", "‖(h_m'(x_i))_i‖ ≤ √n ρ_m ‖x‖ for m ≥ 2 and n ≥ 2", "(8), second line")
+def _(m, n):
+    if m < 2 or n < 2:
+        raise lacking("the repair is for m ≥ 2 and n ≥ 2; 8b says what becomes of the others")
+    return norm_bound(dh(m, x), n, sqrt(n) * rho(m), 1)
+
+
+@proof.claim(
+    "R.9.hold", "k_gi ≤ τmax_i in each joint: its motor can hold the arm at rest at every q_d", "(9)"
+)
+def _():
+    return T.implies((abs_g <= k_g, k_g <= τ_max), abs_g <= τ_max)
+
+
+@proof.claim("R.16.6", "−ε hᵀK_p h ≤ −ε λmin(K_p)‖h‖², for every n", "(16), term 6")
+def _():
+    size = var("a")
+    return loops.term_at_most(Z, 6, -Z.eps * kp * size**2, [(h_e, size)], [(h_e @ K_p @ h_e, kp * size**2)])
+
+
+@proof.claim("R.17a", "with √n N[β_M(ρ+γ) + γk_c], the first line of (17) says det Θ > 0", "(17)")
+def _(n):
+    (flat, steep), (whole, inner, slack) = bracket_17(n), parts_17(n)
+    line = (ε * (sqrt(n) * whole * inner + (flat + ε0 * steep) ** 2 / 4)).at(**RANGES) < whole * slack
+    known = tuple(R.known.values())
+    return all_of(
+        sufficient=implies(known, (share <= 1, line), det_positive(n)),
+        necessary=implies(known, (share <= 1, det_positive(n)), line),
+    )
+
+
+@proof.claim(
+    "R.17c", "with 1 for ε₀ in the last bracket, it does so for every ε₀ ≤ 1", "(17), (18)", uses=["R.17a"]
+)
+def _():
+    """The line with 1 gives that of R.17a, whatever its positive parts are."""
+    N = Reals()
+    whole, flat, steep, right, size, start = N.positive("whole flat steep right size start")
+
+    def line(factor):
+        return size * (whole + (flat + factor * steep) ** 2 / 4) < right
+
+    return N.implies((start <= 1, line(1)), line(start))
+
+
+for m, least in ((2, "0.222"), (3, "0.210")):
+    proof.add(
+        f"R.19.m{m}",
+        f"k_v = {least} meets (19) with the true γ_{m}",
+        Constant(expr(least) < expr(VISCOUS_MIN) / (sqrt(3) * gamma(m))),
+        "(19), Table 2",
+    )
+proof.add("R.S5", "h_1 has the slope 1 at the goal", identity(dh(1, 0), 1), "Section 5")

@@ -13,6 +13,7 @@ from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.verdicts import STANDS
 
 # --- The case a claim is decided for: m, n, a robot and gains, and which of them a statement looked at.
 
@@ -154,6 +155,7 @@ class Claim:
         section: the part of the text, for reports.
         uses: the claims that it uses.
         statement: the statement as data, for a case.
+        stands: one of ``STANDS``; what is ``ours`` can be no error of the text.
     """
 
     id: str
@@ -162,6 +164,7 @@ class Claim:
     section: str
     uses: tuple[str, ...]
     statement: StatementOf
+    stands: str
 
 
 @dataclass
@@ -174,17 +177,22 @@ class Proof:
         @proof.claim("7a", "‖h_m(x)‖ ≤ √n γ_m", "(7)")
         def _(m, n):
             return norm_bound(h(m, x), n, sqrt(n) * gamma(m))
+
+    ``stands`` says whose sentences the claims are, unless one says otherwise: ``ours``, ``quoted`` or
+    ``implied``.
     """
 
     name: str
     title: str
     reference: str = ""
+    stands: str = "ours"
     claims: dict[str, Claim] = field(default_factory=dict)
     _section: str = field(default="", init=False, repr=False)
+    _stands: str = field(default="", init=False, repr=False)
 
-    def section(self, title: str) -> None:
-        """List the claims that follow under a part of the text."""
-        self._section = title
+    def section(self, title: str, stands: str = "") -> None:
+        """List the claims that follow under a part of the text, as sentences of whom ``stands`` says."""
+        self._section, self._stands = title, stands
 
     def claim(
         self,
@@ -194,6 +202,7 @@ class Proof:
         *,
         section: str | None = None,
         uses: Iterable[str] = (),
+        stands: str = "",
     ) -> Callable[[Callable[..., Statement]], Callable[..., Statement]]:
         """Add a claim whose statement is what the decorated function returns for the arguments it names.
 
@@ -203,17 +212,20 @@ class Proof:
             place: where the text makes it.
             section: the part of the text; by default the one that :meth:`section` named last.
             uses: the claims it rests on.
+            stands: whose sentence it is; by default what the section says, else the proof.
 
         Raises:
-            ValueError: the id is taken, or the function asks for something else.
+            ValueError: the id is taken, the function asks for something else, or nobody says such a sentence.
         """
-        listed = self._section if section is None else section
+        listed, whose = self._section if section is None else section, stands or self._stands or self.stands
+        if whose not in STANDS:
+            raise ValueError(f"{claim_id}: stands={whose!r} is none of {', '.join(STANDS)}; take one of them")
 
         def add(statement: Callable[..., Statement]) -> Callable[..., Statement]:
             if claim_id in self.claims:
                 raise ValueError(f"two claims have the id {claim_id!r}")
             of_case = _of_case(claim_id, statement)
-            self.claims[claim_id] = Claim(claim_id, says, place, listed, tuple(uses), of_case)
+            self.claims[claim_id] = Claim(claim_id, says, place, listed, tuple(uses), of_case, whose)
             return statement
 
         return add
@@ -227,7 +239,8 @@ class Proof:
         **about: Any,
     ) -> None:
         """Add a claim in one line: a statement that is the same in every case, or a function as above."""
-        self.claim(claim_id, says, place, **about)(statement if callable(statement) else lambda: statement)
+        given = statement if callable(statement) else lambda: statement
+        self.claim(claim_id, says, place, **about)(given)
 
     def add_theorem(
         self,
@@ -260,13 +273,14 @@ class Proof:
             )
         self.add(claim_id, says, theorem, place, uses=[*names, *uses])
 
-    def adopt(self, script: str, *ids: str, section: str = "") -> None:
+    def adopt(self, script: str, *ids: str, section: str = "", stands: str = "") -> None:
         """Take claims from another proof script, with all that they use, under the ids they have there.
 
         Args:
             script: a path, or the name of a script that comes with lyapcheck.
             ids: the claims wanted; those that this proof has already are left as they are.
             section: where reports list them; as in the other script by default.
+            stands: whose sentences the claims wanted are; as in the other script by default.
 
         Raises:
             InputError: there is no such script, or no such claim in it.
@@ -278,7 +292,8 @@ class Proof:
         wanted = needed(other.claims, ids)
         for name, claim in other.claims.items():
             if name in wanted:
-                self.claims.setdefault(name, replace(claim, section=section or claim.section))
+                whose = stands if stands and name in ids else claim.stands
+                self.claims.setdefault(name, replace(claim, section=section or claim.section, stands=whose))
 
 
 OBLIGATIONS = {

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from lyapcheck.check.systems.system import Entrywise, Member, State, System
+from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.systems.system import OWN_NAMES, Entrywise, Member, State, System
 from lyapcheck.claims.expressions import Expr, diff, exact_value, var
 from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, diagonal
 
@@ -103,6 +104,7 @@ class Goal:
     _functions: list[Entrywise] = field(default_factory=list)
     _states: list[State] = field(default_factory=list)
     _constants: list[str] = field(default_factory=list)
+    _closed: bool = False
 
     e, w = any_vector("e"), any_vector("w")
     """q_d − q, and q̇ − q̇_d."""
@@ -154,22 +156,26 @@ class Goal:
 
     def gains(self, names: str) -> list[Gain]:
         """Diagonal positive matrices, by names between spaces."""
-        self._gains += names.split()
+        self._gains += self._free(names)
         return [_gain(name) for name in names.split()]
 
     def constants(self, names: str) -> list[Expr]:
         """Positive numbers, by names between spaces."""
-        self._constants += names.split()
+        self._constants += self._free(names)
         return [var(name) for name in names.split()]
 
     def state(self, name: str, rate: AnyVector) -> AnyVector:
         """A vector of the controller's own, with its derivative."""
-        self._states.append(State(name, rate.tree))
+        if not isinstance(rate, AnyVector):
+            raise TypeError(f"{name}: the derivative of a state is a vector, as in α * e; this is none")
+        self._states += [State(one, rate.tree) for one in self._free(name)]
         return any_vector(name)
 
     def entrywise(self, name: str, of: AnyVector, bounded: bool = True) -> Function:
         """Any odd C¹ function by entries, positive for x > 0, of bounded slope, with an endless integral."""
-        self._functions.append(Entrywise(name, of.tree[1], bounded, None))
+        self._functions += [
+            Entrywise(one, self._state_of(name, of), bounded, None) for one in self._free(name)
+        ]
         return Function(("vec", name), name)
 
     def function(
@@ -201,11 +207,15 @@ class Goal:
         numbers = [exact_value(number) for number in (rho, secant, low, start)]
         most = None if gamma is None else exact_value(gamma)
         member = Member(value.tree, diff(value, "x").tree, potential.tree, most, *numbers)
-        self._functions.append(Entrywise(name, of.tree[1], gamma is not None, member))
+        state, bounded = self._state_of(name, of), gamma is not None
+        self._functions += [Entrywise(one, state, bounded, member) for one in self._free(name)]
         return Function(("vec", name), name)
 
     def under(self, torque: AnyVector) -> System:
-        """The closed loop."""
+        """The closed loop; all letters of the goal are named before it."""
+        if not isinstance(torque, AnyVector):
+            raise TypeError("under: a torque is a vector, as in Kp @ e + goal.gravity; this is none")
+        self._closed = True
         return System(
             torque.tree,
             tuple(self._gains),
@@ -215,6 +225,39 @@ class Goal:
             self.desired,
             self.friction,
             self.disturbed,
+        )
+
+    def _free(self, names: str) -> list[str]:
+        """The names, if nothing has them yet.
+
+        Raises:
+            ValueError: one is taken, or the loop is closed.
+        """
+        for name in names.split():
+            if self._closed:
+                raise ValueError(f"{name} is named after under(...), whose loop lacks it; name it before")
+            if "_" in name:
+                raise ValueError(f"{name}: sizes and bounds have an underscore; take a name without one")
+            functions = [f"{kind}{f.name}" for f in self._functions for kind in ("", "d", "U")]
+            own = [*self._gains, *self._constants, *(state.name for state in self._states), *functions]
+            if name in OWN_NAMES or name in own or names.split().count(name) > 1:
+                taken = ", ".join(sorted({*OWN_NAMES, *own}, key=lambda one: (one.casefold(), one)))
+                raise ValueError(f"{name} is taken; take a name that is none of {taken}")
+        return names.split()
+
+    def _state_of(self, name: str, of: AnyVector) -> str:
+        """The name of the one state that a function is of.
+
+        Raises:
+            ValueError: it is of a combination, or of what is no state.
+        """
+        states = ["e", "w", *(state.name for state in self._states)]
+        if isinstance(of, AnyVector) and of.tree[0] == "vec" and of.tree[1] in states:
+            return str(of.tree[1])
+        shown = expression_text(of.tree) if isinstance(of, AnyVector) else repr(of)
+        raise ValueError(
+            f"{name}: a function by entries is of one state ({', '.join(states)}), not of {shown}; "
+            "give a combination a state of its own, as in goal.state(name, its derivative)"
         )
 
 

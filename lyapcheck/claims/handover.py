@@ -21,6 +21,7 @@ from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.claim import Lacking
 from lyapcheck.claims.statements import Missing
+from lyapcheck.verdicts import STANDS
 
 CaseData = tuple[int, int, Any, Any]
 """m, n, a robot or none, and a gain set or none."""
@@ -69,6 +70,7 @@ class ClaimData:
     place: str
     section: str
     uses: tuple[str, ...]
+    stands: str = "ours"
     answers: tuple[ScriptAnswer, ...] = ()
 
 
@@ -124,6 +126,7 @@ def read(text: str, cases: int) -> Handover:
     require(len(set(ids)) == len(ids), "claims", ", ".join(ids), "must have different ids")
     makers: dict[int, str] = {}
     for claim in handover.claims:
+        require(claim.stands in STANDS, claim.id, claim.stands, f"must stand as one of {', '.join(STANDS)}")
         require(len(claim.answers) in (0, cases), claim.id, len(claim.answers), f"must have {cases} answers")
         for number in (answer.statement for answer in claim.answers if answer.statement is not None):
             require(0 <= number < len(lines), claim.id, number, "is not the number of a statement")

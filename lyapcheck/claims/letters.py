@@ -35,7 +35,7 @@ class AnyVector(Multiplied):
         return self.times(factor)
 
     def __matmul__(self, other: Any) -> Any:
-        return Row(self, (other,)) if isinstance(other, AnyMatrix) else _dot(self.tree, other.tree)
+        return Row(self, (other,)) if isinstance(other, AnyMatrix) else _dot(self.tree, _vector(other).tree)
 
     def dot(self, other: AnyVector) -> Expr:
         """The dot product."""
@@ -58,6 +58,9 @@ class AnyMatrix(Multiplied):
     def __sub__(self, other: AnyMatrix) -> AnyMatrix:
         return self + -1 * other
 
+    def __neg__(self) -> AnyMatrix:
+        return -1 * self
+
     def __rmul__(self, factor: object) -> AnyMatrix:
         return AnyMatrix(("scale", expr(factor).tree, self.tree))
 
@@ -67,7 +70,7 @@ class AnyMatrix(Multiplied):
         return AnyMatrix(("transpose", self.tree))
 
     def __matmul__(self, x: AnyVector) -> AnyVector:
-        return AnyVector(("apply", self.tree, x.tree))
+        return AnyVector(("apply", self.tree, _vector(x).tree))
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +85,19 @@ class Row:
             return Row(self.left, (*self.matrices, other))
         for matrix in reversed(self.matrices):
             other = matrix @ other
-        return _dot(self.left.tree, other.tree)
+        return _dot(self.left.tree, _vector(other).tree)
+
+
+def _vector(other: object) -> AnyVector:
+    if isinstance(other, AnyMatrix):
+        raise TypeError(
+            "a product of two matrices is no letter here; begin at a vector: K @ (A @ x), or x @ K @ A @ y"
+        )
+    if not isinstance(other, AnyVector):
+        raise TypeError(
+            f"@ multiplies vectors and matrices, and a {type(other).__name__} is neither; write s * x"
+        )
+    return other
 
 
 def _summand(other: object) -> Tree:

@@ -82,7 +82,8 @@ def answer(request: ScriptRequest) -> str:
         handover = []
         for claim in proof.claims.values():
             answers = tuple(_answers(claim, request, statements)) if claim.id in wanted else ()
-            handover.append(ClaimData(claim.id, claim.says, claim.place, claim.section, claim.uses, answers))
+            about = (claim.id, claim.says, claim.place, claim.section, claim.uses, claim.stands)
+            handover.append(ClaimData(*about, answers))
         return write(
             Handover(proof.name, proof.title, proof.reference, tuple(handover)),
             (line for _, line in statements.values()),

@@ -68,6 +68,7 @@ def as_the_gate_judges(
             decision=decided(found[key], judged.get(key), stated),
             stated=stated,
             seconds=0.0,
+            stands=row.stands,
         )
         certificate = made.get(key)
         path, digest = (None, None) if certificate is None else (_path(key), certificate.digest)

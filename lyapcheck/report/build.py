@@ -58,7 +58,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         with main_unnamed():
             jobs = _submit(subject, notes, pool)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
-    proofs, *parts, derived = (job.result().result for job in jobs)
+    (proofs, by_size), *parts, derived = (job.result().result for job in jobs)
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
@@ -86,6 +86,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         epsilon=epsilon,
         claims=claims,
         others=tuple(row for row in rows if row.proof != "published"),
+        by_size=by_size,
         runs=runs,
         findings=weighed,
         figures=dict(sorted(figures.items())),

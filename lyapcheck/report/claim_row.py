@@ -50,8 +50,9 @@ class ClaimRow(ClaimResult):
 
     @property
     def about(self) -> str:
-        """``tau_m1, m = 1``; the gain set and the member, where there is one."""
-        return ", ".join([*filter(None, [self.gains]), *([] if self.m is None else [f"m = {self.m}"])])
+        """``tau_m1, m = 1, n = 3``; the gain set, the member and the number of joints, where there is one."""
+        letters = (f"{name} = {value}" for name, value in (("m", self.m), ("n", self.n)) if value is not None)
+        return ", ".join([*filter(None, [self.gains]), *letters])
 
     @property
     def heading(self) -> str:

@@ -42,6 +42,7 @@ class ReportAnswer(Answer):
         blocks = (
             *_front(report),
             *_findings(report),
+            *by_size(report),
             *sampled_section(report),
             Section("ε₀ from both sides", tuple(four_epsilons(report))),
             report.derived.section(),
@@ -62,6 +63,8 @@ class ReportAnswer(Answer):
             "verdict": [{"subject": b.subject, "word": b.word, "tone": b.tone} for b in badges(report)],
             "sentences": list(sentences(report)),
             "counts": report.counts(),
+            "errors": report.errors(),
+            "by_n": [plain(row) for row in report.by_size],
             "findings": [_found(finding) for finding in report.findings],
             "table": report.table.data()["rows"],
             "derive": report.derived.data(),
@@ -90,7 +93,7 @@ class ReportAnswer(Answer):
 
     def records(self) -> Sequence[dict[str, Any]]:
         """A row a claim."""
-        keys = ("proof", "id", "m", "n", "verdict", "grade", "comment")
+        keys = ("proof", "id", "m", "n", "stands", "verdict", "grade", "comment")
         rows = [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
         return [
             data | {"verdict": row.decision.word}
@@ -153,7 +156,7 @@ def _findings(report: Report) -> Iterator[Section]:
         result = report.weighing(weight)
         if not result:
             continue
-        if weight in "AB":
+        if weight in "ABE":
             blocks: tuple[Block, ...] = tuple(
                 Section(one.title, tuple(_card(report, one, drawn))) for one in result
             )
@@ -161,6 +164,26 @@ def _findings(report: Report) -> Iterator[Section]:
             blocks = (Bullets(tuple(_line(one) for one in result)),)
         title = "What to mend" if report.own else f"{weight}: {words} ({len(result)})"
         yield Section(title, blocks)
+
+
+def by_size(report: Report) -> Iterator[Section]:
+    """The claims whose verdict changes with the number of joints."""
+    if report.by_size:
+        ns = list(report.by_size[0].verdicts)
+        heads = ("claim", "statement", *(f"n = {n}" for n in ns))
+        rows = tuple(
+            (
+                row.id if row.m is None else f"{row.id}, m = {row.m}",
+                row.comment,
+                *(f"{SYMBOLS[row.verdicts[n]]} {row.verdicts[n]}" for n in ns),
+            )
+            for row in report.by_size
+        )
+        words = f"Verdicts that change with the number of joints, asked for n = {ns[0]} to {ns[-1]}. "
+        words += "All other claims between norms have one verdict for these n."
+        yield Section(
+            "With the number of joints", (Paragraph(words), Table(heads, rows, align="l" * len(heads)))
+        )
 
 
 def _line(finding: Finding) -> str:
@@ -199,9 +222,10 @@ def _claims(report: Report) -> Iterator[Section]:
             )
             if len({row.verdict for row in result}) == 1:
                 ms = [str(row.m) for row in result if row.m is not None]
-                shown = f"{SYMBOLS[result[0].verdict]} {result[0].decision.word}" + (
-                    f" (m = {', '.join(ms)})" if ms else ""
-                )
+                about = [f"m = {', '.join(ms)}"] if ms else []
+                about += [f"n = {result[0].n}"] if result[0].n is not None else []
+                shown = f"{SYMBOLS[result[0].verdict]} {result[0].decision.word}"
+                shown += f" ({', '.join(about)})" if about else ""
             grades = ", ".join(sorted({row.grade for row in result}))
             lines.append((claim, shown, grades, result[0].comment))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))

@@ -18,7 +18,10 @@ if TYPE_CHECKING:
     from lyapcheck.report.notes import Notes
 
 LIGHTER = {"Section 4": "C", "Section 5": "D"}
-"""What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``."""
+"""What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``.
+
+One that no sentence of the paper makes weighs ``E``.
+"""
 
 
 def findings(
@@ -80,12 +83,15 @@ def _finding(weight: str, names: tuple[str, ...], rows: Sequence[ClaimRow], note
         fails=note.fails,
         consequence=note.consequence,
         repair=note.repair,
+        mended=note.mended,
         witness=_ordinary(min(rows, key=_length)),
         figure=note.figure,
     )
 
 
 def _lighter(rows: Sequence[ClaimRow]) -> str:
+    if rows and all(row.stands == "ours" for row in rows):
+        return "E"
     parts = (weight for part, weight in LIGHTER.items() if rows[0].section.startswith(part))
     return next(parts, "B")
 

@@ -14,10 +14,11 @@ from lyapcheck.errors import InputError
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import KINDS, LINKED, EpsilonRow, RunRow
+from lyapcheck.report.model import KINDS, LINKED, BySize, EpsilonRow, RunRow
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.check import ClaimResult
     from lyapcheck.answers.derive import Derivation
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.report.notes import Notes
@@ -40,6 +41,9 @@ SAMPLED = "sampled.py"
 """The loop on a computer, from printed numbers."""
 OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS), SAMPLED: ()}
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
+SIZES = range(1, 7)
+"""How many joints the paper's claims of these kinds are asked for; others are for every n, or of an arm."""
+OF_NORMS = ("NormBound", "Implies", "ForSmall")
 MODULES = {"python-flint": "flint"}
 """How a package is imported, where that is not its name."""
 SHOWN = 6
@@ -125,7 +129,9 @@ def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only
     return ProofData(tuple(sorted(rows, key=lambda row: order.index(row.id))), certificates)
 
 
-def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool) -> list[ProofData]:
+def proofs_job(
+    ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool
+) -> tuple[list[ProofData], tuple[BySize, ...]]:
     """Every claim, those of the paper first.
 
     About an arm of one's own: only proofs that say something about it, and nothing about the paper.
@@ -137,8 +143,28 @@ def proofs_job(ms: Sequence[int], robot: str, gains: str, notes: Notes, own: boo
     wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
     if own:
         chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
-        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen]
-    return [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
+        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], ()
+    proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
+    return proofs, _by_size(proofs[0].rows, ms)
+
+
+def _by_size(rows: Sequence[ClaimRow], ms: Sequence[int]) -> tuple[BySize, ...]:
+    """The claims about norms and between numbers, for each n of ``SIZES``, where the verdicts differ."""
+    from lyapcheck.answers.check.run import run_proof
+
+    its_own = (row for row in rows if row.stands != "ours" and row.n is not None)
+    only = list(dict.fromkeys(row.id for row in its_own if row.kind in OF_NORMS))
+    found: dict[tuple[str, int | None], dict[int, ClaimResult]] = {}
+    for n in SIZES:
+        for row in run_proof(PROOF, ms, n=n, only=only).claims:
+            found.setdefault((row.id, row.m), {})[n] = row
+    changing = {
+        key: sizes for key, sizes in found.items() if len({row.verdict for row in sizes.values()}) > 1
+    }
+    return tuple(
+        BySize(claim, m, sizes[SIZES[0]].comment, {n: row.verdict.value for n, row in sizes.items()})
+        for (claim, m), sizes in changing.items()
+    )
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
+from lyapcheck.answers.check.proof import refuted_by_source
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.report.claim_row import ClaimRow
 
@@ -26,6 +27,7 @@ WEIGHTS = {
     "B": "wrong, but the proposition stands without it",
     "C": "misprints and arithmetic",
     "D": "the experiment",
+    "E": "further questions of ours, no errors of the paper",
 }
 
 
@@ -63,6 +65,7 @@ class Finding:
         text: numbers, in one or two sentences.
         printed: the statement in LaTeX, as printed.
         argument, fails, consequence, repair: the text's, why it is wrong, what follows, what helps.
+        mended: the claims that show that the repair does.
         witness: where it fails.
         figure: name of a drawing that shows it.
     """
@@ -78,6 +81,7 @@ class Finding:
     fails: str = ""
     consequence: str = ""
     repair: str = ""
+    mended: tuple[str, ...] = ()
     witness: WitnessRow | None = None
     figure: str = ""
 
@@ -86,11 +90,25 @@ class Finding:
         """What is said beside the witness, by what it is."""
         said = {
             "The paper argues": self.argument,
-            "Why it fails": self.fails,
+            "What fails": self.fails,
             "Consequence": self.consequence,
-            "Repair": self.repair,
+            "Repair": " ".join(filter(None, [self.repair, self._shown])),
         }
         return {term: text for term, text in said.items() if text}
+
+    @property
+    def _shown(self) -> str:
+        return f"(Claim {', '.join(self.mended)}.)" if self.mended else ""
+
+
+@dataclass(frozen=True)
+class BySize:
+    """The verdicts on a claim for each number of joints, where they are not all the same."""
+
+    id: str
+    m: int | None
+    comment: str
+    verdicts: Mapping[int, str]
 
 
 @dataclass(frozen=True)
@@ -108,6 +126,7 @@ class Report:
         epsilon: the four ε₀ of each gain set.
         claims: decided claims of the paper, one row a claim and m.
         others: those of the proofs of what the paper concludes.
+        by_size: the claims of the paper whose verdict changes with n.
         runs: simulated runs, one a gain set, the PD baseline last.
         findings: the heaviest first.
         figures: SVG text, PNG and CSV by file name.
@@ -128,6 +147,7 @@ class Report:
     epsilon: tuple[EpsilonRow, ...]
     claims: tuple[ClaimRow, ...]
     others: tuple[ClaimRow, ...]
+    by_size: tuple[BySize, ...]
     runs: tuple[RunRow, ...]
     findings: tuple[Finding, ...]
     figures: Mapping[str, str | bytes] = field(repr=False)
@@ -146,6 +166,10 @@ class Report:
         """How many claims of the paper have each verdict."""
         order = ("proved", "refuted", "undecided", "error")
         return {verdict: sum(row.verdict == verdict for row in self.claims) for verdict in order}
+
+    def errors(self) -> dict[str, list[str]]:
+        """The refuted claims by whose sentence they are; what is ours is no error of the paper."""
+        return refuted_by_source(self.claims)
 
     def weighing(self, weight: str) -> tuple[Finding, ...]:
         """The findings of one weight."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from lyapcheck.control.gains import proofs_folder
 
@@ -38,7 +39,10 @@ class Box:
 
 @dataclass(frozen=True)
 class Note:
-    """What the text argues where claims fail, why that is wrong, and what mends it; formulas in LaTeX."""
+    """What the text argues where claims fail, why that is wrong, and what mends it; formulas in LaTeX.
+
+    ``mended`` are the claims that show that the repair does.
+    """
 
     claims: tuple[str, ...]
     title: str
@@ -47,6 +51,7 @@ class Note:
     fails: str = ""
     consequence: str = ""
     repair: str = ""
+    mended: tuple[str, ...] = ()
     figure: str = ""
 
 
@@ -82,12 +87,16 @@ def published_notes() -> Notes:
         paper=Paper(**result["paper"]),
         chain=tuple(_box(one) for one in result["chain"]),
         route=tuple(_box(one) for one in result["route"]),
-        findings=tuple(Note(**one | {"claims": tuple(one["claims"])}) for one in result["findings"]),
+        findings=tuple(_note(one) for one in result["findings"]),
         equations=result["equations"],
         titles=result["titles"],
         known=(result["known"]["short"], *result["known"]["text"]),
         own={proof: tuple(ids) for proof, ids in result["own"].items()},
     )
+
+
+def _note(data: dict[str, Any]) -> Note:
+    return Note(**data | {name: tuple(data.get(name, ())) for name in ("claims", "mended")})
 
 
 def _box(data: dict[str, str]) -> Box:

@@ -164,8 +164,11 @@ def _proof(report: Report) -> str:
     if not broken:
         return "No step that its printed proof rests on was refuted."
     wrong = sum(1 for finding in report.weighing("B") if finding.claims)
-    more = f"; {wrong} more of its statements are wrong without harm to it" if wrong else ""
-    return f"Its printed proof breaks at {and_list(broken)}{more}."
+    more = f"; {wrong} more of its statements fail without harm to the proposition" if wrong else ""
+    errors = report.errors()
+    counted = f"{len(errors['quoted'])} of its own sentences and {len(errors['implied'])} that it relies on"
+    ours = f", beside {len(errors['ours'])} further questions of ours" if errors["ours"] else ""
+    return f"Its printed proof breaks at {and_list(broken)}{more}. Refuted are {counted}{ours}."
 
 
 def _gains(report: Report) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ ONE = certificate_of((GOOD / "ext.V-is-positive-definite.json").read_bytes())[0]
 
 
 def result(one, decision):
-    return ClaimResult("V", 1, None, "", "", "", "", (), (), decision, one, 0.0)  # type: ignore[arg-type]
+    return ClaimResult("V", 1, None, "", "", "", "", (), (), decision, one, 0.0, "quoted")  # type: ignore[arg-type]
 
 
 def test_check_shows_the_grade_of_what_the_record_has(monkeypatch):

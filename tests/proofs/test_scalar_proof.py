@@ -123,6 +123,10 @@ def regulator(value, potential):
 
 
 FAULTS = [
+    ("arm.integral", "eps * k * a**2 / 2 <= whole", "eps * k * a**2 <= whole"),
+    ("arm.integral", "most = above(energy)", "most = above(energy) / 2"),
+    ("arm.integral", "most / k_i + 1 for", "most / k_i / 2 for"),
+    ("arm.integral", "gains) / 2\n    at_rest", "gains) * 2\n    at_rest"),
     (
         "h.slope",
         "Bounds(n, gamma(m), rho(m), secant_bound(m))",

@@ -20,7 +20,7 @@ TITLE = "What SymPy derives, and what the checker says of it"
 
 @pytest.fixture(scope="module")
 def report():
-    empty = dict.fromkeys(("epsilon", "claims", "others", "runs", "findings"), ())
+    empty = dict.fromkeys(("epsilon", "claims", "others", "by_size", "runs", "findings"), ())
     return Report(
         robot=load("reyes-kelly2"),
         ms=(2,),

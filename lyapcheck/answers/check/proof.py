@@ -17,7 +17,7 @@ from lyapcheck.kernel.coq import GRADE as KERNEL
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.promise import all_say, told
-from lyapcheck.verdicts import Exit, Grade, Verdict, exit_code
+from lyapcheck.verdicts import STANDS, Exit, Grade, Verdict, exit_code
 
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
@@ -55,12 +55,18 @@ def statement_text(stated: Statement) -> str:
     return short if short == text else f"{short} [statement {digest_of(to_json(stated))[:12]}]"
 
 
+def refuted_by_source(rows: Sequence[ClaimResult]) -> dict[str, list[str]]:
+    """The refuted claims by whose sentence they are; what is ``ours`` is no error of the text."""
+    ids = {name: [r.id for r in rows if r.verdict is Verdict.REFUTED and r.stands == name] for name in STANDS}
+    return {name: list(dict.fromkeys(found)) for name, found in ids.items()}
+
+
 @dataclass(frozen=True)
 class ClaimResult:
     """Result of one claim for one m. None is a claim that does not depend on m.
 
     ``stated`` is the decided statement and ``comment`` the author's description. ``decision`` depends on the
-    claims that it uses.
+    claims that it uses. ``stands`` says whose sentence the claim is.
     """
 
     id: str
@@ -75,6 +81,7 @@ class ClaimResult:
     decision: Decision
     stated: Statement | Missing
     seconds: float
+    stands: str
 
     @cached_property
     def _text(self) -> str:
@@ -124,6 +131,7 @@ class ClaimResult:
             "comment": self.comment,
             "place": self.place,
             "section": self.section,
+            "stands": self.stands,
             "kind": self.kind,
             "verdict": self.decision.word,
             "grade": self.grade,
@@ -248,6 +256,7 @@ class ProofResult(Answer):
             "robot": self.robot,
             "assumptions": list(self.assumptions),
             "counts": self.counts(),
+            "refuted": refuted_by_source(self.claims),
             "claims": [row.data(self.timings) for row in self.claims],
         }
 

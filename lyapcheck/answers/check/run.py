@@ -297,6 +297,7 @@ def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) ->
             decision=decision,
             stated=row.stated,
             seconds=row.seconds,
+            stands=claim.stands,
         )
     return result
 

@@ -10,7 +10,7 @@ from itertools import groupby
 from lyapcheck.output.html import fold
 from lyapcheck.output.mathml import Markup, element, latex, sentence
 from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import Report, anchor
+from lyapcheck.report.model import Report, anchor, behind
 from lyapcheck.report.text import SYMBOLS, plural
 from lyapcheck.verdicts import Verdict
 
@@ -124,6 +124,13 @@ GRADES = {
 }
 
 
+WHOSE = {
+    "quoted": "The paper's own.",
+    "implied": "Implied: the paper's argument or its tables rely on it.",
+    "ours": "Ours: a further question or a repair. It can be no error of the paper.",
+}
+
+
 def claims_section(report: Report) -> Markup:
     """The claims of the paper and of the proofs that go round it, each with all its members."""
     rows = report.every_claim
@@ -184,7 +191,7 @@ def _graph(report: Report) -> Markup:
     chosen = [row for row in report.claims if row.m in (m, None)]
     words = (
         f"What rests on what in the paper, for m = {m}: each claim stands right of those it uses; "
-        "click one to read it."
+        "click one to read it. Point at a refuted one to see what falls with it."
     )
     folded = element(
         "div",
@@ -194,7 +201,26 @@ def _graph(report: Report) -> Markup:
         role="region",
         aria_label="Graph",
     )
-    return fold("The graph of claims", folded, element("p", words), classes="fold graph", opened=True)
+    return fold(
+        "The graph of claims", folded, element("p", words), _falls(chosen), classes="fold graph", opened=True
+    )
+
+
+def _falls(rows: Sequence[ClaimRow]) -> Markup | None:
+    """The refuted claims that others rest on, each with all that falls with it, directly or not."""
+    lines = []
+    for row in rows:
+        fallen = [one for one in rows if one.id != row.id and row.id in behind(one.id, rows)]
+        if row.verdict == "refuted" and fallen:
+            links = _joined([_link(one.proof, one.id) for one in fallen])
+            head = element("th", _link(row.proof, row.id), scope="row")
+            lines.append(element("tr", head, element("td", links)))
+    if not lines:
+        return None
+    heads = [
+        element("th", words, scope="col") for words in ("refuted", "what falls with it, as it is printed")
+    ]
+    return element("table", element("thead", element("tr", heads)), element("tbody", lines))
 
 
 def _group(report: Report, title: str, rows: Sequence[ClaimRow], used_by: dict[str, list[str]]) -> Markup:
@@ -244,7 +270,8 @@ def _claim(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[str
 
 def _chip(row: ClaimRow) -> Markup:
     word, verdict = row.decision.word, row.verdict
-    member = " ".join([*filter(None, [row.gains]), *([] if row.m is None else [f"m={row.m}"]), ""])
+    letters = (f"{name}={value}" for name, value in (("m", row.m), ("n", row.n)) if value is not None)
+    member = " ".join([*filter(None, [row.gains]), *letters, ""])
     shown = [element("span", member, class_="m"), f"{SYMBOLS[verdict]} {word}"]
     return element("span", shown, class_=f"chip {verdict}", data_m=row.m)
 
@@ -256,6 +283,7 @@ def _details(report: Report, rows: Sequence[ClaimRow], used_by: dict[str, list[s
     carries = [element("a", name, href=f"#{name}") for name in used_by.get(own, ())]
     lines = [
         _line("In the paper", _place(report, first)) if first.place else None,
+        _line("Whose sentence", WHOSE[first.stands]) if first.proof == "published" else None,
         _line("Rests on", _joined(rests)) if rests else None,
         _line("Carries", _joined(carries)) if carries else None,
     ]

@@ -62,17 +62,20 @@
     }));
   }
 
-  // The graph shows what a claim rests on while it is pointed at.
+  // The graph shows what a claim rests on while it is pointed at; of a refuted one, what falls with it.
   for (const graph of all(".claim-graph")) {
     const edges = all(".edge", graph), boxes = all(".box", graph);
     const light = (name) => {
       const on = new Set([name]);
+      const falls = boxes.some((box) => box.dataset.claim === name && box.classList.contains("refuted"));
+      const [to, from] = falls ? ["from", "to"] : ["to", "from"];
       for (let size = 0; size !== on.size;) {
         size = on.size;
-        edges.forEach((edge) => on.has(edge.dataset.to) && on.add(edge.dataset.from));
+        edges.forEach((edge) => on.has(edge.dataset[to]) && on.add(edge.dataset[from]));
       }
       graph.classList.toggle("lit", Boolean(name));
-      edges.forEach((edge) => edge.classList.toggle("on", on.has(edge.dataset.to)));
+      graph.classList.toggle("falls", falls);
+      edges.forEach((edge) => edge.classList.toggle("on", on.has(edge.dataset[to])));
       boxes.forEach((box) => box.classList.toggle("on", on.has(box.dataset.claim)));
     };
     for (const box of boxes) {

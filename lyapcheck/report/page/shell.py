@@ -12,7 +12,7 @@ from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow, anchor
 from lyapcheck.report.page.claims import claims_section
 from lyapcheck.report.page.gains import derive_section, evidence_section, figure, gains_section
 from lyapcheck.report.page.own import first_screen
-from lyapcheck.report.text import member_words, witness_place, witness_sides
+from lyapcheck.report.text import SYMBOLS, member_words, witness_place, witness_sides
 from lyapcheck.report.tiles import SIGNS
 from lyapcheck.report.verdict import VerdictBox, badges, chain, route, sentences
 
@@ -159,7 +159,30 @@ def findings_section(report: Report) -> Markup:
     if report.own:
         title, nothing = ("What to mend", "No condition is broken, and no Property of the arm is refuted.")
     groups = [_group(report, weight) for weight in WEIGHTS if report.weighing(weight)]
-    return element("section", element("h2", title), groups or element("p", nothing), id="findings")
+    found = groups or element("p", nothing)
+    return element("section", element("h2", title), found, _by_size(report), id="findings")
+
+
+def _by_size(report: Report) -> Markup | None:
+    """The claims whose verdict changes with the number of joints."""
+    if not report.by_size:
+        return None
+    ns = list(report.by_size[0].verdicts)
+    heads = [element("th", words, scope="col") for words in ("claim", "statement", *(f"n = {n}" for n in ns))]
+    rows = []
+    for row in report.by_size:
+        member = [] if row.m is None else [f", m = {row.m}"]
+        cells = [
+            element("td", f"{SYMBOLS[row.verdicts[n]]} {row.verdicts[n]}", data_label=f"n = {n}") for n in ns
+        ]
+        name = element("th", element("a", row.id, href=f"#{row.id}"), member, scope="row")
+        rows.append(element("tr", name, element("td", sentence(row.comment)), cells))
+    words = f"Verdicts that change with the number of joints n, asked for n = {ns[0]} to {ns[-1]}"
+    table = element("table", element("thead", element("tr", heads)), element("tbody", rows))
+    return fold(
+        f"{words} ({len(rows)})",
+        element("div", table, class_="scroll", tabindex="0", role="region", aria_label=words),
+    )
 
 
 def _group(report: Report, weight: str) -> Markup:
@@ -189,7 +212,7 @@ def _claim_link(name: str) -> Markup:
 
 
 def _card(report: Report, finding: Finding) -> Markup:
-    tone = "bad" if finding.weight == "A" else "warn"
+    tone = {"A": "bad", "E": "open"}.get(finding.weight, "warn")
     head = [
         element(
             "p",
