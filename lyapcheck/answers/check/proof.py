@@ -16,6 +16,7 @@ from lyapcheck.kernel.coq import GRADE, accepted_before
 from lyapcheck.kernel.coq import GRADE as KERNEL
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
+from lyapcheck.output.text import PROSE
 from lyapcheck.promise import all_say, told
 from lyapcheck.verdicts import Exit, Grade, Verdict, exit_code
 
@@ -230,7 +231,11 @@ class ProofResult(Answer):
         arm = f", robot {self.robot}" if self.robot else ""
         known = {row.grade for row in self.claims}
         notes = (WHOSE, *(text for grade, text in GRADES.items() if grade in known))
-        lead = (f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",)
+        about = _cut(self.title, PROSE - 2)
+        lead = (
+            *([about] if about else []),
+            f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",
+        )
         every = tuple(self._sections(ORDER))
         if self.extent == ALL:
             return Document(self._title(), (*self._of_nothing(), *every), notes, lead)
@@ -285,7 +290,7 @@ class ProofResult(Answer):
         result = {verdict: self.counts()[verdict] for verdict in ORDER}
         worst = next((verdict for verdict in ORDER if result[verdict]), Verdict.UNDECIDED)
         tally = ", ".join(f"{count} {self._word(verdict)}" for verdict, count in result.items() if count)
-        return f"{worst.sign} {tally or 'no claims'}: {self.title or self.name}"
+        return f"{worst.sign} {tally or 'no claims'}: {self.name}"
 
     def _word(self, verdict: Verdict) -> str:
         """A verdict that some claims have."""
@@ -340,9 +345,9 @@ def _by_claim(rows: Sequence[ClaimResult]) -> list[list[ClaimResult]]:
     return list(result.values())
 
 
-def _cut(text: str) -> str:
+def _cut(text: str, most: int = MOST_WORDS) -> str:
     """As much of a text as a line has room for."""
-    return text if len(text) <= MOST_WORDS else f"{text[: MOST_WORDS - 1].rstrip()}…"
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
 def _ids(rows: Sequence[ClaimResult]) -> str:

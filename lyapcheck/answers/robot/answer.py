@@ -16,7 +16,7 @@ from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import at_least, at_most, decimals
-from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, data, records, table
 from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
@@ -128,28 +128,20 @@ class RobotReport(Answer):
             if row.verdict is not Verdict.PROVED
         )
         remarks = [*wrong[:MOST_REMARKS], *(_wide(self, c) for c in self.constants if _gap(self, c) > WIDE)]
-        more = (
-            [f"{len(wrong) - MOST_REMARKS} more claims fail; -v lists them"]
-            if len(wrong) > MOST_REMARKS
-            else []
-        )
-        about = f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}"
-        said = [*remarks[: MOST_REMARKS - len(more)], *more]
-        blocks = (_ends(self), *([Bullets(tuple(said))] if said else []))
+        left = len(wrong) - MOST_REMARKS
+        more = [f"{left} more claims fail; -v lists them"] if left > 0 else []
+        said = (*remarks[: MOST_REMARKS - len(more)], *more)
+        blocks: tuple[Block, ...] = (_ends(self), *([Bullets(said)] if said else []))
         arm = self.path or model.name
         limits = all(number is not None for number in model.torque_limit)
-        then = (
-            command("tune", *arm_words(arm), "--m", "1")
-            if limits
-            else command("robot", *arm_words(arm), "-v")
-        )
+        then = ("tune", *arm_words(arm), "--m", "1") if limits else ("robot", *arm_words(arm), "-v")
         return Document(
             _title(self),
             blocks,
-            lead=(about,),
+            lead=_lead(self),
             details=tuple(_sections(self)),
             assumed=assumed_line(model, arm),
-            next=then,
+            next=command(*then),
         )
 
     def data(self) -> dict[str, Any]:
@@ -278,13 +270,24 @@ def _title(report: RobotReport) -> str:
         return f"✓ {name}: properties {together(every, every)} {said}"
     extents = {row.id: extent(row, report.model) for row in report.properties}
     ranged, nominal = ([key for key in every if extents[key] == kind] for kind in (RANGES, NOMINAL))
-    parts = [
-        f"{together(ids, every)} for {kind}" if kind == RANGES else f"{together(ids, every)} at {kind} only"
-        for kind, ids in ((RANGES, ranged), (NOMINAL, nominal))
-        if ids
-    ]
     said = all_say(_promises(report), "proved")
-    return f"{'!' if nominal else '✓'} {name}: properties {said}: {'; '.join(parts)}"
+    if not nominal:
+        return f"✓ {name}: properties {together(ranged, every)} {said} for {RANGES}"
+    if not ranged:
+        return f"! {name}: properties {together(nominal, every)} {said} at {NOMINAL} only"
+    return f"! {name}: properties {together(ranged, every)} {said} for its ranges"
+
+
+def _lead(report: RobotReport) -> tuple[str, ...]:
+    """What arm it is, and what is shown at its nominal numbers only."""
+    model = report.model
+    about = f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}"
+    every = [row.id for row in report.properties]
+    nominal = [row.id for row in report.properties if extent(row, model) == NOMINAL]
+    if not nominal or len(nominal) == len(every) or report.exit_code is not Exit.PROVED:
+        return (about,)
+    words = f"{together(nominal, every)} proved at {NOMINAL} only"
+    return about, all_say(_promises(report), words)
 
 
 def _promises(report: RobotReport) -> list[Promise | None]:
@@ -449,11 +452,11 @@ class ArmAssumptions(Answer):
             for name, number in numbers
         ]
         heads = ("number", "value", "range", "why")
-        others = [text for text in (*model.remarks, *model.doubts)]
-        table = [Table(heads, tuple(rows), align="llll")] if rows else []
+        others = (*model.remarks, *model.doubts)
+        table: list[Block] = [Table(heads, tuple(rows), align="llll")] if rows else []
         title = f"{model.name}: {len(numbers)} of {len(model.numbers)} numbers are assumed"
-        then = command("robot", *arm_words(self.arm), "--export", "arm.toml")
-        return Document(title, (*table, *([Bullets(tuple(others))] if others else [])), next=then)
+        then = command("robot", *arm_words(self.arm), "--export", "own_arm.toml")
+        return Document(title, (*table, *([Bullets(others)] if others else [])), next=then)
 
     def data(self) -> dict[str, Any]:
         """``numbers: {name: {value, unit, …}}`` and ``assumptions``, one sentence each."""
