@@ -29,6 +29,11 @@ ASKED = {
     "table, of an arm": ("table", "--m", "1:3", "--robot", "buap3"),
     "recheck": ("recheck", str(ROOT / "tests/kernel/certificates/2.1.json")),
     "store": ("store",),
+    "robot": ("robot", "arm.toml"),
+    "robot, ranges": ("robot", "buap3", "--max-boxes", "200"),
+    "robot, assumptions": ("robot", "buap3", "--assumptions"),
+    "check": ("check", str(ROOT / "proofs/every_m.py"), "--m", "1"),
+    "check, refuted": ("check", "published.py", "--m", "1", "--only", "16.6", "--only", "8b"),
 }
 """A command line for each kind of answer, in a folder with the files of `init` and a gain file on buap3."""
 SATURATING = """robot = "buap3"

@@ -15,7 +15,8 @@ from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.coq import GRADE, accepted_before
 from lyapcheck.kernel.coq import GRADE as KERNEL
 from lyapcheck.output.answer import Annotation, Answer, Level
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
+from lyapcheck.output.text import PROSE
 from lyapcheck.promise import all_say, told
 from lyapcheck.verdicts import STANDS, Exit, Grade, Verdict, exit_code
 
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from lyapcheck.claims.decision import Decision
     from lyapcheck.claims.statements import Missing
 
+SHORT, FAILED, ALL = "short", "failed", "all"
+MOST_ROWS, MOST_WORDS = 14, 56
+"""Claims of the short answer, and letters of what the author calls one."""
 SHOWN_COORDINATES = 12
 """Of a witness; the rest of them are counted."""
 SIDES = ("point", "left", "operator", "right")
@@ -203,6 +207,7 @@ class ProofResult(Answer):
         script: the path of the script, as it was given.
         about_gains: the ids of the claims that are about the gain set of their m.
         timings: True prints the seconds of each claim.
+        extent: ``short``, ``failed`` for all that is not proved with its evidence, or ``all``.
     """
 
     schema = "lyapcheck/check/2"
@@ -218,6 +223,7 @@ class ProofResult(Answer):
     script: str = ""
     about_gains: frozenset[str] = frozenset()
     timings: bool = False
+    extent: str = SHORT
 
     @property
     def exit_code(self) -> Exit:
@@ -229,22 +235,35 @@ class ProofResult(Answer):
         return {v.value: sum(row.verdict is v for row in self.claims) for v in Verdict}
 
     def document(self) -> Document:
-        """The tally, a list of what is not proved, then every claim, those that are not proved first."""
+        """The tally and what is not proved, a line each; then every claim, what is not proved first."""
         arm = f", robot {self.robot}" if self.robot else ""
         known = {row.grade for row in self.claims}
         notes = (WHOSE, *(text for grade, text in GRADES.items() if grade in known))
-        blocks: tuple[Block, ...] = (
-            Paragraph(f"For m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}."),
-            *self._index(),
-            *self._of_nothing(),
-            *self._sections(),
-            *(
-                [Section(f"Assumed about {self.robot}", (Bullets(self.assumptions),))]
-                if self.assumptions
-                else []
-            ),
+        about = _cut(self.title, PROSE - 2)
+        lead = (
+            *([about] if about else []),
+            f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",
         )
-        return Document(self._title(), blocks, notes)
+        every = tuple(self._sections(ORDER))
+        if self.extent == ALL:
+            return Document(self._title(), (*self._of_nothing(), *every), notes, lead)
+        open_ = [verdict for verdict in ORDER if verdict is not Verdict.PROVED]
+        if self.extent == FAILED:
+            return Document(self._title(), tuple(self._sections(open_)), notes, lead)
+        assumed = ""
+        if self.robot and self.assumptions:
+            listed = command("robot", self.robot, "--assumptions")
+            assumed = f"{len(self.assumptions)} assumptions about {self.robot}: {listed}"
+        script, failed = self.script or self.name, any(map(self._with, open_))
+        then = command(
+            "check",
+            script,
+            "--m",
+            ",".join(map(str, self.ms)),
+            *(["--failed"] if failed else ["--certificates", "certificates"]),
+        )
+        blocks = (*self._index(), *self._of_nothing())
+        return Document(self._title(), blocks, notes, lead, every, assumed, then)
 
     def data(self) -> dict[str, Any]:
         """``claims: [{id, m, statement, verdict, …}]``, and what they were asked for."""
@@ -280,7 +299,7 @@ class ProofResult(Answer):
         result = {verdict: self.counts()[verdict] for verdict in ORDER}
         worst = next((verdict for verdict in ORDER if result[verdict]), Verdict.UNDECIDED)
         tally = ", ".join(f"{count} {self._word(verdict)}" for verdict, count in result.items() if count)
-        return f"{worst.sign} {tally or 'no claims'}: {self.title or self.name}"
+        return f"{worst.sign} {tally or 'no claims'}: {self.name}"
 
     def _word(self, verdict: Verdict) -> str:
         """A verdict that some claims have."""
@@ -288,28 +307,32 @@ class ProofResult(Answer):
             return verdict.value
         return all_say((row.decision.promise for row in self._with(verdict)), verdict.value)
 
-    def _index(self) -> Iterator[Table]:
-        """What is not proved, in a few lines; nothing where that is one claim at most."""
+    def _index(self) -> Iterator[Block]:
+        """What is not proved, a line each with what the author calls it; of many the first."""
         rows = [
-            (verdict.value, str(len(result)), _ids(result))
+            (verdict.sign, _ids(group), verdict.value, _cut(one_line(group[0].comment)))
             for verdict in ORDER
-            if verdict is not Verdict.PROVED and (result := self._with(verdict))
+            if verdict is not Verdict.PROVED
+            for group in _by_claim(self._with(verdict))
         ]
-        if sum(int(count) for _, count, _ in rows) > 1:
-            yield Table(("verdict", "count", "claims"), tuple(rows), align="lrl")
+        if rows:
+            heads = ("", "claim", "verdict", "the author's words")
+            yield Table(heads, tuple(rows[:MOST_ROWS]), align="llll", keys=2, drop=(2,))
+        if len(rows) > MOST_ROWS:
+            yield Bullets((f"{len(rows) - MOST_ROWS} more are not proved; --failed lists all",))
 
-    def _of_nothing(self) -> Iterator[Paragraph]:
+    def _of_nothing(self) -> Iterator[Bullets]:
         """Before all else: which of the proved claims may say nothing."""
         if rows := self._remarked():
             word = all_say((row.decision.promise for row in rows), "Proved")
-            yield Paragraph(f"{word}, but perhaps of nothing; see the remark at each: {_ids(rows)}.")
+            yield Bullets((f"{word}, but perhaps of nothing; -v shows the remark at each: {_ids(rows)}",))
 
     def _remarked(self) -> list[ClaimResult]:
         return [row for row in self.claims if row.verdict is Verdict.PROVED and row.decision.reason]
 
-    def _sections(self) -> Iterator[Section]:
+    def _sections(self, verdicts: Sequence[Verdict]) -> Iterator[Section]:
         """A section a verdict, in it one for each part of the text; the claims of each as a table."""
-        for verdict in ORDER:
+        for verdict in verdicts:
             rows = self._with(verdict)
             if rows:
                 yield Section(f"{self._word(verdict).capitalize()} ({len(rows)})", tuple(self._parts(rows)))
@@ -321,6 +344,19 @@ class ProofResult(Answer):
 
     def _with(self, verdict: Verdict) -> list[ClaimResult]:
         return [row for row in self.claims if row.verdict is verdict]
+
+
+def _by_claim(rows: Sequence[ClaimResult]) -> list[list[ClaimResult]]:
+    """The rows of each claim, of all its m."""
+    result: dict[str, list[ClaimResult]] = {}
+    for row in rows:
+        result.setdefault(row.id, []).append(row)
+    return list(result.values())
+
+
+def _cut(text: str, most: int = MOST_WORDS) -> str:
+    """As much of a text as a line has room for."""
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
 def _ids(rows: Sequence[ClaimResult]) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.assumed import arm_words, assumed_line
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
@@ -14,8 +15,8 @@ from lyapcheck.claims.arms import ranges_of
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Annotation, Answer, Level
-from lyapcheck.output.digits import at_most, decimals
-from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.digits import at_least, at_most, decimals
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, data, records, table
 from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
@@ -43,6 +44,7 @@ GAPS = "The gap is that of the ends by certificates, relative to the larger one.
 NUMERIC = "Marked *: that of the numeric ends, as a certificate is missing."
 WIDE = 0.25
 """The gap from which a word is said about it."""
+MOST_REMARKS = 3
 READABLE = 2000
 """Characters beyond which nobody reads a matrix; certificates have it."""
 
@@ -116,7 +118,7 @@ class RobotReport(Answer):
         return exit_code(row.verdict for row in self.properties)
 
     def document(self) -> Document:
-        """The verdicts first, then what was not proved, then all there is."""
+        """The verdicts first, then the constants and what was not proved; in detail all there is."""
         model = self.model
         judged = [(f"property {row.id}", row) for row in self.properties]
         judged += [(row.statement, row) for row in self.prints]
@@ -125,8 +127,22 @@ class RobotReport(Answer):
             for what, row in judged
             if row.verdict is not Verdict.PROVED
         )
-        about = Paragraph(f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}.")
-        return Document(_title(self), (about, *([Bullets(wrong)] if wrong else []), *_sections(self)))
+        remarks = [*wrong[:MOST_REMARKS], *(_wide(self, c) for c in self.constants if _gap(self, c) > WIDE)]
+        left = len(wrong) - MOST_REMARKS
+        more = [f"{left} more claims fail; -v lists them"] if left > 0 else []
+        said = (*remarks[: MOST_REMARKS - len(more)], *more)
+        blocks: tuple[Block, ...] = (_ends(self), *([Bullets(said)] if said else []))
+        arm = self.path or model.name
+        limits = all(number is not None for number in model.torque_limit)
+        then = ("tune", *arm_words(arm), "--m", "1") if limits else ("robot", *arm_words(arm), "-v")
+        return Document(
+            _title(self),
+            blocks,
+            lead=_lead(self),
+            details=tuple(_sections(self)),
+            assumed=assumed_line(model, arm),
+            next=command(*then),
+        )
 
     def data(self) -> dict[str, Any]:
         """``properties: [{id, verdict, …}], constants: [{name, lower, upper, …}], joints, numbers, …``."""
@@ -254,13 +270,24 @@ def _title(report: RobotReport) -> str:
         return f"✓ {name}: properties {together(every, every)} {said}"
     extents = {row.id: extent(row, report.model) for row in report.properties}
     ranged, nominal = ([key for key in every if extents[key] == kind] for kind in (RANGES, NOMINAL))
-    parts = [
-        f"{together(ids, every)} for {kind}" if kind == RANGES else f"{together(ids, every)} at {kind} only"
-        for kind, ids in ((RANGES, ranged), (NOMINAL, nominal))
-        if ids
-    ]
     said = all_say(_promises(report), "proved")
-    return f"{'!' if nominal else '✓'} {name}: properties {said}: {'; '.join(parts)}"
+    if not nominal:
+        return f"✓ {name}: properties {together(ranged, every)} {said} for {RANGES}"
+    if not ranged:
+        return f"! {name}: properties {together(nominal, every)} {said} at {NOMINAL} only"
+    return f"! {name}: properties {together(ranged, every)} {said} for its ranges"
+
+
+def _lead(report: RobotReport) -> tuple[str, ...]:
+    """What arm it is, and what is shown at its nominal numbers only."""
+    model = report.model
+    about = f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}"
+    every = [row.id for row in report.properties]
+    nominal = [row.id for row in report.properties if extent(row, model) == NOMINAL]
+    if not nominal or len(nominal) == len(every) or report.exit_code is not Exit.PROVED:
+        return (about,)
+    words = f"{together(nominal, every)} proved at {NOMINAL} only"
+    return about, all_say(_promises(report), words)
 
 
 def _promises(report: RobotReport) -> list[Promise | None]:
@@ -295,6 +322,18 @@ def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: Robot
     heads = (head, "verdict", *(["for"] if ranged else []), "grade", "statement")
     table = Table(heads, cells, align="l" * len(heads))
     return Section(title, (table, Paragraph("Shown by:"), Bullets(shown)))
+
+
+def _ends(report: RobotReport) -> Table:
+    """Both ends of each constant as certificates show them, in four digits."""
+    rows = []
+    for constant in report.constants:
+        shown, gap = report.certified.get(constant.name, CertifiedBounds()), _gap(report, constant)
+        low, high = shown.lower, shown.upper
+        ends = (NONE if low is None else at_least(low), NONE if high is None else at_most(high))
+        rows.append((_symbol(constant), constant.unit, *ends, "0" if gap == 0 else _percent(gap)))
+    heads = ("constant", "unit", "proved: above", "proved: at most", "gap [%]")
+    return Table(heads, tuple(rows), align="llrrr", keys=1, drop=(1, 4))
 
 
 def _constants(report: RobotReport) -> Section:
@@ -388,3 +427,42 @@ def inertia_sections(model: RobotModel) -> list[Section]:
             names = (f"p{k + 1} is {name}" for k, name in enumerate(robot.parameters))
             result[title] = Section(title, (Bullets((*entries, *names)),))
     return list(result.values())
+
+
+@dataclass(frozen=True)
+class ArmAssumptions(Answer):
+    """All that is assumed about an arm: numbers without a source, then what its model takes for granted."""
+
+    schema = "lyapcheck/robot-assumptions/1"
+
+    model: RobotModel
+    arm: str
+
+    def document(self) -> Document:
+        """The assumed numbers as a table, the rest as sentences."""
+        model = self.model
+        numbers = [(name, number) for name, number in model.numbers.items() if number.assumed]
+        rows = [
+            (
+                name,
+                with_unit(number.value, number.unit),
+                " … ".join(map(decimal_text, number.bounds)) if number.ranged else "",
+                number.note or number.source,
+            )
+            for name, number in numbers
+        ]
+        heads = ("number", "value", "range", "why")
+        others = (*model.remarks, *model.doubts)
+        table: list[Block] = [Table(heads, tuple(rows), align="llll")] if rows else []
+        title = f"{model.name}: {len(numbers)} of {len(model.numbers)} numbers are assumed"
+        then = command("robot", *arm_words(self.arm), "--export", "own_arm.toml")
+        return Document(title, (*table, *([Bullets(others)] if others else [])), next=then)
+
+    def data(self) -> dict[str, Any]:
+        """``numbers: {name: {value, unit, …}}`` and ``assumptions``, one sentence each."""
+        known = {name: _data(number) for name, number in self.model.numbers.items() if number.assumed}
+        return {"robot": self.model.name, "numbers": known, "assumptions": list(self.model.assumptions)}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a number."""
+        return [{"name": name, **(row or {})} for name, row in self.data()["numbers"].items()]

@@ -25,6 +25,9 @@ def arguments(parser: Parser) -> None:
     )
     add_certificates(parser, "Write a certificate of each decided claim to this folder")
     parser.add_argument("--timings", action="store_true", help="Add the seconds of each claim.")
+    about = "Show each claim that is not proved, with its counterexample or the reason."
+    parser.add_argument("--failed", action="store_true", help=about)
+    parser.add_argument("--all", action="store_true", help="Show each claim with its statement and evidence.")
     add_no_store(parser)
     add_format(parser)
 
@@ -38,6 +41,8 @@ def run(
     only: list[str] | None,
     certificates: Path | None,
     timings: bool,
+    failed: bool,
+    all: bool,  # noqa: A002
     format: str,  # noqa: A002
 ) -> Exit:
     """Decide the claims of a proof script: proved, refuted with a counterexample, or undecided.
@@ -54,6 +59,7 @@ def run(
     """
     from dataclasses import replace
 
+    from lyapcheck.answers.check.proof import ALL, FAILED, SHORT
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.fresh_check import ContradictionError
     from lyapcheck.cli.progress import progress
@@ -82,5 +88,6 @@ def run(
             print(printable(f"note: {sentence}"), file=sys.stderr)
     if folder is not None:
         write_certificates(folder, result.certificates)
-    show(replace(result, timings=timings), format)
+    extent = ALL if all else FAILED if failed else SHORT
+    show(replace(result, timings=timings, extent=extent), format)
     return result.exit_code

@@ -137,9 +137,13 @@ def _members(files: Iterable[GainFile]) -> list[int]:
 def _summary(report: Report, out: Path, formats: tuple[str, ...]) -> str:
     """What was found, in a few lines, and where to read it."""
     first = {"html": "index.html", "md": "report.md", "json": "report.json", "pdf": "report.pdf"}
+    from lyapcheck.output.document import command
     from lyapcheck.report.verdict import badges, sentences
 
     lines = [f"{badge.subject}: {badge.word}" for badge in badges(report)]
-    lines += ["", *sentences(report), ""]
-    lines += [f"written: {out / first[name]}" for name in formats]
+    lines += [f"  {text}" for text in sentences(report)] + [""]
+    written = [str(out / first[name]) for name in formats]
+    lines.append(f"  open: {written[0]}{''.join(f', {path}' for path in written[1:])}")
+    if report.certificates:
+        lines.append(f"  next: {command('recheck', out)}/certificates/*/")
     return "\n".join(lines) + "\n"

@@ -26,6 +26,8 @@ def arguments(parser: Parser) -> None:
     parser.add_number("--max-boxes", int, about, least=1)
     about = "Write the arm as an arm file to edit, and decide nothing. - is standard output."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
+    about = "List the assumed numbers and all other assumptions of the arm, and decide nothing."
+    parser.add_argument("--assumptions", action="store_true", help=about)
     add_certificates(parser, "Write the certificates to this folder")
     add_no_store(parser)
     add_format(parser)
@@ -35,6 +37,7 @@ def run(
     robot: str,
     max_boxes: int | None,
     export: Path | None,
+    assumptions: bool,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -52,6 +55,7 @@ def run(
       lyapcheck robot buap3
       lyapcheck robot arm.urdf --tip hand --certificates proof/
       lyapcheck robot buap3 --export arm.toml
+      lyapcheck robot buap3 --assumptions
     """
     from lyapcheck.cli.show import open_folder, write_certificates, write_whole
     from lyapcheck.robots import load, names
@@ -69,6 +73,11 @@ def run(
         write_whole(export, arm_text(robot, export.parent))
         return Exit.PROVED
     model = load(robot)
+    if assumptions:
+        from lyapcheck.answers.robot.answer import ArmAssumptions
+
+        show(ArmAssumptions(model, robot), format)
+        return Exit.PROVED
     from lyapcheck.answers.robot import build
 
     folder = None if certificates is None else open_folder("--certificates", certificates)
