@@ -109,7 +109,7 @@ def _compiled(outputs: Sequence[Any], x: Letters) -> Callable[..., list[Any]]:
     body = "\n    ".join(lines)
     text = f"def formula(names, {', '.join(map(str, known))}, **_):\n    {body}\n"
     made: dict[str, Any] = {}
-    exec(text, made)  # nosec B102: text that SymPy printed
+    exec(text, made)  # text that SymPy printed # nosec B102
     result: Callable[..., list[Any]] = made["formula"]
     return result
 
