@@ -85,7 +85,9 @@ def worse(numbers, before):
 
 def texts():
     """Every page by its path, then the help of all commands and the docstrings of public names."""
-    pages = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]
+    every = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]
+    # help texts and docstrings are measured where they stand, not in the pages written from them
+    pages = [page for page in every if not page.read_text(encoding="utf-8").startswith("<!-- Written by")]
     result = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in sorted(pages)}
     return result | {"help": _help()} | {name: _public(name) for name in ("lyapcheck", "lyapcheck.claims")}
 
