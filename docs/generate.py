@@ -215,14 +215,7 @@ TASKS = {
     "claims.arguments": "Use a stability theorem",
     "check": "Build a statement directly",
 }
-ROOMS = {
-    "answers": "Answers",
-    "control": "Gains",
-    "robots": "Arms",
-    "simulate": "Simulation",
-    "claims": "Claims",
-    "check": "Certificates and numbers",
-}
+ROOMS = {"answers": "Answers", "control": "Gains", "robots": "Arms", "simulate": "Simulation"}
 
 
 def claims():

@@ -77,7 +77,7 @@ def bounds(
     seconds: float = 10.0,
     within_deg: float = 1.0,
 ) -> Comparisons:
-    """Bound the steady-state error under dry friction, beside a simulated motion.
+    """Bound the steady-state error under dry friction, and simulate a motion.
 
     Args:
         gain_file: a gain file or its path.
@@ -158,9 +158,9 @@ def decide(statement: Statement, m: int | None = None, n: int | None = None) -> 
     """Decide one statement that is made with the names of ``lyapcheck.claims``.
 
     Args:
-        statement: what is claimed.
+        statement: the claim.
         m: the order of h_m, for the record in its certificate.
-        n: the number of joints, likewise.
+        n: the number of joints, for the same record.
 
     Soundness: a search proposes a proof or a counterexample. A fresh process of the checker decides.
 

@@ -100,7 +100,9 @@ def _run_once(path: Path, content: bytes) -> dict[str, Any]:
     before = sys.modules.get(RUNNING)
     sys.modules[RUNNING] = module
     try:
-        exec(compile(content, str(path), "exec", dont_inherit=True), vars(module))  # nosec B102: a proof script is a program
+        exec(
+            compile(content, str(path), "exec", dont_inherit=True), vars(module)
+        )  # a proof script is a program # nosec B102
     finally:
         if before is None:
             sys.modules.pop(RUNNING, None)

