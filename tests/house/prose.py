@@ -85,16 +85,11 @@ def worse(numbers, before):
 
 def texts():
     """Every page by its path, then the help of all commands and the docstrings of public names."""
-<<<<<<< HEAD
     docs = ROOT / "docs"
-    pages = [*ROOT.glob("*.md"), *docs.rglob("*.md"), *docs.rglob("*.ipynb")]
-    result = {str(page.relative_to(ROOT)): _words(page) for page in sorted(pages)}
-=======
-    every = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]
+    every = [*ROOT.glob("*.md"), *docs.rglob("*.md"), *docs.rglob("*.ipynb")]
     # help texts and docstrings are measured where they stand, not in the pages written from them
     pages = [page for page in every if not page.read_text(encoding="utf-8").startswith("<!-- Written by")]
-    result = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in sorted(pages)}
->>>>>>> refs/heads/reference
+    result = {str(page.relative_to(ROOT)): _words(page) for page in sorted(pages)}
     return result | {"help": _help()} | {name: _public(name) for name in ("lyapcheck", "lyapcheck.claims")}
 
 
