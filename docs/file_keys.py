@@ -78,6 +78,7 @@ FILES = {
         "": (
             Key("robot", "text", "", "none", '"buap3"', "Built-in arm, or the path of an arm file."),
             Key("condition", "list of conditions", "", "the default of the gate", '["10p", "19"]', "[Conditions](conditions.md) that decide about all sets of the file."),
+            Key("certificates", "path", "", "none", '"proofs"', "Folder of certificates. The gate verifies its proofs of `global` and `sampled` again before any search."),
             Key("gains", "tables", "", "required", "see below", "One table for each gain set."),
             Key("bounds", "table", "", "none", "see below", "Numbers that replace those of the arm."),
             Key("loop", "table", "", "none", "see below", "The loop as a computer runs it."),

@@ -155,7 +155,7 @@ class Claim:
         section: the part of the text, for reports.
         uses: the claims that it uses.
         statement: the statement as data, for a case.
-        stands: one of ``STANDS``; what is ``ours`` can be no error of the text.
+        stands: ``quoted``, ``implied`` or ``ours``. A claim of ours is no error of the text.
     """
 
     id: str

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.promise import Promise
     from lyapcheck.report.notes import Notes
-    from lyapcheck.report.tiles import Motion, Tile
     from lyapcheck.robots import RobotModel
 
 WEIGHTS = {
@@ -109,6 +108,41 @@ class BySize:
     m: int | None
     comment: str
     verdicts: Mapping[int, str]
+
+
+SIGNS = {"good": "✓", "bad": "✗", "warn": "!", "open": "?"}
+"""Of the tones of tiles and badges."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The arm drawn at some times, from start to goal: places of base, joints and end, in the plane, m."""
+
+    frames: tuple[tuple[tuple[float, float], ...], ...]
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Tile:
+    """One answer about one gain set.
+
+    Args:
+        subject: what was asked, in a word or two.
+        number: the answer.
+        text: who says so, in one sentence.
+        tone: ``good``, ``warn``, ``bad``, or ``open`` where nothing is judged.
+        todo: what to do about it, and the command for it; empty where nothing is to be done.
+        before: the answer of an older report, where it was another one.
+        posture: the arm where something fails.
+    """
+
+    subject: str
+    number: str
+    text: str
+    tone: str
+    todo: tuple[str, str] = ("", "")
+    before: str = ""
+    posture: Motion | None = None
 
 
 @dataclass(frozen=True)

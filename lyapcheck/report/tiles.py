@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest
@@ -14,6 +14,7 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions, 
 from lyapcheck.control.sampling import time_text
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
+from lyapcheck.report.model import Motion, Tile
 from lyapcheck.report.text import and_list
 
 if TYPE_CHECKING:
@@ -23,36 +24,12 @@ if TYPE_CHECKING:
     from lyapcheck.report.model import Report, RunRow
     from lyapcheck.robots import RobotModel
 
-SIGNS = {"good": "✓", "bad": "✗", "warn": "!", "open": "?"}
 NARROW = 10
 """Per cent that a motor has in reserve, below which a tile is amber."""
 SWINGS = 20
 """Per cent of a step, overshoot above which a tile is amber."""
 FAR = 5
 """Degrees off the goal, above which a tile is amber."""
-
-
-@dataclass(frozen=True)
-class Tile:
-    """One answer about one gain set.
-
-    Args:
-        subject: what was asked, in a word or two.
-        number: the answer.
-        text: who says so, in one sentence.
-        tone: ``good``, ``warn``, ``bad``, or ``open`` where nothing is judged.
-        todo: what to do about it, and the command for it; empty where nothing is to be done.
-        before: the answer of an older report, where it was another one.
-        posture: the arm where something fails.
-    """
-
-    subject: str
-    number: str
-    text: str
-    tone: str
-    todo: tuple[str, str] = ("", "")
-    before: str = ""
-    posture: Motion | None = None
 
 
 def tiles(result: GateResult, model: RobotModel, run: RunRow | None) -> tuple[Tile, ...]:
@@ -219,14 +196,6 @@ def _assumed(model: RobotModel) -> Tile:
 
 
 # --- The arm as a picture: places of its joints along the simulated motion, seen from the side.
-
-
-@dataclass(frozen=True)
-class Motion:
-    """The arm drawn at some times, from start to goal: places of base, joints and end, in the plane, m."""
-
-    frames: tuple[tuple[tuple[float, float], ...], ...]
-    seconds: float
 
 
 FRAMES = 40

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from lyapcheck.output.mathml import Markup, element, sentence
-from lyapcheck.report.model import Report
-from lyapcheck.report.tiles import SIGNS, Motion, Tile
+from lyapcheck.report.model import SIGNS, Motion, Report, Tile
 
 WIDTH, MARGIN = 320.0, 14.0
 """Of the picture of the arm, in its own units."""

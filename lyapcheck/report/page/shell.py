@@ -8,12 +8,11 @@ from importlib import resources
 
 from lyapcheck.output.html import fold, page
 from lyapcheck.output.mathml import Markup, element, latex, sentence
-from lyapcheck.report.model import WEIGHTS, Finding, Report, WitnessRow, anchor
+from lyapcheck.report.model import SIGNS, WEIGHTS, Finding, Report, WitnessRow, anchor
 from lyapcheck.report.page.claims import claims_section
 from lyapcheck.report.page.gains import derive_section, evidence_section, figure, gains_section
 from lyapcheck.report.page.own import first_screen
 from lyapcheck.report.text import SYMBOLS, member_words, witness_place, witness_sides
-from lyapcheck.report.tiles import SIGNS
 from lyapcheck.report.verdict import VerdictBox, badges, chain, route, sentences
 
 SECTIONS = {

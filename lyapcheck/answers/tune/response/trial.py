@@ -96,7 +96,8 @@ class Wishes:
             "peak_share": "≤ {} of each torque limit",
             "rest_error": "dry friction leaves ≤ {}°",
         }
-        return "; ".join(forms[name].format(f"{value:g}") for name, value in self.given.items())
+        said = {name: str(value).removesuffix(".0") for name, value in self.given.items()}
+        return "; ".join(forms[name].format(value) for name, value in said.items())
 
 
 @dataclass(frozen=True)
