@@ -207,11 +207,6 @@ FILES = {
             Key("to", PER_JOINT, "°", "required", "[45, 45, 90]", "Last joint angles."),
             Key("duration", "number", "s", "required", "2", "Duration, from 0.001 to 3600."),
         ),
-        'kind = "recorded"': (
-            Key("kind", "text", "", "required", '"recorded"', "A spline through recorded samples."),
-            Key("file", "text", "", "required", '"motion.csv"', "CSV beside this file: `t [s]`, then `q1 [rad]` or `q1 [deg]`, …"),
-            Key("spline", "`cubic` or `quintic`", "", "`cubic`", '"quintic"', "Degree of the spline: 3 or 5."),
-        ),
     },
 }  # fmt: skip
 """The keys of each kind of file, by table."""

@@ -68,7 +68,7 @@ PLAN = (
     '[[gains]]\nname = "one"\nm = 1\nkp = [10]\nkv = [0.5]\n[grid]\nm = [1]\nkp = [10]\nkv = [0.5]\n'
     + "".join(f"[{name}]\n" for name in ("gate", "epsilon", "bounds", "simulate", "robot", "check"))
 )
-REFERENCES = {kind: f'kind = "{kind}"\n' for kind in ("sine", "minimum-jerk", "recorded")}
+REFERENCES = {kind: f'kind = "{kind}"\n' for kind in ("sine", "minimum-jerk")}
 
 
 def asked(monkeypatch, folder, reader, *texts):
