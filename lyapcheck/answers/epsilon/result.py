@@ -7,20 +7,25 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.assumed import arm_words
 from lyapcheck.answers.epsilon.four import FINDINGS, FourEpsilons, eps0_of
 from lyapcheck.answers.epsilon.words import (
+    INFINITE_RATE,
     KINDS,
     exact,
+    first_remarks,
     notes,
     number_cell,
+    numbers_table,
     ratio_text,
     remarks,
+    said_of,
     title,
     witness_text,
 )
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import decimals
-from lyapcheck.output.document import Bullets, Document, Section, Table
+from lyapcheck.output.document import Bullets, Document, Section, Table, command
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
@@ -136,11 +141,27 @@ class EpsilonResults(Answer):
     seconds: Sequence[float] | None = None
 
     def document(self) -> Document:
-        """A row a gain set, and what stands behind its numbers."""
+        """The four numbers, and in detail what stands behind them."""
         rows = tuple(self._row(result, time) for result, time in self._timed())
         heads = HEADS if self.seconds is None else (*HEADS, "seconds")
         behind = [Section(result.name, (Bullets(tuple(remarks(result))),)) for result in self.results]
-        return Document(title(self.results), (Table(heads, rows), *behind), tuple(notes(self.results)))
+        every = Table(heads, rows)
+        short = [numbers_table(self.results[0])] if len(self.results) == 1 else [every]
+        promises = [one.promise for one in self.results if one.promise is not None]
+        lead = [INFINITE_RATE] + ([said_of(self.results[0])] if len(self.results) == 1 else [])
+        arm = (self.file.robot if self.file else None) or (self.results[0].robot if self.results else "")
+        count = sum(len(one.assumptions) for one in self.results[:1])
+        listed = command("robot", *arm_words(arm), "--assumptions") if arm else ""
+        then = command("gate", self.file.path, "--condition", "scalar") if self.file else ""
+        return Document(
+            title(self.results),
+            (*short, *([Bullets(lines)] if (lines := first_remarks(self.results)) else [])),
+            tuple(notes(self.results)),
+            tuple(filter(None, lead)) if promises else (INFINITE_RATE,),
+            (*([every] if len(self.results) == 1 else []), *behind),
+            f"{count} assumptions about the arm: {listed}" if count else "",
+            then,
+        )
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, published, scalar, certified, falsified, ratio, witness, boxes, …}]``."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.epsilon.four import eps0_of
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_most, decimals
+from lyapcheck.output.document import Table
 from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
@@ -27,6 +28,43 @@ LEGEND = (
 CERTIFIED = "certified: dV/dt < 0 is proved at every state but the origin."
 RANGED = "published, over ranges: (18) with the worst end of each of its constants, about all arms in them."
 NUMBER = "Marked *: a number in floating point without a certificate; the checker proves less from norms."
+
+
+INFINITE_RATE = "about (11), the loop of a controller of infinite rate"
+MOST_REMARKS, MOST_WORDS = 3, 120
+WAYS = {"published": "the end of (18)", "scalar": "norms alone", "falsified": "a state with dV/dt > 0"}
+
+
+def numbers_table(result: FourEpsilons) -> Table:
+    """The four ε₀ of one gain set, and where each is from."""
+    rows = []
+    for kind in KINDS:
+        way = f"by {result.certified_by}" if kind == "certified" else WAYS[kind]
+        missing = getattr(result, kind) is None
+        why = result.reasons.get(kind, "") if missing else way
+        rows.append((kind, number_cell(result, kind), why if len(why) <= MOST_WORDS else ""))
+    return Table(("", "ε₀", "from"), tuple(rows), align="lrl", keys=2)
+
+
+def said_of(result: FourEpsilons) -> str:
+    """How far the largest ε₀ is known."""
+    ratio = ratio_text(result.ratio)
+    return "" if ratio is None else f"ε₀ = {exact(result.falsified)} is too large; the quotient is {ratio}"
+
+
+def first_remarks(results: Sequence[FourEpsilons]) -> tuple[str, ...]:
+    """What the numbers say about each other, and the weights, of one gain set."""
+    if len(results) != 1:
+        return ()
+    (result,) = results
+    said = [f"{finding}" for finding in result.findings]
+    if result.promise is not None and result.unvaried is not None:
+        said.append(_cost_text(result.promise, result.unvaried))
+    if result.outside:
+        said.append(f"the file's own value lies outside the range of {', '.join(result.outside)}")
+    if result.weighted is not None and result.weighted_promise is not None:
+        said.append(result.weighted_promise.says(_weighted_text(result.weighted)))
+    return tuple(said[:MOST_REMARKS])
 
 
 def ratio_text(value: Fraction | None) -> str | None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 
 PROMISES, FINISHED = "promises", "finished"
+MOST_REMARKS = 3
 MARKS = {Level.PASSED: "✓", Level.FAILED: "✗", Level.UNDECIDED: "?"}
 NUMERIC = (
     "Runs are integrated in floating point: what they show is simulated, not proved. Where balls confirm a "
@@ -111,19 +112,32 @@ class Simulation(Answer, Generic[Result]):
         return [*broken, *(f"not finished: {one.reason}" for one in self.unfinished)]
 
     def document(self) -> Document:
-        """What went wrong, all gain sets beside each other, then each by itself; what is assumed."""
-        wrong = self.complaints()
-        warnings = [Bullets(tuple(wrong))] if wrong else []
+        """What went wrong, then the run joint by joint, or all gain sets; in detail each by itself."""
+        wrong, one = self.complaints(), len(self.results) == 1
         overview = [self.overview()] if self.results else []
         arms = [Paragraph(f"Simulated on {self.arms}.")] if self.arms else []
-        blocks: tuple[Block, ...] = (
-            *warnings,
+        short: list[Block] = [self.by_joint(self.results[0])] if one else list(overview)
+        said = [*wrong[:MOST_REMARKS]]
+        if len(wrong) > MOST_REMARKS:
+            said[-1] = f"{len(wrong) - MOST_REMARKS + 1} more complaints; -v lists them"
+        short += [Bullets(tuple(said))] if said else []
+        details: tuple[Block, ...] = (
+            *([Bullets(tuple(wrong))] if len(wrong) > MOST_REMARKS else []),
             *arms,
             *self.opening(),
-            *overview,
+            *(overview if one else []),
             *map(self.section, self.results),
         )
-        return Document(self._title(), blocks, (*self.legend(), NUMERIC, *self._notes()))
+        how = self.about().removeprefix(", ")
+        then = command("gate", self.file.path) if self.file is not None else ""
+        return Document(
+            self._title(),
+            tuple(short),
+            (*self.legend(), NUMERIC, *self._notes()),
+            (how,) if how else (),
+            details,
+            next=then,
+        )
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, robot, kind, …}], notes``: degrees, N·m, s, J; ``None`` without a number."""
@@ -190,7 +204,7 @@ class Simulation(Answer, Generic[Result]):
         left_out = any(one.without_dry_friction for one in self.results)
         ideal = ", without the dry friction of the file" if left_out else ""
         ideal += ", at an infinite rate in place of the [loop] of the file" if self.unsampled else ""
-        count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{self.about()}{ideal}"
+        count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{ideal}"
         failed, open_ = levels.count(Level.FAILED), levels.count(Level.UNDECIDED)
         if failed:
             return f"✗ {robots}: {self.against} {failed} of {count}"

@@ -17,7 +17,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, at_most, decimals, shown
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
@@ -300,12 +300,25 @@ class Tuning(Answer):
         return Exit.UNDECIDED if UNDECIDED in result or not result else Exit.PROVED
 
     def document(self) -> Document:
-        """A table a member, one for what it is compared with, and what it all rests on."""
+        """The largest gains joint by joint; in detail a table a member and what each is compared with."""
         joints = self.limits.joints
         blocks: list[Block] = [_section(item, self.targets.digits, joints) for item in self.sets]
         if self.task is not None and len(self.effects) > 1:
             blocks.append(effect_section(self.effects, [math.degrees(x) for x in self.task.q_d], self.task.T))
-        return Document(self._verdict(), (Paragraph(f"{self.targets.text()}."), *blocks), self._notes())
+        rows = [
+            (item.name, *(f"{decimal_text(x.kp)} / {decimal_text(x.kv)}" for x in item.joints))
+            for item in self.sets
+            if item.joints
+        ]
+        heads = ("k_p / k_v [N·m]", *joints)
+        short: list[Block] = [Table(heads, tuple(rows), align="l" + "r" * len(joints))] if rows else []
+        details = (Paragraph(f"{self.targets.text()}."), *blocks)
+        listed = command("robot", self.robot, "--assumptions") if self.robot else ""
+        count = len(self.limits.assumptions)
+        assumed = f"{count} assumptions about the arm: {listed}" if count else ""
+        then = command("tune", self.robot, "--m", "1", "--overshoot", "5", "--settle", "2")
+        lead = (self._hardly,) if self._hardly else ()
+        return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as strings."""
@@ -358,9 +371,12 @@ class Tuning(Answer):
             failed = [str(item.m) for item in self.sets if item.status == status]
             if failed:
                 return f"{MARKS[status]} {self.robot}: {words} for m = {', '.join(failed)}"
-        swings = next(filter(None, map(self._swings, self.sets)), "")
-        mark, said = ("!", f"; {swings}") if swings else ("✓", "")
-        return f"{mark} {self.robot}: the largest gains within (10p) and (19){said}"
+        return f"{'!' if self._hardly else '✓'} {self.robot}: the largest gains within (10p) and (19)"
+
+    @property
+    def _hardly(self) -> str:
+        """That some gains hardly damp the arm; empty where none do."""
+        return next(filter(None, map(self._swings, self.sets)), "")
 
     def _swings(self, item: TunedSet) -> str:
         """That the gains of a member hardly damp the arm."""

@@ -372,6 +372,7 @@ def _tune_for(
     if text := bench_file_text(tuning, None if out is None else out.parent, best=best):
         if out is not None:
             write_whole(out, text)
+            tuning = replace(tuning, out=str(out))
     elif out is not None or format == "toml":
         hint = "; --best writes the best one" if tuning.best is not None else ""
         print(f"note: no set meets the targets, so none is written{hint}", file=sys.stderr)

@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers.assumed import arm_words, assumed_line
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
 from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
@@ -19,7 +20,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
-from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, records, table
 from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
@@ -35,6 +36,7 @@ STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
 """The condition of a set that shows stability, in words."""
 OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
 NONE = "—"
+MOST_REMARKS = 3
 MOST_NAMED = 3
 """Motions that are named."""
 FAR = 100
@@ -109,6 +111,8 @@ class BenchTuning(Answer):
     varies: tuple[Vary, ...] = ()
     loop: LoopEntry = NOTHING
     """What the user said of the loop, before the arm file."""
+    out: str = ""
+    """The file that was written; empty if none was."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -163,7 +167,7 @@ class BenchTuning(Answer):
         return Exit.PROVED if self.good else Exit.UNDECIDED
 
     def document(self) -> Document:
-        """What was asked, all sets beside each other, then each by itself."""
+        """The best set joint by joint; in detail what was asked, all sets, then each by itself."""
         named = [f"{_angles(task.q0)} to {_angles(task.q_d)}" for task in self.bench.tasks]
         tasks = "; ".join(named[:MOST_NAMED])
         if len(named) > MOST_NAMED:
@@ -177,12 +181,27 @@ class BenchTuning(Answer):
         warning = Paragraph(f"Other motions and lower rates may miss the targets.{friction}")
         lines = [*self._given_up(), *self.missing]
         said = (Bullets(tuple(lines)),) if lines else ()
-        blocks = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
+        details = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
+        best = self.best
+        joints: list[Block] = []
+        if best is not None:
+            joints.append(table(self._fields, [(best, i) for i in range(len(self.joints))]))
+        first = [*(self.missed(best) if best else ()), *lines][:MOST_REMARKS]
+        blocks = (*joints, *([Bullets(tuple(first))] if first else []))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
         found = [one.result for one in self.own]
         promises = [one for result in found if result is not None for one in result.grounds.promises]
         inside = [all_say(promises, INSIDE)] if found and all(found) else []
-        return Document(self._title(), blocks, (*NOTES, *inside, *flat, *self.assumptions))
+        then = command("gate", self.out) if self.out else command("robot", *arm_words(self.robot))
+        notes = (*NOTES, *inside, *flat, *self.assumptions)
+        granted = assumed_line(self.model, self.robot)
+        return Document(self._title(), blocks, notes, self._lead(), details, granted, then)
+
+    def _lead(self) -> tuple[str, ...]:
+        """What was simulated, and how the best set is shown to be stable."""
+        best = self.best
+        shown = [] if best is None or best.result is None else [f"{best.shown}; no motor can saturate"]
+        return (f"simulated: {self.scope}", *(best.result.says(text) for text in shown))  # type: ignore[union-attr]
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, way, stable_by, met, worst, joints: [...]}]``, runs to six digits."""
@@ -212,11 +231,11 @@ class BenchTuning(Answer):
         if best is None:
             return f"? {self.robot}: no gains"
         if self.good:
+            without = ", without the dry friction of the file" if self.dry else ""
             return (
-                f"{self._mark} simulated: {best.gains.name} meets the targets on {self.robot} in {self.scope}"
+                f"{self._mark} simulated: {best.gains.name} meets the targets on {self.model.name}{without}"
             )
-        missed = "; ".join(self.missed(best)) or "has no proof of stability"
-        return f"? simulated: no set meets the targets on {self.robot}; the best, {best.gains.name}: {missed}"
+        return f"? simulated: no set meets the targets on {self.model.name}; the best is {best.gains.name}"
 
     @property
     def _mark(self) -> str:
