@@ -201,7 +201,7 @@ class BenchTuning(Answer):
         """What was simulated, and how the best set is shown to be stable."""
         best = self.best
         shown = [] if best is None or best.result is None else [f"{best.shown}; no motor can saturate"]
-        return (f"simulated: {self.scope}", *(best.result.says(text) for text in shown))  # type: ignore[union-attr]
+        return (f"simulated: {self.scope.rpartition(', ')[0]}", *(best.result.says(text) for text in shown))  # type: ignore[union-attr]
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, way, stable_by, met, worst, joints: [...]}]``, runs to six digits."""
