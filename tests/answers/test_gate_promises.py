@@ -109,7 +109,7 @@ def test_without_a_model_the_bound_is_a_premise(tmp_path):
     )
     done = invoke("gate", str(path), "--certificates", str(tmp_path / "made"))
     assert "premise: gravity exerts up to (49) N·m" in said(done)
-    outcome = invoke("recheck", str(tmp_path / "made"), "-v")
+    outcome = invoke("recheck", str(tmp_path / "made"), "--explain")
     assert (outcome.exit_code, "for which no g is given" in said(outcome)) == (0, True)
 
 

@@ -44,13 +44,14 @@ def lyapcheck(monkeypatch, capsys):
 def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
     done = lyapcheck(TABLE2)
     assert done.returncode == 0
+    every = lyapcheck(TABLE2, "-v").stdout
     for name in ("tau_m1 (m = 1)", "tau_m2 (m = 2)", "tau_m3 (m = 3)"):
-        assert name in done.stdout
+        assert name in every
     assert done.stdout.startswith(
         "! buap3: no promise broken by 3 gain sets, without the dry friction of the file\n"
     )
-    assert done.stdout.count("\nshoulder ") == 3
-    assert "is assumed" in done.stdout
+    assert every.count("\nshoulder ") == 3
+    assert "is assumed" in lyapcheck(TABLE2, "--explain").stdout
     assert "simulate:" not in done.stdout
 
 
@@ -77,7 +78,7 @@ def test_joints_that_do_not_settle_have_no_settling_time(lyapcheck):
 def test_experiment_and_markdown(lyapcheck):
     done = lyapcheck(PD, "--experiment", "--format", "markdown", "--time", "0.5")
     assert done.returncode == 0
-    assert done.stdout.startswith("# buap3: 1 gain set, 2.5 ms, no delay, velocity by differences, ")
+    assert done.stdout.startswith("# buap3: 1 gain set\n\n2.5 ms, no delay, velocity by differences, ")
     assert "## tau_pd: (0, 0, 0)° to (45, 45, 90)° in 0.5 s" in done.stdout
     assert "| shoulder |" in done.stdout
 
@@ -180,6 +181,6 @@ def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path):
     gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')
     words = ("simulate", str(gains), "--target", "30", "--time", "1", "--vary")
     within = " ".join(invoke(*words, "viscous=-10%..+10%").stdout.split())
-    assert "Simulated on the arm of the file and all 2 corners of the ranges." in within
+    assert "simulated on the arm of the file and all 2 corners of the ranges" in within
     beyond = " ".join(invoke(*words, "viscous=5%..+10%").stdout.split())
     assert "the arm of the file, which lies outside the ranges, and all 2 corners" in beyond

@@ -52,6 +52,6 @@ def test_the_gate_loads_no_other_command_and_no_reader_of_other_arms():
     assert {name for name in loaded if name.startswith("lyapcheck.cli.commands.")} == {
         "lyapcheck.cli.commands.gate"
     }
-    unused = {"lyapcheck.robots.urdf", "lyapcheck.robots.armfile"}
+    unused = {"lyapcheck.robots.urdf"}
     unused |= {"lyapcheck.family.hyperbolic_drivers", "importlib.resources", "importlib.metadata"}
     assert not loaded & unused

@@ -17,7 +17,6 @@ from tests.helpers.one_process import one_process
 
 GROWTH = 100_000_000
 GAINS = 'robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [0.5]\nkv = [0.1]\n'
-RECORDED = 'kind = "recorded"\nfile = "bad.csv"\n'
 OVERLAY = 'title = "An arm"\nurdf = "bad.urdf"\n'
 COMMANDS = {
     "gain file of gate": "gate bad.toml",
@@ -38,7 +37,6 @@ COMMANDS = {
     "URDF file of tune": "tune bad.urdf",
     "plan": "sweep bad.toml",
     "reference": "simulate gains.toml --reference bad.toml",
-    "recording": "simulate gains.toml --reference recorded.toml",
     "proof script": "check bad.py",
     "proof script of explain": "explain 1 --proof bad.py",
     "certificate": "recheck bad.json",
@@ -73,7 +71,7 @@ def put(kind, folder):
 
 def main(folder):
     """Run all commands on all kinds in a folder, and print a list of what came of it."""
-    for name, text in (("gains", GAINS), ("recorded", RECORDED), ("overlay", OVERLAY)):
+    for name, text in (("gains", GAINS), ("overlay", OVERLAY)):
         (folder / f"{name}.toml").write_text(text, encoding="utf-8")
     threading.stack_size(1 << 18)  # those of timers that are cancelled and not yet gone are no growth either
     result = []

@@ -216,7 +216,7 @@ BROKEN = {
         8,
         "limits",
         "not a known key",
-        "use one of: bounds, condition, gains, loop, robot",
+        "use one of: bounds, certificates, condition, gains, loop, robot",
     ),
     "key of another room": (
         BOUNDS + "friction = 1\n",

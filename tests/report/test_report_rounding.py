@@ -20,8 +20,8 @@ def maps():
 
 
 def test_a_map_shows_no_eps0_above_what_is_proved(maps):
-    text = SweepAnswer("plan.toml", maps).written("text")
-    shown = re.findall(r"^ *1 +(.*)$", text, re.MULTILINE)[0].split()
+    text = SweepAnswer("plan.toml", maps).written("markdown")
+    shown = re.findall(r"^\| 1 \| (.*) \|$", text, re.MULTILINE)[0].split(" | ")
     assert shown == ["0.102", "0.102", "0.0999"]
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
+from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
@@ -115,7 +115,6 @@ class Simulation(Answer, Generic[Result]):
         """What went wrong, then the run joint by joint, or all gain sets; in detail each by itself."""
         wrong, one = self.complaints(), len(self.results) == 1
         overview = [self.overview()] if self.results else []
-        arms = [Paragraph(f"Simulated on {self.arms}.")] if self.arms else []
         short: list[Block] = [self.by_joint(self.results[0])] if one else list(overview)
         said = [*wrong[:MOST_REMARKS]]
         if len(wrong) > MOST_REMARKS:
@@ -123,7 +122,6 @@ class Simulation(Answer, Generic[Result]):
         short += [Bullets(tuple(said))] if said else []
         details: tuple[Block, ...] = (
             *([Bullets(tuple(wrong))] if len(wrong) > MOST_REMARKS else []),
-            *arms,
             *self.opening(),
             *(overview if one else []),
             *map(self.section, self.results),
@@ -134,7 +132,7 @@ class Simulation(Answer, Generic[Result]):
             self._title(),
             tuple(short),
             (*self.legend(), NUMERIC, *self._notes()),
-            (how,) if how else (),
+            tuple(filter(None, (how, f"simulated on {self.arms}" if self.arms else ""))),
             details,
             next=then,
         )
