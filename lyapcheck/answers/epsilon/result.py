@@ -146,7 +146,8 @@ class EpsilonResults(Answer):
         heads = HEADS if self.seconds is None else (*HEADS, "seconds")
         behind = [Section(result.name, (Bullets(tuple(remarks(result))),)) for result in self.results]
         every = Table(heads, rows)
-        short = [numbers_table(self.results[0])] if len(self.results) == 1 else [every]
+        single = len(self.results) == 1 and self.seconds is None
+        short = [numbers_table(self.results[0])] if single else [every]
         promises = [one.promise for one in self.results if one.promise is not None]
         lead = [INFINITE_RATE] + ([said_of(self.results[0])] if len(self.results) == 1 else [])
         arm = (self.file.robot if self.file else None) or (self.results[0].robot if self.results else "")
@@ -158,7 +159,7 @@ class EpsilonResults(Answer):
             (*short, *([Bullets(lines)] if (lines := first_remarks(self.results)) else [])),
             tuple(notes(self.results)),
             tuple(filter(None, lead)) if promises else (INFINITE_RATE,),
-            (*([every] if len(self.results) == 1 else []), *behind),
+            (*([every] if single else []), *behind),
             f"{count} assumptions about the arm: {listed}" if count else "",
             then,
         )

@@ -31,7 +31,7 @@ NUMBER = "Marked *: a number in floating point without a certificate; the checke
 
 
 INFINITE_RATE = "about (11), the loop of a controller of infinite rate"
-MOST_REMARKS, MOST_WORDS = 3, 120
+MOST_REMARKS = 3
 WAYS = {"published": "the end of (18)", "scalar": "norms alone", "falsified": "a state with dV/dt > 0"}
 
 
@@ -41,8 +41,11 @@ def numbers_table(result: FourEpsilons) -> Table:
     for kind in KINDS:
         way = f"by {result.certified_by}" if kind == "certified" else WAYS[kind]
         missing = getattr(result, kind) is None
-        why = result.reasons.get(kind, "") if missing else way
-        rows.append((kind, number_cell(result, kind), why if len(why) <= MOST_WORDS else ""))
+        why = "" if missing else way
+        label = kind if kind != "certified" else "no certificate"
+        if kind == "certified" and result.promise is not None:
+            label = result.promise.says(kind)
+        rows.append((label, number_cell(result, kind), why))
     return Table(("", "ε₀", "from"), tuple(rows), align="lrl", keys=2)
 
 
@@ -58,6 +61,8 @@ def first_remarks(results: Sequence[FourEpsilons]) -> tuple[str, ...]:
         return ()
     (result,) = results
     said = [f"{finding}" for finding in result.findings]
+    missing = [kind for kind in ("certified", "published") if getattr(result, kind) is None]
+    said += [f"no {kind} ε₀: {result.reasons[kind]}" for kind in missing if result.reasons.get(kind)]
     if result.promise is not None and result.unvaried is not None:
         said.append(_cost_text(result.promise, result.unvaried))
     if result.outside:

@@ -115,7 +115,7 @@ class Simulation(Answer, Generic[Result]):
         """What went wrong, then the run joint by joint, or all gain sets; in detail each by itself."""
         wrong, one = self.complaints(), len(self.results) == 1
         overview = [self.overview()] if self.results else []
-        short: list[Block] = [self.by_joint(self.results[0])] if one else list(overview)
+        short: list[Block] = [self.joint_table(self.results[0])] if one else list(overview)
         said = [*wrong[:MOST_REMARKS]]
         if len(wrong) > MOST_REMARKS:
             said[-1] = f"{len(wrong) - MOST_REMARKS + 1} more complaints; -v lists them"
@@ -160,6 +160,10 @@ class Simulation(Answer, Generic[Result]):
         """A row a joint of a gain set."""
         parts = [field for field in self.fields if field.each]
         return fields.table(parts, [(one, i) for i in range(len(one.joints))], **words)
+
+    def joint_table(self, one: Result) -> Table:
+        """The same with the words that its heads need."""
+        return self.by_joint(one)
 
     @abstractmethod
     def section(self, one: Result) -> Section:

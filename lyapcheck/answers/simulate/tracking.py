@@ -23,7 +23,7 @@ from lyapcheck.answers.simulate.simulation import (
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most
-from lyapcheck.output.document import Block, Bullets, Paragraph, Section
+from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
 from lyapcheck.output.fields import Field, data, records
 from lyapcheck.simulate.tracking import TrackingRun
 
@@ -140,9 +140,13 @@ class TrackingRuns(Simulation[TrackingRun]):
         """What is estimated."""
         return (ESTIMATED,)
 
+    def joint_table(self, one: TrackingRun) -> Table:
+        """With the band in degrees."""
+        return self.by_joint(one, band=f"{math.degrees(one.band):g}°")
+
     def section(self, one: TrackingRun) -> Section:
         """A row a joint, and what is estimated beside what was seen."""
-        table = self.by_joint(one, band=f"{math.degrees(one.band):g}°")
+        table = self.joint_table(one)
         head = headline(one, f"from {row(np.round(np.degrees(one.q[0]), 9))}°")
         return Section(f"{self.mark(one.name)} {head}".strip(), (table, Bullets(_facts(one))))
 

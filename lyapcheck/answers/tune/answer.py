@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
 BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
 MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
+MOST_REASONS = 3
 NONE_FOUND = {
     INFEASIBLE: "no gains within (10p) and (19)",
     UNDECIDED: "its limits are not known, so no gains",
@@ -312,6 +313,9 @@ class Tuning(Answer):
         ]
         heads = ("k_p / k_v [N·m]", *joints)
         short: list[Block] = [Table(heads, tuple(rows), align="l" + "r" * len(joints))] if rows else []
+        reasons = list(dict.fromkeys(reason for item in self.sets for reason in item.reasons))
+        if reasons:
+            short.append(Bullets(tuple(reasons[:MOST_REASONS])))
         details = (Paragraph(f"{self.targets.text()}."), *blocks)
         listed = command("robot", self.robot, "--assumptions") if self.robot else ""
         count = len(self.limits.assumptions)
