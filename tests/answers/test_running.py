@@ -33,7 +33,7 @@ def test_tune_writes_the_loop_that_it_was_asked_for(tmp_path: Path) -> None:
 
 
 def test_tune_supposes_a_loop_where_none_is_known() -> None:
-    text = " ".join(invoke("tune", "reyes-kelly2", "--m", "1").stdout.split())
+    text = " ".join(invoke("tune", "reyes-kelly2", "--m", "1", "-v").stdout.split())
     assert "as run (1 sample late, velocity by differences)" in text
 
 

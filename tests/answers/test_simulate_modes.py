@@ -88,8 +88,9 @@ def test_a_reference_is_followed_and_its_promises_stand_beside_what_was_seen(lya
 
 
 def test_tracking_in_words(lyapcheck, single, wave):
-    text = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5).stdout
-    assert text.startswith("! reyes-kelly2: no promise broken by 1 gain set, tracking (21), without the dry")
+    text = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5, "-v").stdout
+    assert text.startswith("! reyes-kelly2: no promise broken by 1 gain set, without the dry friction")
+    assert text.splitlines()[1] == "  tracking (21)"
     assert "dV/dt ≤ −zᵀΘ'z at all 2001 samples" in text
     page = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5, "--format", "markdown").stdout
     assert "## ✓ s (m = 2): from (0, 0)° in 1 s" in page
@@ -317,7 +318,7 @@ def pendulum(tmp_path):
 def test_a_limit_cycle_leaves_with_1_and_the_name_of_the_joint(lyapcheck, pendulum):
     done = lyapcheck(pendulum(800), "--rate", 1000, "--delay", 0, "--target", 45)
     assert done.returncode == 1
-    assert done.stdout.startswith("✗ pendulum1: limit cycle seen in 1 of 1 gain set, 1 ms, no delay")
+    assert done.stdout.startswith("✗ pendulum1: limit cycle seen in 1 of 1 gain set\n  1 ms, no delay")
     assert "g: limit cycle seen: pivot swings by" in done.stderr
     (result,) = json.loads(
         lyapcheck(pendulum(800), "--rate", 1000, "--target", 45, "--format", "json").stdout
@@ -333,7 +334,7 @@ def test_a_payload_that_the_gains_cannot_hold_leaves_with_1(lyapcheck, pendulum)
     file = pendulum(3, "[loop]\nrate = 500\nunknown_payload = 2\n")
     done = lyapcheck(file, "--target", 45)
     assert done.returncode == 1
-    assert done.stdout.startswith("✗ pendulum1: falls seen in 1 of 1 gain set, 2 ms, 1 sample late")
+    assert done.stdout.startswith("✗ pendulum1: falls seen in 1 of 1 gain set\n  2 ms, 1 sample late")
     assert "the unknown load asks up to" in done.stderr
     light = lyapcheck(file, "--target", 45, "--unknown-payload", 0.1)
     assert light.returncode == 0
