@@ -26,7 +26,7 @@ SAID = {
     "answers.epsilon.result": (4, "the name of a rule"),
     "answers.epsilon.certificates": (3, CERTIFICATE),
     "answers.epsilon.kept": (2, "the name of a certificate, and what the checker said when it was taken"),
-    "answers.epsilon.words": (3, "headings, and a sentence that promises alone may say"),
+    "answers.epsilon.words": (4, "headings, and a sentence that promises alone may say"),
     "answers.gate.answer": (1, GATHERED),
     "answers.gate.document": (4, SORTING),
     "answers.gate.judge": (2, GATHERED),
