@@ -23,6 +23,7 @@ from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.control.gains import Bounds, paper_gain_file, read_gain_file
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
+from lyapcheck.output.text import Depth, View, render
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, at_values
@@ -420,7 +421,7 @@ def test_what_m_does_is_shown_in_runs():
         assert one.share == pytest.approx(max(run.peak_torque / [150, 15]))
     assert last.L2 > first.L2
     assert last.rest > first.rest
-    said = " ".join(str(tuning).split())
+    said = " ".join(render(tuning.document(), View(Depth.VERBOSE)).split())
     assert f"L2 goes from {first.L2:.1f}° to {last.L2:.1f}°" in said
     assert tuning.data()["effects"][0]["m"] == 1
 

@@ -39,7 +39,7 @@ SEEN = {
     "answers/robot/answer.py:constant_data": "the gap of numeric ends",
     "answers/robot/answer.py:_state_rows": "the angles of a witness, whole in the data",
     "answers/tune/response/trial.py:__post_init__": "the largest value that may be asked",
-    "answers/simulate/simulation.py:headline": "times that the user gave or that were reached",
+    "answers/simulate/simulation.py:motion": "times that the user gave or that were reached",
     "answers/simulate/simulation.py:plain": "simulated",
     "answers/simulate/simulation.py:row": "angles that the user gave",
     "answers/simulate/samples.py:quantities": "simulated",

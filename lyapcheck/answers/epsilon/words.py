@@ -56,20 +56,21 @@ def said_of(result: FourEpsilons) -> str:
 
 
 def first_remarks(results: Sequence[FourEpsilons]) -> tuple[str, ...]:
-    """What the numbers say about each other, and the weights, of one gain set."""
+    """What the numbers say about each other, and the weights, of one gain set; of any, what a star means."""
+    starred = any(result.scalar_grade == "no certificate" for result in results)
+    legend = (NUMBER,) if starred else ()
     if len(results) != 1:
-        return ()
+        return legend
     (result,) = results
     said = [f"{finding}" for finding in result.findings]
-    missing = [kind for kind in ("certified", "published") if getattr(result, kind) is None]
-    said += [f"no {kind} ε₀: {result.reasons[kind]}" for kind in missing if result.reasons.get(kind)]
+    said += [text.removesuffix(".") for kind in ("certified", "published") for text in reasons(result, kind)]
     if result.promise is not None and result.unvaried is not None:
         said.append(_cost_text(result.promise, result.unvaried))
     if result.outside:
         said.append(f"the file's own value lies outside the range of {', '.join(result.outside)}")
     if result.weighted is not None and result.weighted_promise is not None:
         said.append(result.weighted_promise.says(_weighted_text(result.weighted)))
-    return tuple(said[:MOST_REMARKS])
+    return (*said[: MOST_REMARKS - len(legend)], *legend)
 
 
 def ratio_text(value: Fraction | None) -> str | None:
@@ -178,11 +179,12 @@ def _cost_text(whole: Promise, unvaried: Promise) -> str:
     return f"the ranges cost {cost}: {about}"
 
 
-def reasons(result: FourEpsilons) -> list[str]:
-    """Why a number is missing, or not larger than it is; a sentence each."""
+def reasons(result: FourEpsilons, *kinds: str) -> list[str]:
+    """Why a number is missing, or not larger than it is; a sentence each, of ``kinds`` or of all."""
     return [
         f"no {kind} ε₀: {reason}." if getattr(result, kind) is None else f"no larger {kind} ε₀: {reason}."
         for kind, reason in result.reasons.items()
+        if not kinds or kind in kinds
     ]
 
 

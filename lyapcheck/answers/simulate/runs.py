@@ -15,6 +15,7 @@ from lyapcheck.answers.simulate.simulation import (
     degrees,
     headline,
     lower,
+    motion,
     plain,
     plains,
     row,
@@ -166,11 +167,14 @@ class SetPointRuns(Simulation[Run]):
         """Settling, and the bound of the torque."""
         return SETTLED, TORQUES
 
+    def motions(self) -> Sequence[str]:
+        """From where to where; whole runs and those that were cut short apart."""
+        return tuple(dict.fromkeys(f"simulated: {motion(one, _way(one))}" for one in self.results))[:2]
+
     def section(self, one: Run) -> Section:
         """A row a joint, and how far the run can be trusted."""
         blocks: tuple[Block, ...] = (self.by_joint(one), Bullets((*_facts(one), *self._as_run(one))))
-        start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
-        return Section(f"{self.mark(one.name)} {headline(one, f'{start}° to {goal}°')}".strip(), blocks)
+        return Section(f"{self.mark(one.name)} {headline(one, _way(one))}".strip(), blocks)
 
     def plain_data(self, one: Run) -> dict[str, Any]:
         """Also what the checker says of the loop."""
@@ -178,6 +182,11 @@ class SetPointRuns(Simulation[Run]):
 
     def _as_run(self, one: Run) -> list[str]:
         return running_sentences(self.judged.get(one.name, ()), one.joints)
+
+
+def _way(one: Run) -> str:
+    start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
+    return f"{start}° to {goal}°"
 
 
 def _facts(one: Run) -> tuple[str, ...]:

@@ -132,7 +132,7 @@ class Simulation(Answer, Generic[Result]):
             self._title(),
             tuple(short),
             (*self.legend(), NUMERIC, *self._notes()),
-            tuple(filter(None, (how, f"simulated on {self.arms}" if self.arms else ""))),
+            tuple(filter(None, (how, *self.motions(), f"simulated on {self.arms}" if self.arms else ""))),
             details,
             next=then,
         )
@@ -183,6 +183,10 @@ class Simulation(Answer, Generic[Result]):
 
     def legend(self) -> Sequence[str]:
         """What the tables mean."""
+        return ()
+
+    def motions(self) -> Sequence[str]:
+        """What was simulated: from where to where, and whether a run was cut short."""
         return ()
 
     def about(self) -> str:
@@ -241,8 +245,13 @@ def _unique(texts: Iterable[str]) -> list[str]:
 def headline(one: Motion, way: str) -> str:
     """What was run, on which way, and how far it came."""
     member = "" if one.m is None else f" (m = {one.m})"
+    return f"{one.name}{member}: {motion(one, way)}"
+
+
+def motion(one: Motion, way: str) -> str:
+    """On which way an arm was to move, and how far it came."""
     cut = "" if one.complete else f", CUT SHORT at {shown(one.t[-1], '.4g')} s"
-    return f"{one.name}{member}: {way} in {one.task.T:g} s{cut}"
+    return f"{way} in {one.task.T:g} s{cut}"
 
 
 def accuracy(one: Motion) -> str:

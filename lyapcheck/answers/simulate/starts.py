@@ -21,7 +21,7 @@ from lyapcheck.answers.simulate.simulation import (
     row,
 )
 from lyapcheck.output.digits import shown
-from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
+from lyapcheck.output.document import Bullets, Section, Table
 from lyapcheck.output.fields import Field, records
 from lyapcheck.simulate.many import SHARES, Sweep, quantiles
 
@@ -60,10 +60,9 @@ class RandomStarts(Simulation[Sweep]):
     fields = FIELDS
     promised = "V falls, every motor stays within its limit"
 
-    def about(self) -> str:
-        """How many starts there were."""
-        counts = {one.starts.count for one in self.results}
-        return f", {'/'.join(map(str, sorted(counts)))} random starts each" if counts else ""
+    def motions(self) -> Sequence[str]:
+        """From how many starts, and to which goal."""
+        return tuple(dict.fromkeys(f"simulated: {_task(one).removesuffix('.')}" for one in self.results))[:2]
 
     def missing(self, name: str) -> list[str]:
         """Also what was seen of many runs at once and could not be found again in one of them."""
@@ -75,10 +74,6 @@ class RandomStarts(Simulation[Sweep]):
     def complaints(self) -> list[str]:
         """What went wrong, and these doubts."""
         return [*super().complaints(), *(f"undecided: {_doubt(one)}" for one in self.results if _doubt(one))]
-
-    def opening(self) -> Sequence[Block]:
-        """Where the starts lie, and the set point."""
-        return [Paragraph(text) for text in dict.fromkeys(map(_task, self.results))]
 
     def legend(self) -> Sequence[str]:
         """Settling, and the last column."""

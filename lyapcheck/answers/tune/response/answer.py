@@ -200,8 +200,11 @@ class BenchTuning(Answer):
     def _lead(self) -> tuple[str, ...]:
         """What was simulated, and how the best set is shown to be stable."""
         best = self.best
-        shown = [] if best is None or best.result is None else [f"{best.shown}; no motor can saturate"]
-        return (f"simulated: {self.scope.rpartition(', ')[0]}", *(best.result.says(text) for text in shown))  # type: ignore[union-attr]
+        arms = f", each on {self.arms}" if self.arms else ""
+        simulated = f"simulated: {self.scope.rpartition(', ')[0]}{arms}"
+        if best is None or best.result is None:
+            return (simulated,)
+        return simulated, best.result.says(f"{best.shown}; no motor can saturate")
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, way, stable_by, met, worst, joints: [...]}]``, runs to six digits."""
