@@ -91,7 +91,7 @@ class Exported:
             "gate": {"verdict": self.judged.spoken, "conditions": [*self.judged.deciding]},
             "certified_period": None if proof is None else decimal_text(proof.statement.period),
             "certified_period_reason": self.reason,
-            "period_covered": self._covered,
+            "period_covered": self.covered,
             "conclusion": None if proof is None else proof.statement.conclusion,
             "supposes": told(self.sampled, [] if proof is None else [*proof.statement.granted]),
             "digests": {
@@ -124,12 +124,13 @@ class Exported:
             return f"as run: stability is open; {self.reason}"
         loop, question = self.controller.loop, self.certificate.statement
         what = "stable at the goal" if question.conclusion == "goal" else "comes to rest"
-        run = loop.text if self._covered else loop.how
+        run = loop.text if self.covered else loop.how
         words = f"as run ({run}): {what} {periods_text(question)}, while no motor saturates"
-        return self.sampled.says(words) + ("" if self._covered else "; at the period asked for it is open")
+        return self.sampled.says(words) + ("" if self.covered else "; at the period asked for it is open")
 
     @property
-    def _covered(self) -> bool:
+    def covered(self) -> bool:
+        """Whether the loop is shown to be stable at the period asked for."""
         period = self.controller.loop.period
         return self.sampled is not None and period is not None and period <= self.certificate.statement.period
 
@@ -168,9 +169,10 @@ class Export(Answer):
         count = f"{len(self.sets)} gain set{'s' if len(self.sets) > 1 else ''} in C"
         title = f"{count}: rounding moves no torque by more than {at_most(worst, 3)} N·m (computed)"
         following = [COMPILE.format(name=one.controller.name) for one in self.sets[:1]]
-        return Document(
-            title, tuple(one.section() for one in self.sets), (ROUNDING, NOMINAL, IDEAL, *following)
-        )
+        open_ = ", ".join(one.controller.gains.name for one in self.sets if not one.covered)
+        said = f"as a computer runs it, stability at the period asked for is open: {open_}"
+        sections = tuple(one.section() for one in self.sets)
+        return Document(title, sections, (ROUNDING, NOMINAL, IDEAL, *following), (said,) if open_ else ())
 
     def data(self) -> dict[str, Any]:
         """``results``: a record a set, which is also its file ``NAME.json``."""

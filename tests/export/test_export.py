@@ -358,6 +358,10 @@ def test_the_certified_period(tmp_path: Path) -> None:
     assert invoke("recheck", *map(str, (tmp_path / "at once").glob("*_sampled.json"))).exit_code == 0
     late = json.loads(invoke(*words, str(tmp_path / "late")).stdout)["results"]
     assert [row["period_covered"] for row in late] == [False] * 3
+    headline = invoke(*words[:2], *words[4:6], "--out", str(tmp_path / "text")).stdout.splitlines()[1]
+    assert headline == (
+        "  as a computer runs it, stability at the period asked for is open: tau_m1, tau_m2, tau_m3"
+    )
 
 
 @pytest.mark.parametrize(
