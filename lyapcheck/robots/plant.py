@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
+from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.errors import argument_error
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots.chain_bounds import chain_bounds
@@ -279,8 +280,16 @@ def _units(model: RobotModel) -> Iterator[str]:
         )
         if spread > LONGEST:
             yield f"The inertia behind {name} is that of a body of {spread:.6g} m: is it in kg·mm² or g·m²?"
+        if not _of_a_body(link.inertia):
+            yield f"No body has the inertia behind {name}: one principal moment exceeds the sum of the others"
     size = sqrt(sum(float(x) ** 2 for x in chain.fall))
     if chain.fall[2] > 0 and chain.fall[2] >= max(map(abs, chain.fall[:2])):
         yield f"Gravity points upwards: g_z = {float(chain.fall[2]):.6g} m/s²"
     if size and not LIGHTEST < size < STEEPEST:
         yield f"Free fall of {size:.6g} m/s² is that of no place where arms stand"
+
+
+def _of_a_body(inertia: Sequence[Sequence[Fraction]]) -> bool:
+    """Whether ∫ x xᵀ dm = tr(I)/2 − I is positive semidefinite, as for every distribution of mass."""
+    half = sum(inertia[i][i] for i in range(3)) / 2
+    return is_positive_semidefinite([[half * (i == j) - inertia[i][j] for j in range(3)] for i in range(3)])

@@ -38,6 +38,8 @@ ARM = 'title = "t"\nurdf = "two.urdf"\n'
             "elbow or its body is 300 m away from the joint before: is that in mm?",
         ),
         ('izz="0.02"', 'izz="2000"', "The inertia behind shoulder is that of a body of"),
+        ('izz="0.02"', 'izz="2"', "No body has the inertia behind shoulder: one principal moment exceeds"),
+        ('rpy="0 0 0"', 'rpy="0 90 0"', "is above a full turn: is it in degrees?"),
     ],
 )
 def test_what_is_doubted(tmp_path: Path, old: str, new: str, words: str) -> None:

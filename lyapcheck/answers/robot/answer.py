@@ -127,10 +127,10 @@ class RobotReport(Answer):
             for what, row in judged
             if row.verdict is not Verdict.PROVED
         )
-        remarks = [*wrong[:MOST_REMARKS], *(_wide(self, c) for c in self.constants if _gap(self, c) > WIDE)]
-        left = len(wrong) - MOST_REMARKS
-        more = [f"{left} more claims fail; -v lists them"] if left > 0 else []
-        said = (*remarks[: MOST_REMARKS - len(more)], *more)
+        wide = (_wide(self, c) for c in self.constants if _gap(self, c) > WIDE)
+        remarks = (*wrong, *model.doubts, *wide, *model.remarks)
+        left = len(remarks) - MOST_REMARKS
+        said = remarks if left <= 0 else (*remarks[: MOST_REMARKS - 1], f"{left + 1} more remarks: add -v")
         blocks: tuple[Block, ...] = (_ends(self), *([Bullets(said)] if said else []))
         arm = self.path or model.name
         limits = all(number is not None for number in model.torque_limit)

@@ -313,13 +313,14 @@ class Tuning(Answer):
         ]
         heads = ("k_p / k_v [N·m]", *joints)
         short: list[Block] = [Table(heads, tuple(rows), align="l" + "r" * len(joints))] if rows else []
-        reasons = list(dict.fromkeys(reason for item in self.sets for reason in item.reasons))
-        if reasons:
-            short.append(Bullets(tuple(reasons[:MOST_REASONS])))
+        reasons = (reason for item in self.sets for reason in item.reasons)
+        said = list(dict.fromkeys((*reasons, *self.limits.doubts)))
+        if said:
+            short.append(Bullets(tuple(said[:MOST_REASONS])))
         details = (Paragraph(f"{self.targets.text()}."), *blocks)
         listed = command("robot", self.robot, "--assumptions") if self.robot else ""
         count = len(self.limits.assumptions)
-        assumed = f"{count} assumptions about the arm: {listed}" if count else ""
+        assumed = f"{count} assumption{'s' * (count > 1)} about the arm: {listed}" if count else ""
         then = command("tune", self.robot, "--m", "1", "--overshoot", "5", "--settle", "2")
         lead = (self._hardly,) if self._hardly else ()
         return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)

@@ -25,6 +25,8 @@ from lyapcheck.robots.urdf.parts import Triple
 SNAP = Fraction(1, 10**9)
 """Radians."""
 CLOSE = Fraction(1, 10**15)
+FULL_TURN = 7
+"""Radians, from which a file may mean degrees."""
 ROUNDED_INERTIA = Fraction(1, 10**12)
 """Of all moments of a body about its joint: less than the digits of a file say of them."""
 _STEP = Fraction(1, 10**16)
@@ -42,13 +44,14 @@ class Roundings:
     snapped: dict[str, Fraction] = field(default_factory=dict)
     rounded: list[str] = field(default_factory=list)
     mended: list[str] = field(default_factory=list)
+    turned: list[str] = field(default_factory=list)
 
     def note(self, place: str) -> None:
         if place not in self.rounded:
             self.rounded.append(place)
 
     def sentences(self) -> tuple[str, ...]:
-        result = []
+        result = [f"An angle of {place} is above a full turn: is it in degrees?" for place in self.turned]
         if self.snapped:
             worst = max(self.snapped, key=lambda place: self.snapped[place])
             result.append(
@@ -83,6 +86,8 @@ def oriented(turn: Sequence[Fraction], place: str, roundings: Roundings) -> Rota
 def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
     """Rz(yaw) Ry(pitch) Rx(roll), the fixed-axis angles of URDF, rad."""
     result: Rotation = UNIT
+    if max(map(abs, rpy)) > FULL_TURN:
+        roundings.turned.append(place)
     for axis, angle in enumerate(rpy):
         if angle:
             turn = _turn(axis, *_circle(angle, place, roundings))

@@ -186,7 +186,7 @@ class BenchTuning(Answer):
         joints: list[Block] = []
         if best is not None:
             joints.append(table(self._fields, [(best, i) for i in range(len(self.joints))]))
-        first = [*(self.missed(best) if best else ()), *lines][:MOST_REMARKS]
+        first = [*(self.missed(best) if best else ()), *lines, *self.model.doubts][:MOST_REMARKS]
         blocks = (*joints, *([Bullets(tuple(first))] if first else []))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
         found = [one.result for one in self.own]
