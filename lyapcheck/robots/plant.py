@@ -291,5 +291,5 @@ def _units(model: RobotModel) -> Iterator[str]:
 
 def _of_a_body(inertia: Sequence[Sequence[Fraction]]) -> bool:
     """Whether ∫ x xᵀ dm = tr(I)/2 − I is positive semidefinite, as for every distribution of mass."""
-    half = sum(inertia[i][i] for i in range(3)) / 2
+    half = sum((inertia[i][i] for i in range(3)), Fraction(0)) / 2
     return is_positive_semidefinite([[half * (i == j) - inertia[i][j] for j in range(3)] for i in range(3)])
