@@ -84,6 +84,7 @@ class Cancellation:
         terms = goal.to_dict().items()
         bad = next(((e, c) for e, c in terms if c < 0 or not signs.monomial_is(e, False)), None)
         if bad is None:
+            yield from self._strict_parts(goal, k)
             return
         e, c = bad
         for f, d in signs.hypotheses[k][0].to_dict().items():
@@ -93,6 +94,22 @@ class Cancellation:
             over = tuple(max(int(a) - int(b), 0) for a, b in zip(e, f, strict=True))
             if signs.monomial_is(lift, True) and signs.monomial_is(over, False):
                 yield CancelledTerm(k, c / d, over, lift)
+
+    def _strict_parts(self, goal: fmpq_mpoly, k: int) -> Iterator[CancelledTerm]:
+        """The most of a strict hypothesis, times a positive monomial, that leaves no term of the goal below 0."""
+        hypothesis, strict = self.signs.hypotheses[k]
+        terms, parts = goal.to_dict(), hypothesis.to_dict()
+        if not strict:
+            return
+        quotients = {tuple(int(a) - int(b) for a, b in zip(e, f, strict=True)) for e in terms for f in parts}
+        for over in sorted(quotients):
+            if min(over) < 0 or not self.signs.monomial_is(over, True):
+                continue
+            moved = {_times(f, over): d for f, d in parts.items()}
+            if all(self.signs.monomial_is(f, False) for f in moved):
+                most = min((terms.get(f, fmpq(0)) / d for f, d in moved.items() if d > 0), default=fmpq(1))
+                if most > 0:
+                    yield CancelledTerm(k, most, over, (0,) * len(over))
 
 
 def _composed(steps: list[CancelledTerm]) -> SignIdentity:
