@@ -96,7 +96,7 @@ class Cancellation:
                 yield CancelledTerm(k, c / d, over, lift)
 
     def _strict_parts(self, goal: fmpq_mpoly, k: int) -> Iterator[CancelledTerm]:
-        """The most of a strict hypothesis, times a positive monomial, that leaves no term of the goal below 0."""
+        """The most of a strict hypothesis, times a positive monomial, that leaves no term below 0."""
         hypothesis, strict = self.signs.hypotheses[k]
         terms, parts = goal.to_dict(), hypothesis.to_dict()
         if not strict:
