@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -58,7 +59,7 @@ def read_foreign(path: Path, joints: Sequence[str]) -> tuple[Pid, ...]:
     text, name = read_text(path, TOML), str(path)
     kind = other_format(name, text)
     if kind == "CSV":
-        root = _csv(text)
+        root = _csv(text, name)
     elif kind in ("YAML", "JSON"):
         root = _yaml(text, name)
     else:
@@ -67,11 +68,14 @@ def read_foreign(path: Path, joints: Sequence[str]) -> tuple[Pid, ...]:
     return _Reading(name, joints).run(root)
 
 
-def _csv(text: str) -> _Node:
-    """Each row as a table by the header."""
+def _csv(text: str, name: str) -> _Node:
+    """Each row as a table by the header, in which units may stand in brackets."""
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     mark = max(",;\t", key=lines[0].count)
-    header = [word.strip().lower() for word in lines[0].split(mark)]
+    header = [re.split(r"[\[(]", word)[0].strip(" \"'").lower() for word in lines[0].split(mark)]
+    if not {"joint", *WORDS["p"]} & {*header}:
+        rule = "has no header that names the columns"
+        raise InputError(Problem(name, 1, "header", lines[0][:60], rule, "begin with joint,kp,kd"))
     rows: list[_Node] = []
     for row in csv.reader(io.StringIO("\n".join(lines[1:])), delimiter=mark):
         line = text.splitlines().index(lines[1 + len(rows)]) + 1
@@ -118,14 +122,15 @@ class _Reading:
 
     def run(self, root: _Node) -> tuple[Pid, ...]:
         self._look(root, (), ())
+        broken = bool(self.problems)
         for joint in self.joints:
             sets = self.found.get(joint, [])
             lines = ", ".join(str(one.line) for one in sets)
-            if not sets:
+            if not sets and not broken:
                 meant = nearest(joint, self.others, "")
                 repair = f"{meant} " if meant else ""
                 self.fail(None, f"joint {joint}", "", "has no p gain in this file", f"{repair}add it".strip())
-            elif len({(one.p, one.d) for one in sets}) > 1:
+            if len({(one.p, one.d) for one in sets}) > 1:
                 rule = f"has several sets of gains, in lines {lines}"
                 self.fail(sets[0].line, f"joint {joint}", "", rule, "keep those of one controller")
         if self.problems:
@@ -189,7 +194,7 @@ class _Reading:
             rule = f"is an integral, and outside of the theory: {_LAW}"
             repair = "set it to 0; where g(q) is in the loop, nothing is left for it but friction"
             self.fail(gains["i"].line, f"{joint}: i", decimal_text(values["i"]), rule, repair)
-        elif not values["p"]:
+        elif not values["p"] and not self.problems:
             self.fail(line, f"{joint}: p", "0", "must be positive", "give it a gain")
         self.found.setdefault(joint, []).append(Pid(joint, values["p"], values.get("d", Fraction(0)), line))
 

@@ -271,7 +271,11 @@ def _gains(
         return None
     if isinstance(value, list) and _commas(value):
         table.raw(key)
-        table.fail(key, f"has {len(value)} whole numbers, some of them 0", "write 0.2 with a point, not 0,2")
+        table.fail(
+            key,
+            f"has {len(value)} whole numbers, some of them 0, and no gain is 0",
+            "write 0.2 with a point, not 0,2",
+        )
         return None
     if not isinstance(value, dict):
         return table.numbers(key, required, positive)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from functools import cache, lru_cache
 from importlib import import_module
 
+from lyapcheck.check.expressions.grammar import MAX_M
 from lyapcheck.errors import argument_error
 from lyapcheck.extensions import modules
 from lyapcheck.family import members
 from lyapcheck.family.base import Family
 
-LARGEST_M = 100_000
+LARGEST_M = MAX_M
+"""The largest of which the checker judges statements."""
 
 
 @cache

@@ -233,6 +233,8 @@ def _syntax(name: str, message: str, text: str) -> InputError:
 def other_format(name: str, text: str) -> str:
     """YAML, JSON, CSV or MATLAB, by the name of a file or what is in it; empty where it is none of these."""
     suffix = name.rpartition(".")[2].lower()
+    if text.startswith("MATLAB 5.0"):
+        return "MATLAB"
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
     lines = [line for line in map(str.strip, text.splitlines()) if line and not line.startswith(("#", "%"))]
@@ -248,7 +250,15 @@ def other_format(name: str, text: str) -> str:
     return "CSV" if re.match(r"[^,;]+[,;\t]", lines[0]) else ""
 
 
-_SUFFIXES = {"yaml": "YAML", "yml": "YAML", "json": "JSON", "csv": "CSV", "tsv": "CSV", "m": "MATLAB"}
+_SUFFIXES = {
+    "yaml": "YAML",
+    "yml": "YAML",
+    "json": "JSON",
+    "csv": "CSV",
+    "tsv": "CSV",
+    "m": "MATLAB",
+    "mat": "MATLAB",
+}
 
 
 def _last_assignment(text: str) -> int | None:

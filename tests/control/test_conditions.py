@@ -16,6 +16,7 @@ from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.threshold import root
 from lyapcheck.errors import InputError
+from lyapcheck.family.registry import LARGEST_M
 from lyapcheck.files.decimals import written
 
 MS = st.one_of(st.integers(1, 6), st.sampled_from([10, 37, 100]))
@@ -194,11 +195,12 @@ def test_a_verdict_is_exact_for_the_largest_member(
     assert {result.verdict for result in check(gains, limits, gamma_of(gains))} <= {"accepted", "rejected"}
 
 
-def test_beyond_the_members_that_the_checker_knows_nothing_is_decided():
+def test_the_largest_member_is_decided_and_the_next_is_none():
     limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
-    for check in checked(gains_of(["1.5"] * 3, ["0.1"] * 3, 100_000), limits).values():
-        assert (check.verdict, check.largest_admissible) == ("undecided", None)
-        assert "the checker gives no verdict" in check.reason
+    found = checked(gains_of(["1.5"] * 3, ["0.1"] * 3, LARGEST_M), limits).values()
+    assert {check.verdict for check in found} <= {"accepted", "rejected"}
+    with pytest.raises(InputError, match="from 1 to 10000"):
+        checked(gains_of(["1.5"] * 3, ["0.1"] * 3, LARGEST_M + 1), limits)
 
 
 @given(cases(), st.sampled_from(["hyperbolic", "arctan", "tanh", "algebraic", "linear"]))

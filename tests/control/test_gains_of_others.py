@@ -58,11 +58,11 @@ def test_gains_by_joint_are_the_list_in_the_order_of_the_arm(place: Path) -> Non
     [
         (
             "m = 2.0\nkp = [1, 1]\nkv = [1, 1]",
-            "gains[1].m = 2.0: must be a whole number from 1 to 100000; write m = 2",
+            "gains[1].m = 2.0: must be a whole number from 1 to 10000; write m = 2",
         ),
         (
             "m = 1\nkp = [0,2, 0,2]\nkv = [1, 1]",
-            "kp = [0, 2, 0, 2]: has 4 whole numbers, some of them 0; write 0.2",
+            "kp = [0, 2, 0, 2]: has 4 whole numbers, some of them 0, and no gain is 0; write 0.2",
         ),
         (
             "m = 1\nkp = [1, 1]\nkd = [1, 1]",
@@ -80,6 +80,11 @@ def test_gains_by_joint_are_the_list_in_the_order_of_the_arm(place: Path) -> Non
             "m = 1\nkp = [[1, 0], [0, 1]]\nkv = [1, 1]",
             "is a full matrix, and the gains of the theory are diagonal",
         ),
+        (
+            "m = 1\nkp = [0, 2]\nkv = [1, 1]",
+            "kp = [0, 2]: has 2 whole numbers, some of them 0, and no gain is 0; write 0.2",
+        ),
+        ("m = 100000\nkp = [1, 1]\nkv = [1, 1]", "m = 100000: must be a whole number from 1 to 10000"),
         ("m = 1\nkp = { shoulder = 1 }\nkv = [1, 1]", "kp = {'shoulder': 1}: has no gain for elbow"),
         (
             "m = 1\nkp = { shoulder = 1, elbo = 1 }\nkv = [1, 1]",
@@ -136,6 +141,7 @@ FORMS = {
     "lists": "joints: [elbow, shoulder]\nkp: [40.0, 60.0]\nkd: [2.0, 3.0]\n",
     "JSON": '{"shoulder": {"p": 60.0, "d": 3.0}, "elbow": {"p": 40.0, "d": 2.0}}',
     "CSV": "joint,kp,kd\nelbow,40.0,2.0\nshoulder,60.0,3.0\n",
+    "CSV with units": '"Joint";"Kp [N m/rad]";"Kd (N m s/rad)"\nelbow;40.0;2.0\nshoulder;60.0;3.0\n',
 }
 
 
@@ -173,14 +179,18 @@ def test_gains_are_brought_over_by_joint_and_pass_the_gate(place: Path, form: st
         ),
         ("kp: [[1, 0], [0, 1]]\njoints: [shoulder, elbow]\n", "is a full matrix"),
         ("kp: [1, 2, 3]\n", "is a list of 3 gains for 0 joints"),
+        ("shoulder,60,3\nelbow,40,2\n", "header = shoulder,60,3: has no header that names the columns"),
+        ("joint;kp;kd\nshoulder;60,5;3\nelbow;40;2\n", "p = 60,5: must be a number"),
+        ("MATLAB 5.0 MAT-file, Platform: GLNXA64\n", "is MATLAB"),
         ("a: [1\n", "is no YAML"),
         ("a: &a [*a]\n", "has no p gain in this file"),
     ],
 )
 def test_gains_that_cannot_be_brought_over(place: Path, text: str, message: str) -> None:
-    (place / "pid.yaml").write_text(text)
+    name = "pid.yaml" if ":" in text.partition("\n")[0] else "pid"
+    (place / name).write_text(text)
     with pytest.raises(InputError) as caught:
-        run(["init", "new", "--from", "pid.yaml", "--arm", "two.urdf"])
+        run(["init", "new", "--from", name, "--arm", "two.urdf"])
     assert message in str(caught.value)
 
 

@@ -20,7 +20,7 @@ RANGES = (
     "payload=-1..1",
     "mass=nan..nan",
 )
-MEMBERS = ("0", "1", "64", "65", "100000", "100001", "1:2", "2:1", "-1", "")
+MEMBERS = ("0", "1", "64", "65", "10000", "10001", "1:2", "2:1", "-1", "")
 FILES = ("FILE", "FILE...", "DIR", "PROOF.py", "PLAN.toml", "CERTIFICATE...", "OLD", "NAME|FILE", "ROBOT")
 """What takes the name of a file: tests/cli/test_user_files.py is about those."""
 SLOW = {"map", "appendix"}
