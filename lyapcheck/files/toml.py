@@ -232,9 +232,7 @@ def _syntax(name: str, message: str, text: str) -> InputError:
 
 def other_format(name: str, text: str) -> str:
     """YAML, JSON, CSV or MATLAB, by the name of a file or what is in it; empty where it is none of these."""
-    suffix = name.rpartition(".")[2].lower()
-    if text.startswith("MATLAB 5.0"):
-        return "MATLAB"
+    suffix = "mat" if text.startswith("MATLAB 5.0") else name.rpartition(".")[2].lower()
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
     lines = [line for line in map(str.strip, text.splitlines()) if line and not line.startswith(("#", "%"))]
