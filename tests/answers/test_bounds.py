@@ -69,9 +69,7 @@ def test_the_first_line_says_whether_all_is_proved(compared):
     assert both == f"✓ {far} 2 of 2 gain sets, proved"
 
 
-def test_what_is_proved_is_not_rounded_down_and_runs_are_called_simulated(
-    sound,
-):
+def test_what_is_proved_is_not_rounded_down_and_runs_are_called_simulated(sound):
     document = Comparisons((sound,), FILE).document()
     (table,) = document.blocks
     assert isinstance(table, Table)

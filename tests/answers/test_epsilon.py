@@ -87,9 +87,7 @@ def test_the_first_line_says_what_is_certified(case):
     assert str(result).startswith(title)
 
 
-def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(
-    case,
-):
+def test_what_is_certified_passes_and_what_is_falsified_is_a_remark(case):
     _, result = case
     file = read_gain_file(paper_gain_file("table2_shoulder_elbow"))
     none = replace(result, promise=None, reasons={"certified": "budget spent"})

@@ -101,10 +101,7 @@ def test_the_scalar_value_is_that_of_norms(scalar):
         eps = float(check.value)
         c, d = beta * (rho + G) + reach * k_c, b.max() + L * float(max(kv))
         theta = np.array(
-            [
-                [eps * float(min(kp)), -eps / 2 * (d + eps * c)],
-                [-eps / 2 * (d + eps * c), b.min() - eps * c],
-            ]
+            [[eps * float(min(kp)), -eps / 2 * (d + eps * c)], [-eps / 2 * (d + eps * c), b.min() - eps * c]]
         )
         assert np.linalg.eigvalsh(theta)[0] > 0
         theta[0, 1] = theta[1, 0] = -1.02 * eps / 2 * (d + 1.02 * eps * c)

@@ -52,9 +52,7 @@ def test_a_folder_answers_what_no_search_can(proved, without_a_search):
 
 
 @pytest.mark.parametrize(
-    "other",
-    [{"kp": "[5, 1.001]"}, {"kv": "[0.5, 0.2]"}, {"arm": "pelican2"}],
-    ids=["kp", "kv", "arm"],
+    "other", [{"kp": "[5, 1.001]"}, {"kv": "[0.5, 0.2]"}, {"arm": "pelican2"}], ids=["kp", "kv", "arm"]
 )
 def test_certificates_of_other_gains_or_another_arm_do_not_count(proved, without_a_search, other):
     found = verdict(gain_file(proved, "other.toml", **other), "--condition", "global")

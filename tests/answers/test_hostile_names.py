@@ -317,13 +317,7 @@ def test_what_does_not_print_is_refused_in_urdf_files(key, text, tmp_path, monke
         ],
     ),
 )
-def test_paths_are_shown_as_escapes(
-    words,
-    text,
-    tmp_path,
-    monkeypatch,
-    capsys,
-):
+def test_paths_are_shown_as_escapes(words, text, tmp_path, monkeypatch, capsys):
     name = f"x{text}y.toml"
     (tmp_path / "arm.urdf").write_text(URDF.format(robot='"r"', link='"l"', joint='"j"'))
     arm = ARM.format(title='"a"', remark="", joint='"j"', source='"s"', note='"n"')

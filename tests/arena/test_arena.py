@@ -21,12 +21,7 @@ from lyapcheck.check.statement import Piece, Proof, Statement
 from lyapcheck.check.verify import rule_for
 from tests.arena.run import ARENA, ENDS, faults
 
-NEVER_ALONE = {
-    "Sturm",
-    "Taylor boxes",
-    "tree of boxes",
-    "bounds along the links",
-}
+NEVER_ALONE = {"Sturm", "Taylor boxes", "tree of boxes", "bounds along the links"}
 """Proofs that are part of others."""
 ENTRIES = json.loads((ARENA / "expected.json").read_text())
 TAKES_SECONDS = {

@@ -245,12 +245,7 @@ EVERY_N = [
 ]
 
 
-def implies(
-    conclusion,
-    *variables,
-    given=None,
-    **proof,
-):
+def implies(conclusion, *variables, given=None, **proof):
     """What an identity of signs shows, with one hypothesis or none."""
     statement = {
         "kind": "Implies",
@@ -266,12 +261,7 @@ def once(monomial):
     return [{"hypothesis": 0, "monomial": monomial, "weight": "1"}]
 
 
-REAL, FROM_0, ABOVE_0, FROM_2 = (
-    ("x", None, True),
-    ("x", "0", False),
-    ("x", "0", True),
-    ("x", "2", False),
-)
+REAL, FROM_0, ABOVE_0, FROM_2 = (("x", None, True), ("x", "0", False), ("x", "0", True), ("x", "2", False))
 CUBE, X_Y = ["pow", X, 3], ["mul", X, ["var", "y"]]
 X_POSITIVE, X_NONNEGATIVE = relation(ZERO, "<", X), relation(ZERO, "<=", X)
 NEGATIVE = "has a term that may be negative"

@@ -17,14 +17,7 @@ from lyapcheck.check.kinds.implies import Multiple, SignIdentity
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Relation, Total
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import (
-    all_of,
-    expr,
-    implies,
-    positive,
-    run_proof,
-    var,
-)
+from lyapcheck.claims import all_of, expr, implies, positive, run_proof, var
 from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
 from tests.claims.test_claims import PROVED, REFUTED

@@ -108,10 +108,7 @@ def test_points_agree_with_more_precision(name, m, x):
 
 @pytest.mark.parametrize("name", FORMS)
 @given(
-    m=st.sampled_from((1, 2, 3, 20)),
-    middle=st.floats(-4, 4),
-    radius=st.floats(0, 3),
-    inside=st.floats(-1, 1),
+    m=st.sampled_from((1, 2, 3, 20)), middle=st.floats(-4, 4), radius=st.floats(0, 3), inside=st.floats(-1, 1)
 )
 def test_wide_balls_contain_the_values_at_their_points(name, m, middle, radius, inside):
     point = arb(middle) + arb(radius) * inside

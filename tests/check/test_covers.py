@@ -66,7 +66,7 @@ SHOWN: dict[str, Statement] = {
         *(F(1, 38), F(2), 1, (F(1),), "goal"),
     ),
     "SampledFromRest": SampledFromRest(
-        *("hyperbolic", 1, (F(5),), (F(1),), RANGE, MASS, ((COSINE, F(-5)),), RANGE, F(1, 100), 1, F(90)),
+        *("hyperbolic", 1, (F(5),), (F(1),), RANGE, MASS, ((COSINE, F(-5)),), RANGE, F(1, 100), 1, F(90))
     ),
 }
 EASIER: dict[str, Any] = {

@@ -105,9 +105,7 @@ def test_an_unbounded_function_has_nothing_certified():
     assert "unbounded" in result.reasons["certified"]
 
 
-def test_what_is_proved_holds_for_every_smaller_kv_and_no_larger_one(
-    pair,
-):
+def test_what_is_proved_holds_for_every_smaller_kv_and_no_larger_one(pair):
     """K_v brakes alone: for less of it, of more than nothing, in each joint; a joint with more is refused."""
     certified = pair[0]
     stated, proof = certified.statement, certified.proof

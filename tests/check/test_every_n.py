@@ -62,9 +62,7 @@ TRUE = {
     "an end and a diagonal": every_n(form(scaled(d, x), A, y), form(scaled(x, d), A, y)),
     "half of a symmetric part": every_n(form(x, A + A.T, x) / 2, form(x, A, x)),
     "quotients": every_n(
-        1 / (1 + s) - 1 / (1 + t),
-        (t - s) / ((1 + s) * (1 + t)) + dot(x, y) - dot(y, x),
-        positive=[s, t],
+        1 / (1 + s) - 1 / (1 + t), (t - s) / ((1 + s) * (1 + t)) + dot(x, y) - dot(y, x), positive=[s, t]
     ),
     "what is given": every_n(form(y, A, x), 2 * dot(y, z), given=[(A, x, z.times(2))]),
     "what is given, transposed": every_n(dot(A.T @ y, x), 2 * dot(z, y), given=[(A, x, z.times(2))]),

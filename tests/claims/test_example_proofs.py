@@ -71,12 +71,7 @@ CHANGES = [
     (ARCTAN, "slope", ARCTAN_BOUNDS, "gamma='1.58', rho=1, L='0.99'"),
     (ARCTAN, "steep", ARCTAN_BOUNDS, "gamma='1.58', rho='0.99', L=1"),
     (ARCTAN, "potential", "log(1 + x**2) / 2", "log(1 + x**2)"),
-    (
-        ARCTAN,
-        "bounds",
-        "term_9=term(9, eps**2 * known.reach",
-        "term_9=term(9, eps**3 * known.reach",
-    ),
+    (ARCTAN, "bounds", "term_9=term(9, eps**2 * known.reach", "term_9=term(9, eps**3 * known.reach"),
     (ARCTAN, "arm", '"0.02"', '"20"'),
     (ARCTAN, "sizes", ARCTAN_BOUNDS, "gamma='1.57', rho=1, L=1"),
     (ARCTAN, "sizes", ARCTAN_BOUNDS, "gamma='1.58', rho='0.99', L=1"),

@@ -11,21 +11,7 @@ from typing import NamedTuple
 
 import pytest
 
-from lyapcheck.claims import (
-    ForAll,
-    atan,
-    cos,
-    exp,
-    expr,
-    for_all,
-    log,
-    pi,
-    sin,
-    sinh,
-    sqrt,
-    tanh,
-    var,
-)
+from lyapcheck.claims import ForAll, atan, cos, exp, expr, for_all, log, pi, sin, sinh, sqrt, tanh, var
 from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Grade, Verdict
 from tests.helpers.shares import one_in
@@ -106,7 +92,7 @@ EXPONENTIAL = [
         "the bound on the exponential's approximation",
         for_all(exp(x) - 1 - HARRISON <= TANG, "-" + HARRISON_END, HARRISON_END),
         for_all(exp(x) - 1 - HARRISON <= expr("0.9") * TANG, "-" + HARRISON_END, HARRISON_END),
-    ),
+    )
 ]
 
 ARC_TANGENT = [

@@ -299,11 +299,7 @@ def test_an_altered_certificate_is_refused_and_the_claim_undecided(write, monkey
         def text(self):
             return self.certificate.text().replace('"num","2"', '"num","3"')
 
-    monkeypatch.setattr(
-        runner,
-        "judge_afresh",
-        lambda made: judge({k: Altered(c) for k, c in made.items()}),
-    )
+    monkeypatch.setattr(runner, "judge_afresh", lambda made: judge({k: Altered(c) for k, c in made.items()}))
     row = rows(write(TRUE))["true", None]
     assert row.verdict is Verdict.UNDECIDED
     assert "not that of the content" in row.decision.reason

@@ -127,12 +127,7 @@ def action(folder, environment, **inputs):
 @pytest.mark.parametrize(
     ("gains", "robot", "code", "words"),
     [
-        (
-            GOOD,
-            "",
-            0,
-            "::notice title=lyapcheck gate::! mine: accepted; dry friction (assumed) leaves at",
-        ),
+        (GOOD, "", 0, "::notice title=lyapcheck gate::! mine: accepted; dry friction (assumed) leaves at"),
         (GOOD, "buap3-small", 1, "::error file=gains.toml,line=6"),
         (BAD, "", 1, "::error file=gains.toml,line=6,col=11"),
         ("robot = 1\n", "", 2, "::error file=gains.toml,line=1,title=robot::robot = 1: must be"),

@@ -321,8 +321,7 @@ def test_the_modules_run_as_the_script_does(module, words):
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is full")
 @pytest.mark.parametrize("unbuffered", one_in(2, ["", "1"]))
 @pytest.mark.parametrize(
-    "words",
-    one_in(2, [["table", "--m", "1"], ["gate", TABLE2], ["--help"], ["report"], ["epsilon", TABLE2]]),
+    "words", one_in(2, [["table", "--m", "1"], ["gate", TABLE2], ["--help"], ["report"], ["epsilon", TABLE2]])
 )
 def test_a_full_output_is_named(words, unbuffered):
     with open("/dev/full", "wb") as full:

@@ -187,9 +187,7 @@ def test_the_paper_prints_no_other_bound(m, family):
 
 
 @pytest.mark.parametrize("check", [check_10, check_10p, check_19])
-def test_a_verdict_is_exact_for_the_largest_member(
-    check,
-):
+def test_a_verdict_is_exact_for_the_largest_member(check):
     gains = gains_of(["1.5"] * 3, ["0.1"] * 3, 10_000)
     limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
     assert {result.verdict for result in check(gains, limits, gamma_of(gains))} <= {"accepted", "rejected"}

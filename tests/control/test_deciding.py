@@ -41,14 +41,7 @@ def written(folder, file="", own=""):
         ('condition = ["10"]\n', 'condition = ["lasalle"]', ("10i",), ("10i",), ("10i",)),
     ],
 )
-def test_what_is_nearest_to_the_user_decides(
-    tmp_path,
-    file,
-    own,
-    asked,
-    first,
-    second,
-):
+def test_what_is_nearest_to_the_user_decides(tmp_path, file, own, asked, first, second):
     results = gate(written(tmp_path, file, own), deciding=asked)
     assert [one.deciding for one in results] == [first, second]
 

@@ -67,11 +67,7 @@ def _newton_euler(inertial, turn, place, omega, alpha, acceleration):
     arm = turn @ _numbers(inertial.find("origin"), "xyz")
     frame = turn @ rpy(_numbers(inertial.find("origin"), "rpy"))
     t = {key: float(value) for key, value in inertial.find("inertia").attrib.items()}
-    rows = [
-        [t["ixx"], t["ixy"], t["ixz"]],
-        [t["ixy"], t["iyy"], t["iyz"]],
-        [t["ixz"], t["iyz"], t["izz"]],
-    ]
+    rows = [[t["ixx"], t["ixy"], t["ixz"]], [t["ixy"], t["iyy"], t["iyz"]], [t["ixz"], t["iyz"], t["izz"]]]
     tensor = frame @ np.array(rows) @ frame.T
     force = mass * (acceleration + np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm)))
     spin = tensor @ alpha + np.cross(omega, tensor @ omega)

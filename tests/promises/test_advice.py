@@ -11,16 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.robots import load, names
-from tests.promises.draws import (
-    FAMILIES,
-    arms,
-    asked,
-    drawn,
-    invoke,
-    near_the_border,
-    results,
-    shares,
-)
+from tests.promises.draws import FAMILIES, arms, asked, drawn, invoke, near_the_border, results, shares
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ARMS = [*names(), *(str(EXAMPLES / f"{name}.toml") for name in ("px100", "ur5", "xarm6", "panda", "iiwa14"))]

@@ -29,15 +29,7 @@ def more_of_the_file(arm, conditions, keyed, stated):
 
 @drawn(5, 35)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, CONDITIONS, shares, st.booleans(), st.booleans())
-def test_accepted_over_ranges_is_accepted_at_a_member(
-    arm,
-    family,
-    share,
-    conditions,
-    at,
-    keyed,
-    stated,
-):
+def test_accepted_over_ranges_is_accepted_at_a_member(arm, family, share, conditions, at, keyed, stated):
     """Ranges of files and options, payloads, masses of URDF files, bounds of both files, named conditions."""
     if arm.n > 2:  # M ≻ 0 over ranges of three masses takes seconds
         conditions = tuple(one for one in conditions if one not in ("scalar", "lasalle"))

@@ -87,9 +87,7 @@ def test_every_word_of_proof_is_a_promise(words, monkeypatch):
     assert not left_over(words, monkeypatch)
 
 
-def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(
-    monkeypatch,
-):
+def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(monkeypatch):
     def nominal(controlled, *rest, **more):
         return certified_epsilon(replace(controlled, ranges=False), *rest, **more)
 
@@ -100,9 +98,7 @@ def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(
     assert "what is proved does not answer the question" in " ".join(done.stdout.split())
 
 
-def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bounds(
-    monkeypatch,
-):
+def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bounds(monkeypatch):
     def easier(gains, dry):
         return resting(gains, [Fraction(9, 10) * f for f in dry])
 

@@ -127,11 +127,7 @@ FAULTS = [
     ("arm.integral", "most = above(energy)", "most = above(energy) / 2"),
     ("arm.integral", "most / k_i + 1 for", "most / k_i / 2 for"),
     ("arm.integral", "gains) / 2\n    at_rest", "gains) * 2\n    at_rest"),
-    (
-        "h.slope",
-        "Bounds(n, gamma(m), rho(m), secant_bound(m))",
-        "Bounds(n, gamma(m), rho(m), expr('0.8'))",
-    ),
+    ("h.slope", "Bounds(n, gamma(m), rho(m), secant_bound(m))", "Bounds(n, gamma(m), rho(m), expr('0.8'))"),
     ("h.share", "<= reach * L / (reach + L)", "<= reach * L / (reach + 2 * L)"),
     ("V.positive", FUNCTION, regulator("h(m, x)", "2 * potential(m, x)")),
     ("V.smooth", FUNCTION, regulator("2 * h(m, x)", "potential(m, x)")),

@@ -55,8 +55,7 @@ def test_balls_and_intervals_hold_the_values_of_all_they_hold(arm):
     along = all_of(arm.at([q.sin() for q in wide], [q.cos() for q in wide], to_arb), list(map(arb, X)))
     boxes = [Interval(np.array([q]), np.array([q + half])) for q in Q]
     ranges = all_of(
-        arm.at(list(map(sine, boxes)), list(map(cosine, boxes)), Interval.of),
-        [Interval.exact(x) for x in X],
+        arm.at(list(map(sine, boxes)), list(map(cosine, boxes)), Interval.of), [Interval.exact(x) for x in X]
     )
     for share in (0.0, 0.4, 1.0):
         q = [arb(x) + half * share * (1 - 1e-9) for x in Q]

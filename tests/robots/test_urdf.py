@@ -161,8 +161,7 @@ def test_two_longest_chains_are_told_with_their_tips(tmp_path: Path) -> None:
     text = TWO.replace('type="continuous"', 'type="fixed"')
     text = text.replace("</robot>\n", BRANCH.format(kind="revolute"))
     with pytest.raises(
-        InputError,
-        match="has 2 arms of 1 joint, to the tips upper, camera; choose one: --tip upper",
+        InputError, match="has 2 arms of 1 joint, to the tips upper, camera; choose one: --tip upper"
     ):
         load(tmp_path, text)
 

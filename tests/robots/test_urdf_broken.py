@@ -44,11 +44,7 @@ BROKEN = [
     ('<link name="base"/>', "<a/>" * 100_001, "has more than 100000 elements"),
     ("<robot name", "<model name", "is not XML"),
     # the robot
-    (
-        '<robot name="two">',
-        '<robot name="two"><xacro:include filename="x"/>',
-        "is a xacro file",
-    ),
+    ('<robot name="two">', '<robot name="two"><xacro:include filename="x"/>', "is a xacro file"),
     ('<link name="base"/>', "", "joint shoulder: parent = base: is no link of this file"),
     (
         '<link name="base"/>',

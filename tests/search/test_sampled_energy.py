@@ -190,11 +190,7 @@ def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, go
 
 @pytest.mark.parametrize(
     ("name", "period"),
-    [
-        ("reyes-kelly2", "0.005"),
-        ("buap3", "0.001"),
-        pytest.param("buap3", "0.0016", marks=pytest.mark.slow),
-    ],
+    [("reyes-kelly2", "0.005"), ("buap3", "0.001"), pytest.param("buap3", "0.0016", marks=pytest.mark.slow)],
 )
 def test_gains_above_the_friction_are_proved_from_90_degrees_and_the_energy_falls(name, period):
     statement = question(name, period)

@@ -61,10 +61,7 @@ FAMILIES = [(m, "hyperbolic") for m in (1, 3)] + [
 ]
 
 
-@pytest.mark.parametrize(
-    ("m", "family"),
-    but([one for one in FAMILIES if one not in COSTLY], FAMILIES),
-)
+@pytest.mark.parametrize(("m", "family"), but([one for one in FAMILIES if one not in COSTLY], FAMILIES))
 def test_every_family_moves_as_it_does_alone(m, family):
     model, gain_set = robots.load("reyes-kelly2"), gains(2, m, family, kp=40, kv=12)
     single = simulate(gain_set, model, [0.5, -1.0], [1.0, 1.0], T=2.0, points=201, stop=False)

@@ -143,10 +143,7 @@ def test_at_the_goal_nothing_moves():
 
 @pytest.mark.slow
 @settings(max_examples=15)
-@given(
-    start=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4),
-    m=st.integers(1, 6),
-)
+@given(start=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4), m=st.integers(1, 6))
 def test_no_motion_leaves_the_torque_bound_or_gains_energy(start, m):
     model = robots.load("reyes-kelly2")
     run = simulate(
