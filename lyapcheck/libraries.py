@@ -13,6 +13,7 @@ PACKAGES = {
     "clarabel": "clarabel",
     "cvxpy": "cvxpy",
     "flint": "python-flint",
+    "jinja2": "jinja2",
     "latex2mathml": "latex2mathml",
     "matplotlib": "matplotlib",
     "numpy": "numpy",

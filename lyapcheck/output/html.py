@@ -7,11 +7,10 @@ from urllib.parse import quote
 
 from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import html_text
-from lyapcheck.output.mathml import Child, Markup, element
+from lyapcheck.output.mathml import Markup, element
 from lyapcheck.output.mathml import latex as formula
 
 _SIDES = {"l": "left", "r": "right"}
-VIEWPORT = element("meta", name="viewport", content="width=device-width, initial-scale=1")
 Drawn = Callable[[doc.Figure], Markup | None]
 
 
@@ -25,25 +24,6 @@ def render(document: doc.Document, level: int = 2) -> str:
     """The whole document, its title a heading of a level; no script, no style sheet needed."""
     lines = [element(f"h{level}", document.title), *blocks(document.body, level + 1)]
     return "\n".join(lines) + "\n"
-
-
-def page(title: str, body: Child, style: Child = None, meta: Markup = VIEWPORT) -> str:
-    """A whole page."""
-    head = (
-        element("meta", charset="utf-8"),
-        meta,
-        element("title", title),
-        style and element("style", style),
-    )
-    return f"<!DOCTYPE html>\n{element('html', element('head', head), element('body', body), lang='en')}\n"
-
-
-def fold(
-    title: str, *inner: Child, beside: Child = None, classes: str = "fold", opened: bool = False
-) -> Markup:
-    """A part of a page under its title, and what stands beside that; the reader opens it."""
-    summary = element("summary", element("h3", title), beside)
-    return element("details", summary, inner, class_=classes, open=opened)
 
 
 def blocks(result: Iterable[doc.Block], level: int, drawn: Drawn = linked) -> Iterator[Markup]:

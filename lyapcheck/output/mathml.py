@@ -24,6 +24,10 @@ class Markup(str):
 
     __slots__ = ()
 
+    def __html__(self) -> str:
+        """The same: templates ask for it."""
+        return self
+
 
 Child = str | None | Iterable["Child"]
 
@@ -46,8 +50,8 @@ def joined(children: Child) -> Markup:
     """All children one after the other."""
     if children is None:
         return Markup()
-    if isinstance(children, Markup):
-        return children
+    if hasattr(children, "__html__"):
+        return Markup(children)
     if isinstance(children, str):
         return Markup(html_text(children))
     return Markup("".join(map(joined, children)))

@@ -25,8 +25,8 @@ from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.notes import published_notes
-from lyapcheck.report.page.shell import redirect
-from lyapcheck.report.page.shell import render as page
+from lyapcheck.report.page import redirect
+from lyapcheck.report.page import render as page
 from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
 from lyapcheck.temporary import pending, temporary_folder, work_in

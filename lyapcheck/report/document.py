@@ -63,7 +63,7 @@ class ReportAnswer(Answer):
             "sentences": list(sentences(report)),
             "counts": report.counts(),
             "errors": report.errors(),
-            "by_n": [plain(row) for row in report.by_size],
+            "by_n": [row.data() for row in report.by_size],
             "findings": [_found(finding) for finding in report.findings],
             "table": report.table.data()["rows"],
             "derive": report.derived.data(),
@@ -168,13 +168,13 @@ def _findings(report: Report) -> Iterator[Section]:
 def by_size(report: Report) -> Iterator[Section]:
     """The claims whose verdict changes with the number of joints."""
     if report.by_size:
-        ns = list(report.by_size[0].verdicts)
+        ns = list(report.by_size[0].decisions)
         heads = ("claim", "statement", *(f"n = {n}" for n in ns))
         rows = tuple(
             (
                 row.id if row.m is None else f"{row.id}, m = {row.m}",
                 row.comment,
-                *(f"{SYMBOLS[row.verdicts[n]]} {row.verdicts[n]}" for n in ns),
+                *(f"{SYMBOLS[one.verdict]} {one.word}" for one in row.decisions.values()),
             )
             for row in report.by_size
         )

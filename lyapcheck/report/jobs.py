@@ -162,7 +162,7 @@ def _by_size(rows: Sequence[ClaimRow], ms: Sequence[int]) -> tuple[BySize, ...]:
         key: sizes for key, sizes in found.items() if len({row.verdict for row in sizes.values()}) > 1
     }
     return tuple(
-        BySize(claim, m, sizes[SIZES[0]].comment, {n: row.verdict.value for n, row in sizes.items()})
+        BySize(claim, m, sizes[SIZES[0]].comment, {n: row.decision for n, row in sizes.items()})
         for (claim, m), sizes in changing.items()
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.check.proof import refuted_by_source
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.answer import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
+    from lyapcheck.claims.decision import Decision
     from lyapcheck.control.gains import GainFile
     from lyapcheck.promise import Promise
     from lyapcheck.report.notes import Notes
@@ -102,12 +103,17 @@ class Finding:
 
 @dataclass(frozen=True)
 class BySize:
-    """The verdicts on a claim for each number of joints, where they are not all the same."""
+    """The decisions on a claim for each number of joints, where they are not all the same."""
 
     id: str
     m: int | None
     comment: str
-    verdicts: Mapping[int, str]
+    decisions: Mapping[int, Decision]
+
+    def data(self) -> dict[str, Any]:
+        """All of it as plain data, the verdicts in words."""
+        verdicts = {n: one.word for n, one in self.decisions.items()}
+        return {"id": self.id, "m": self.m, "comment": self.comment, "verdicts": verdicts}
 
 
 SIGNS = {"good": "✓", "bad": "✗", "warn": "!", "open": "?"}

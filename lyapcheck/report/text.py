@@ -14,6 +14,19 @@ from lyapcheck.report.model import WitnessRow
 SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
 
 
+GRADES = {
+    "kernel": "a theorem of Coq's kernel",
+    "exact": "rational numbers and symbolic normal forms",
+    "enclosure": "balls that enclose the exact numbers",
+    "numeric": "floating point, which decides nothing",
+}
+WHOSE = {
+    "quoted": "The paper's own.",
+    "implied": "Implied: the paper's argument or its tables rely on it.",
+    "ours": "Ours: a further question or a repair. It can be no error of the paper.",
+}
+
+
 def fixed(value: Any, places: int = 2) -> str:
     """A number to some decimal places; a dash where there is none."""
     return "–" if value is None or math.isnan(float(value)) else shown(float(value), f".{places}f")

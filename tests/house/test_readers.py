@@ -26,7 +26,7 @@ OURS = {
     ("rechecking/trusted.py", "_imported"): "source of the package",
     ("report/plots.py", "_with_palette"): "a picture in memory",
     ("report/notes.py", "published_notes"): "a proof of the package",
-    ("report/page/shell.py", "raw"): "style and script of the package",
+    ("report/page/__init__.py", "raw"): "style and script of the package",
     ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",
     ("store.py", "source_digest"): "the source of the package",
     ("claims/script.py", "_read"): "an answer in a folder of ours, whose size is looked at first",

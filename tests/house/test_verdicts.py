@@ -51,7 +51,7 @@ SAID = {
     "report.evidence": (1, HEADING),
     "report.plots_of_constants": (1, HEADING),
     "report.model": (3, SORTING),
-    "report.page.claims": (2, "the colours of a legend, and an order of verdicts"),
+    "report.page": (1, "an order of verdicts"),
     "report.tiles": (2, "a word that promises alone may say"),
     "report.verdict": (3, "gathered, and a sentence that promises alone may say"),
     "verdicts": (6, "the words themselves, and exit codes"),

@@ -39,7 +39,7 @@ from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import done
 from lyapcheck.report.model import EpsilonRow, RunRow, Subject, anchor, applies
 from lyapcheck.report.notes import published_notes
-from lyapcheck.report.page.claims import LETTERS, graph, layout, tied
+from lyapcheck.report.page import LETTERS, graph, layout, tied
 from lyapcheck.report.plots import Plot
 from lyapcheck.report.plots_of_runs import draw_errors, draw_torques, epsilon_plot, file_stem, indices_plot
 from lyapcheck.report.text import span_words, witness_words
@@ -355,7 +355,7 @@ def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
         claim_row("b", **second),
         claim_row("c", "refuted", witness={"shown by": "it"}, broken=["a"], **second),
     ]
-    drawn = graph(rows, "words", {"a": "short"})
+    drawn = graph(rows, {"a": "short"})
     boxes = ElementTree.fromstring(drawn).findall("a")
     assert [(box.get("href"), box.get("class")) for box in boxes] == [
         ("#a", "box proved exact"), ("#b", "box proved enclosure"), ("#c", "box refuted enclosure")

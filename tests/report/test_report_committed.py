@@ -17,7 +17,7 @@ from lyapcheck.cli.commands.report import _subject
 from lyapcheck.report.build import _gate
 from lyapcheck.report.jobs import BOXES, OTHERS, PROOF
 from lyapcheck.report.notes import published_notes
-from lyapcheck.report.page.shell import raw
+from lyapcheck.report.page import raw
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 

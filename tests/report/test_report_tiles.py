@@ -12,8 +12,7 @@ from lyapcheck.answers.gate.judge import judged_sets
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.promise import GUARDED, promises_as_seen
 from lyapcheck.report.model import Report
-from lyapcheck.report.page.own import first_screen
-from lyapcheck.report.page.shell import raw
+from lyapcheck.report.page import markup, raw, to_do
 from lyapcheck.report.tiles import drawn_motion, tiles, with_before
 from lyapcheck.robots.numeric import NumericModel
 
@@ -80,9 +79,13 @@ def blank(**known):
     return Report(**(dict.fromkeys(Report.__dataclass_fields__) | {"motions": {}} | known))
 
 
+def first_screen(report):
+    return markup("own.html", report=report, todo=to_do(report))
+
+
 def test_each_step_to_do_stands_once_and_what_is_wrong_first(tmp_path):
     known = tuple(told(tmp_path, kp="[400, 5]").values())
-    page = "".join(first_screen(blank(tiles={"a": known, "b": known})))
+    page = first_screen(blank(tiles={"a": known, "b": known}))
     steps = re.findall(r"<li>(\w[\w ]*): ", page)
     assert len(steps) == len(set(steps))
     assert steps[0] == "Motors"
@@ -107,6 +110,6 @@ def test_who_wants_no_motion_sees_start_and_goal():
     model = robots.load("examples/ur5.toml")
     q = np.linspace(0, 0.8, 50)[:, None] * np.ones(6)
     motion = drawn_motion(model, np.linspace(0, 5, 50), q)
-    page = "".join(first_screen(blank(tiles={"g": ()}, motions={"g": motion})))
+    page = first_screen(blank(tiles={"g": ()}, motions={"g": motion}))
     assert page.count("<polyline") == len(motion.frames) + 2
     assert "prefers-reduced-motion:reduce" in raw("style.css")

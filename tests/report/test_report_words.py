@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from lyapcheck.promise import promises_as_seen
 from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
-from lyapcheck.report.text import SYMBOLS
 from tests.helpers.redrawn import other
 from tests.helpers.words_of_proof import said, words_of_proof
 
@@ -27,8 +26,6 @@ def test_every_word_of_proof_in_a_report_is_a_promise(report):
     written |= {text for row in rows if row.decision.promise is None for text in texts_of(row.data())}
     written |= {text for row in rows for text in row.decision.rules} | set(report.certificates)
     written |= {box.title for box in (*report.notes.chain, *report.notes.route)}
-    of_sizes = {verdict for row in report.by_size for verdict in row.verdicts.values()}  # of the checker
-    written |= of_sizes | {f"{SYMBOLS[verdict]} {verdict}" for verdict in of_sizes}
     for finding in report.findings:
         written |= {*texts_of(vars(finding)), *(f"{term}: {text}" for term, text in finding.about.items())}
     with promises_as_seen():

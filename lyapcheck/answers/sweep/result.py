@@ -12,8 +12,8 @@ from lyapcheck.answers.sweep.question import Row
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.output.document import Bullets, Document, Figure, Section, Table, command
-from lyapcheck.output.html import blocks, page
-from lyapcheck.output.mathml import Markup, element
+from lyapcheck.output.html import blocks
+from lyapcheck.output.mathml import Markup
 from lyapcheck.verdicts import Exit
 
 MOST_CELLS = 3_000
@@ -263,13 +263,11 @@ def files(answer: SweepAnswer) -> dict[str, str | bytes]:
 
 
 def _page(answer: SweepAnswer, drawings: dict[str, str | bytes]) -> str:
-    from lyapcheck.report.page.gains import drawn
-    from lyapcheck.report.page.shell import raw
+    from lyapcheck.report.page import drawn, markup
 
     def shown(figure: Figure) -> Markup | None:
         name = figure.path.removeprefix("figures/").removesuffix(".svg")
         return drawn(name, str(drawings[figure.path]), figure.caption)
 
     document = answer.document()
-    section = element("section", element("h1", document.title), blocks(document.body, 2, shown))
-    return page(document.title, element("main", section), raw("style.css"))
+    return markup("sheet.html", title=document.title, inner=list(blocks(document.body, 2, shown)))
