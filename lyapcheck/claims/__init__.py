@@ -34,6 +34,7 @@ from lyapcheck.claims.arguments import lasalle as lasalle
 from lyapcheck.claims.arguments import property_of as property_of
 from lyapcheck.claims.arguments import rate_at_most as rate_at_most
 from lyapcheck.claims.arguments import rate_definite as rate_definite
+from lyapcheck.claims.arguments import step as step
 from lyapcheck.claims.arguments import strict as strict
 from lyapcheck.claims.arguments import uniform as uniform
 from lyapcheck.claims.arms import coriolis_at_rest as coriolis_at_rest

@@ -21,6 +21,7 @@ from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.bound_every_n import Term, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
@@ -30,7 +31,7 @@ from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.statement import Monomials, Relation, Statement
-from lyapcheck.check.systems.argument import Argument, Cascade, Change, Rest
+from lyapcheck.check.systems.argument import Argument, Cascade, Change, Rest, Step
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import Form
 from lyapcheck.check.systems.obligations import obligations, rate_bound
@@ -52,8 +53,29 @@ def strict(loop: System, V: Expr, above: Expr, rate: Expr, **more: object) -> St
 
 
 def lasalle(loop: System, V: Expr, above: Expr, rate: Expr, **more: object) -> Stable:
-    """Claim stability by LaSalle, with dV/dt <= −rate. ``rest=(x, form)``: xᵀMẇ >= form while rate is 0."""
+    """Claim stability by LaSalle, with dV/dt <= −rate.
+
+    ``rest=(x, form)``: xᵀMẇ >= form while rate is 0. Where more is needed, ``rest`` is a list of steps.
+    """
     return _argued("LaSalle", loop, V, above, rate, **more)  # type: ignore[arg-type]
+
+
+def step(form: Expr, still: Iterable[AnyVector] = (), **against: AnyVector) -> Step:
+    """A step of LaSalle's theorem: while earlier states are 0, the sum of xᵀ(motion of s) is at least a form.
+
+    Args:
+        form: positive definite in sizes of states, which are then 0 too.
+        still: states that stand still, as their motion, or that of others that stand still, shows.
+        against: x for each state s that stands still, as in ``w=e``. The motion of w is Mẇ.
+
+    Raises:
+        ValueError: what stands still is no letter.
+    """
+    for letter in still:
+        if letter.tree[0] != "vec":
+            raise ValueError(f"still: {expression_text(letter.tree)} is no letter of a state")
+    names = tuple(str(letter.tree[1]) for letter in still)
+    return Step(names, tuple((state, x.tree) for state, x in against.items()), form_of(form))
 
 
 def uniform(loop: System, V: Expr, above: Expr, below: Expr, rate: Expr, **more: object) -> Stable:
@@ -90,7 +112,7 @@ def _argued(
     below: Expr | None = None,
     gravity: bool = False,
     changes: Mapping[str, AnyVector] | None = None,
-    rest: tuple[AnyVector, Expr] | None = None,
+    rest: tuple[AnyVector, Expr] | list[Step] | None = None,
     where: Iterable[Relation] = (),
     small: bool = False,
     local: bool = False,
@@ -98,9 +120,11 @@ def _argued(
     motion: Expr | None = None,
     contraction: Expr | None = None,
 ) -> Stable:
-    relations, given = tuple(where), (above, rate, below, rest and rest[1], gain, motion, contraction)
-    forms = [one for one in given if one is not None]
-    for one in (*(form.tree for form in forms), *(relation.gap for relation in relations)):
+    steps = tuple(rest) if isinstance(rest, list) else ()
+    single = rest if isinstance(rest, tuple) else None
+    relations, given = tuple(where), (above, rate, below, single and single[1], gain, motion, contraction)
+    trees = [one.tree for one in given if one is not None] + [one.form.tree for one in steps]
+    for one in (*trees, *(relation.gap for relation in relations)):
         _require_names(loop, variables(one), [*(changes or ())])
     return Stable(
         Argument(
@@ -112,12 +136,13 @@ def _argued(
             None if below is None else form_of(below),
             form_of(rate),
             tuple(Change(state, equals.tree) for state, equals in (changes or {}).items()),
-            None if rest is None else Rest(rest[0].tree, form_of(rest[1])),
+            None if single is None else Rest(single[0].tree, form_of(single[1])),
             relations,
             small,
             local,
             None if gain is None else form_of(gain),
             None if motion is None or contraction is None else Cascade(motion.tree, form_of(contraction)),
+            steps,
         )
     )
 

@@ -312,6 +312,8 @@ def _group(obligation: str) -> str:
     name = obligation.split(",", maxsplit=1)[0].split(":", maxsplit=1)[0]
     if name.startswith(("origin", "V at")):
         return "origin"
+    if name.startswith("rest"):
+        return "rest"
     return "arm" if name in ("M", "beta", "kc", "kg", "km", "kc2") or name.startswith("condition") else name
 
 

@@ -204,7 +204,7 @@ def test_what_a_form_does_not_see():
     assert "e: must be seen by sizes that grow" in why(pd.argued(above=pd.goal.mu / 2 * pd.b**2))
     assert "rest = e: must be seen" in why(pd.argued(rest=None))
     assert "rate = e: must be seen" in why(pd.argued(strict))
-    assert "rate = w: must be seen" in why(pd.argued(rate=pd.K.min * pd.r**2))
+    assert "rest = w: must stand still before" in why(pd.argued(rate=pd.K.min * pd.r**2))
     assert "rest: it is refuted" in why(pd.argued(rest=(pd.e, 2 * pd.K.min * pd.r**2)))
     assert "rest: it is refuted" in why(pd.argued(rest=(-pd.e, pd.K.min * pd.r**2)))
 

@@ -2,7 +2,8 @@
 
 The equations of motion are written out here, for a pendulum and for two links in a vertical plane, at a q_d
 that rests. Arms, gains and constants are drawn until the conditions of the theorem hold. Then it is false if
-the origin moves, if a linearisation has an eigenvalue on the right, or if another state rests too.
+the origin moves, if a linearisation has an eigenvalue on the right, if it swings for ever where the functions have
+slopes at 0, or if another state rests too.
 """
 
 import warnings
@@ -277,7 +278,21 @@ def _fault(argument, loop, random):
         return f"an eigenvalue is {rightmost:.3g}"
     if argument.theorem in ("exponential", "ISS") and rightmost > -1e-12 * scale:
         return f"no decay: an eigenvalue is {rightmost:.3g}"
+    if argument.theorem in ("LaSalle", "strict") and _swings(loop, slope):
+        return "a linearisation swings for ever"
     return "" if argument.local else _rests_elsewhere(loop, random)
+
+
+def _swings(loop, slope):
+    """Whether two eigenvalues are imaginary, or one is 0, as far as doubles tell.
+
+    Where gains differ too much, weak damping looks like none; where a function is flat at 0, so does damping by it.
+    """
+    sizes = np.concatenate([own for (kind, name), own in loop.constants.items() if kind == "vec" and name != "B"])
+    even = len(sizes) == 0 or sizes.max() < 1e3 * sizes.min()
+    sloped = all(abs(function(np.array([1e-3]))[0]) > 1e-4 for function in loop.functions.values())
+    eigenvalues = np.linalg.eigvals(slope)
+    return bool(even and sloped and eigenvalues.real.max() > -1e-9 * np.abs(eigenvalues).max())
 
 
 def _rests_elsewhere(loop, random):

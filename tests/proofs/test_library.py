@@ -24,6 +24,9 @@ REFUSED = {
     "slotine_li": {"printed": "undecided", "printed.form": "undecided"},
     "pid": {"global": "undecided", "damping": "undecided"},
     "feedforward": {"global": "undecided", "soft.pelican": "undecided"},
+    "bounded_filter": dict.fromkeys(("leak", "order", "at once"), "undecided"),
+    "kelly_filter": {"soft": "undecided", "turned": "refuted", "leak": "undecided"},
+    "flexible_joints": dict.fromkeys(("soft", "undamped", "still"), "undecided"),
 }
 """Claims that are there to be refused; all others are proved."""
 REASONS = {
@@ -33,6 +36,8 @@ REASONS = {
     ("kelly_tanh", "exponential"): "must be quadratic in the norms of all states",
     ("tomei", "soft.pelican"): " < 10 is refuted",
     ("feedforward", "soft.pelican"): " < 10 is refuted",
+    ("bounded_filter", "order"): "rest = w: must stand still before the step that uses it",
+    ("flexible_joints", "still"): "rest = e: must stand still before the step that uses it",
 }
 
 
@@ -97,6 +102,24 @@ FAULTS = {
         TURNED[0],
         ("goal.M_at_goal @ goal.acceleration +", "2 * goal.M_at_goal @ goal.acceleration +"),
         ("+ goal.gravity_at_goal\n", "\n"),
+    ],
+    "bounded_filter": [
+        ("- N @ (L @ k) + goal", "+ N @ (L @ k) + goal"),
+        ("N @ w - leak", "-N @ w - leak"),
+        (" + goal.gravity)", ")"),
+        ("K_p.min * norm(f) ** 2, w=f", "K_p.min * norm(f) ** 2, w=-f"),
+    ],
+    "kelly_filter": [
+        ("leak * A @ any_vector", "-leak * A @ any_vector"),
+        ("[] if soft else [k_g < K_p.min]", "[] if soft else [K_p.min < k_g]"),
+        ("step(N.min * b**2, z=w), ", ""),
+    ],
+    "flexible_joints": [
+        ('"f", -J @ p', '"f", J @ p'),
+        ("- damping * K_d @ (J @ p)", "+ damping * K_d @ (J @ p)"),
+        ("K.max**2 < (K.min - k_g) * (K.min + K_p.min)", "k_g < K_p.min"),
+        ("K @ (e - f) + goal.gravity_at_goal", "K @ (e + f) + goal.gravity_at_goal"),
+        ("e=-w), step", "f=-w), step"),
     ],
 }
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.letters.grammar import letters, require_sort
-from lyapcheck.check.letters.words import Words
+from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.systems.facts import constants_of
@@ -40,6 +40,15 @@ class Rest:
 
 
 @dataclass(frozen=True)
+class Step:
+    """States that stand still, then vectors for some, and what Σ xᵀ(their motion) is at least; ``theorems``."""
+
+    still: tuple[str, ...]
+    against: tuple[tuple[str, Tree], ...]
+    form: Form
+
+
+@dataclass(frozen=True)
 class Cascade:
     """What lets y, by which w is changed, go to 0 and e follow it: ‖M ẏ‖ <= motion, eᵀw >= the form."""
 
@@ -61,6 +70,7 @@ class Argument:
         rate: ψ.
         changes: other letters for some states in φ.
         rest: what LaSalle's theorem asks for, if ψ does not see every state.
+        steps: the same in several steps, instead of ``rest``.
         where: conditions on the constants.
         small: whether some ε₀ > 0 is enough; else it is one of the constants.
         local: whether dV/dt is bounded only where ‖e‖ <= R.
@@ -82,6 +92,7 @@ class Argument:
     local: bool
     gain: Form | None = None
     cascade: Cascade | None = None
+    steps: tuple[Step, ...] = field(default=(), metadata={"left_out": True})
 
     def require_well_formed(self) -> None:
         """Refuse what is not of the form that the theorem is about."""
@@ -124,10 +135,22 @@ class Argument:
     @property
     def forms(self) -> list[Form]:
         """Those that it has."""
-        rest = self.rest.form if self.rest is not None else None
         contraction = self.cascade.contraction if self.cascade is not None else None
-        forms = (self.lower, self.upper, self.rate, rest, self.gain, contraction)
+        rests = (step.form for step in self.to_rest)
+        forms = (self.lower, self.upper, self.rate, *rests, self.gain, contraction)
         return [form for form in forms if form is not None]
+
+    @property
+    def to_rest(self) -> tuple[Step, ...]:
+        """The steps of LaSalle's theorem; ``rest`` is a single one."""
+        return self.steps if self.rest is None else (Step((), (("w", self.rest.against),), self.rest.form),)
+
+    def vanishing(self) -> list[set[str]]:
+        """The states that are 0 before each step, and after the last."""
+        result = [self.seen(self.rate)]
+        for step in self.to_rest:
+            result.append(result[-1] | self.seen(step.form))
+        return result
 
     def _sees(self) -> dict[str, tuple[str, bool]]:
         """For each size the state that it sees, and whether it grows with it without end."""
@@ -196,14 +219,12 @@ class Argument:
         require(not lost, "lower", ", ".join(sorted(lost)), "must be seen by sizes that grow without end")
         seen = self.seen(self.rate)
         if self.theorem == "LaSalle":
-            require("w" in seen, "rate", "w", "must be seen: where it is 0, nothing moves but the controller")
-            left = every - seen - (self.seen(self.rest.form) if self.rest is not None else set())
+            require(not (self.rest and self.steps), "steps", "", "take the place of the rest")
+            self._require_steps()
+            left = every - self.vanishing()[-1]
             require(not left, "rest", ", ".join(sorted(left)), "must be seen where the rest stays 0")
-            if self.rest is not None:
-                require_sort(self.rest.against, "vector")
-                system.require_letters(self.rest.against, system.known, "the vector at rest")
         else:
-            require(self.rest is None, "rest", "", "is for LaSalle's theorem alone")
+            require(not self.to_rest, "rest", "", "is for LaSalle's theorem alone")
             rule = "must be seen: but for LaSalle's, a theorem asks for a rate in every state"
             require(seen == every, "rate", ", ".join(sorted(every - seen)), rule)
         if self.gain is not None:
@@ -227,11 +248,50 @@ class Argument:
                     all(SHARE not in variables(tree) for tree in form.coefficients), "form", SHARE, "varies"
                 )
 
+    def _require_steps(self) -> None:
+        """Each is about states that stand still; and what it says stands still does."""
+        system, still = self.system, set[str]()
+        for step, zero in zip(self.to_rest, self.vanishing(), strict=False):
+            still |= zero
+            for name in step.still:
+                require(name in system.moving, "still", name, "is no state")
+                require(self._stands(name, zero, still), "still", name, "is not shown to stand still")
+                still.add(name)
+            require(len(step.against) > 0, "rest", "", "needs a state that stands still")
+            for state, against in step.against:
+                require(state in still, "rest", state, "must stand still before the step that uses it")
+                require_sort(against, "vector")
+                system.require_letters(against, system.known, "the vector at rest")
+
+    def _stands(self, name: str, zero: Collection[str], still: Collection[str]) -> bool:
+        """Whether a state stands still: its motion is 0, or A x + what stands still is, of one that does.
+
+        A is a product of positive diagonal matrices, and what stands still is made of such matrices and states.
+        """
+        system = self.system
+        regular = {*system.gains, *(["B"] if system.friction == "positive" else [])}
+        fixed = {*still, *system.diagonal, *(f.name for f in system.functions if f.of in still)}
+
+        def constant(word: Word, of: Collection[str], factor: Tree) -> bool:
+            ends = all(kind == "diag" and one in regular for kind, one in word[:-1]) and word[-1][1] in of
+            return ends and variables(factor) <= {*system.constants}
+
+        for state in sorted({name, *still}):
+            motion = Words((), {}, {}).expand(system.at_zero(system.motion(state), zero))
+            words = [(word, factor) for word, factor in motion.items() if terms_of(factor)]
+            own = [factor for word, factor in words if constant(word, {name} - {*zero}, factor)]
+            rest = sum(constant(word, fixed, factor) for word, factor in words)
+            if (state == name and not words) or (
+                state in still and len(own) == 1 == len(terms_of(own[0])) and rest == len(words) - 1
+            ):
+                return True
+        return False
+
     def _require_cascade(self, cascade: Cascade, allowed: Collection[str]) -> None:
         """w alone is changed, to y; φ and ψ see y, φ the controller's states too; χ is about e and y."""
         every = {*self.system.moving}
         require([change.state for change in self.changes] == ["w"], "changes", "", "must be of w alone")
-        require(self.rest is None, "rest", "", "is for LaSalle's theorem alone")
+        require(not self.to_rest, "rest", "", "is for LaSalle's theorem alone")
         y = f"norm_{self.changes[0].letter}"
         lost = every - {"e"} - self.seen(self.lower, growing=True)
         require(not lost, "lower", ", ".join(sorted(lost)), "must be seen by sizes that grow without end")

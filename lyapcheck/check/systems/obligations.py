@@ -98,13 +98,16 @@ def below(argument: Argument) -> Named:
 
 
 def at_rest(argument: Argument) -> Named:
-    """xᵀ(M ẇ) >= χ, positive definite, where the states that ψ sees are 0; where χ is given."""
-    if argument.rest is not None:
-        force = argument.system.at_zero(argument.system.force, argument.seen(argument.rate))
-        against = argument.system.at_zero(argument.rest.against, argument.seen(argument.rate))
-        left = ("neg", ("dot", against, force))
-        yield "rest", at_most(argument.system, left, ("neg", argument.rest.form.tree))
-        yield from _definite(argument, "rest", argument.rest.form)
+    """Σ xᵀ(motion) >= χ, positive definite, where the states that vanish before a step are 0; for each step."""
+    system = argument.system
+    for k, (step, zero) in enumerate(zip(argument.to_rest, argument.vanishing(), strict=False), 1):
+        parts: list[Tree] = [
+            ("dot", system.at_zero(x, zero), system.at_zero(system.motion(state), zero))
+            for state, x in step.against
+        ]
+        name, total = f"rest {k}" if k > 1 else "rest", parts[0] if len(parts) == 1 else ("add", *parts)
+        yield name, at_most(system, ("neg", total), ("neg", step.form.tree))
+        yield from _definite(argument, name, step.form)
 
 
 def _with_gravity(argument: Argument, energy: Tree) -> Tree:

@@ -162,6 +162,10 @@ class System:
         acting = (DISTURBANCE,) if self.disturbed else ()
         return ("sum", self.torque, *acting, *(minus(part) for part in needed))
 
+    def motion(self, state: str) -> Tree:
+        """The derivative of a state, of w times M."""
+        return {"e": minus(W), "w": self.force, **{one.name: one.rate for one in self.states}}[state]
+
     @property
     def coriolis(self) -> Tree:
         """C(q, q̇)."""
