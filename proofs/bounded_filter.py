@@ -1,9 +1,9 @@
-"""Bounded torques without velocities and without friction, τ = K_p f(q̃) − N L k(z) + g(q), dz/dt = N q̇ − A k(z).
+"""Bounded torques from positions alone, τ = K_p f(q̃) − N L k(z) + g(q), dz/dt = N q̇ − A k(z).
 
-z is computed from q alone: z = x + N q with dx/dt = −A k(x + N q). V falls only where z moves, so LaSalle's theorem
-needs two steps: z stays 0, so q̇ does, so K_p f(q̃) does. f and k are any bounded functions of the class.
-Loría, Kelly, Ortega and Santibáñez published such regulators in 1997. Their paper was not at hand here: the law and
-the proof are written anew, with gravity compensated at the present posture.
+No friction is needed. z = x + N q with dx/dt = −A k(x + N q) is computed from q. V falls only where z moves, so
+LaSalle's theorem needs two steps: z stays 0, so q̇ does, so K_p f(q̃) does. f and k are any bounded functions of
+the class. Loría, Kelly, Ortega and Santibáñez published such regulators in 1997. Their paper was not at hand
+here: the law and the proof are written anew, with gravity compensated at the present posture.
 """
 
 from lyapcheck.claims import (
@@ -62,7 +62,7 @@ def tanh_of(goal, z):
 
 
 loop, V, theorem, power = regulator(any_function)
-proof.add("rate", "dV/dt = −k(z)ᵀL A k(z) − q̇ᵀBq̇: it sees z, and of q̇ only what friction does", along(loop, V, power))
+proof.add("rate", "dV/dt = −k(z)ᵀL A k(z) − q̇ᵀBq̇: it sees z, and q̇ by friction alone", along(loop, V, power))
 proof.add_theorem(
     "P",
     "q̃ = 0, q̇ = 0, z = 0 is globally asymptotically stable for all positive gains, with or without friction",
@@ -76,7 +76,9 @@ proof.add(
 )
 
 proof.section("What would be too much")
-proof.add("leak", "the same with a filter that forgets nothing: nothing damps", regulator(any_function, leak=0)[2])
+proof.add(
+    "leak", "the same with a filter that forgets nothing: nothing damps", regulator(any_function, leak=0)[2]
+)
 proof.add(
     "order",
     "the same steps the other way round: K_p f(q̃) = 0 needs q̇ = 0 first",

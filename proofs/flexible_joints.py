@@ -1,15 +1,14 @@
-"""Flexible joints: a PD controller of the motors, u = K_p (θ_d − θ) − K_d dθ/dt + g(q_d), moves the links to q_d.
+"""Flexible joints: PD control of the motors, u = K_p (θ_d − θ) − K_d dθ/dt + g(q_d), moves the links to q_d.
 
-Links at q pull at motors at θ by springs, τ = K(θ − q). With θ_d = q_d + K⁻¹g(q_d), f = θ_d − θ and the momentum p
-of the motors, J = (motor inertia)⁻¹, this is τ = K(q̃ − f) + g(q_d), df/dt = −Jp,
+Springs between links and motors give τ = K(θ − q). With θ_d = q_d + K⁻¹g(q_d), f = θ_d − θ, the momentum p of
+the motors and J = (motor inertia)⁻¹, this is τ = K(q̃ − f) + g(q_d), df/dt = −Jp and
 dp/dt = K_p f − K_d J p − K(q̃ − f). V falls only where motors move. If they stay still, the springs pull with
 constant torque, so the links stand still too: q̃ is constant, and so q̇ = 0. What is left is statics.
-The theorem is that of Tomei (1991), whose text was not at hand. Its condition on K and K_p together is written here
-in λmin and λmax of each: for springs that differ it asks for more than the least eigenvalue of the whole matrix.
+The theorem is that of Tomei (1991), whose text was not at hand. The condition is written here in λmin and λmax
+of K and K_p: for springs that differ it asks for more than the least eigenvalue of both together would.
 """
 
-from lyapcheck.claims import Proof, along, any_vector, constant_goal, lasalle, norm, step
-from lyapcheck.claims import at_arm
+from lyapcheck.claims import Proof, along, any_vector, at_arm, constant_goal, lasalle, norm, step
 from lyapcheck.robots import load
 
 proof = Proof("flexible_joints", "A PD controller for arms with flexible joints", reference="tomei1991simple")
@@ -40,7 +39,11 @@ def motors(damping=1, stiff=True, still=True):
 
 
 loop, V, theorem, power = motors()
-proof.add("rate", "dV/dt = −(dθ/dt)ᵀK_d dθ/dt − q̇ᵀBq̇: springs only store energy", along(loop, V, power, gravity=True))
+proof.add(
+    "rate",
+    "dV/dt = −(dθ/dt)ᵀK_d dθ/dt − q̇ᵀBq̇: springs only store energy",
+    along(loop, V, power, gravity=True),
+)
 proof.add_theorem(
     "P",
     "springs and K_p stiff enough against gravity make q̃ = 0, q̇ = 0, θ = θ_d globally asymptotically stable",

@@ -1,12 +1,22 @@
-"""PD control with g(q_d) and filtered positions instead of velocities, τ = K_p q̃ − N L z + g(q_d), dz/dt = N q̇ − A z.
+"""PD control with g(q_d) from positions alone, τ = K_p q̃ − N L z + g(q_d), dz/dt = N q̇ − A z.
 
-With K_v = N L this is the P"D" control of Kelly (1993) and of chapter 13 of his book with Santibáñez and Loría:
-z = x + N q, dx/dt = −A (x + N q) needs no velocity. λmin(K_p) > k_g is enough, whatever N, L and A.
-V sees z alone, so LaSalle's theorem needs two steps: z = 0 gives q̇ = 0, and that gives q̃ = 0.
-Neither text was at hand; the proof is written here anew.
+z = x + N q with dx/dt = −A (x + N q) needs no velocity. λmin(K_p) > k_g is enough, whatever N, L and A.
+dV/dt sees z alone, so LaSalle's theorem needs two steps: z = 0 gives q̇ = 0, and that gives q̃ = 0.
+With K_v = N L this is the P"D" control of Kelly (1993), also in his book with Santibáñez and Loría. Neither
+text was at hand; the proof is written here anew.
 """
 
-from lyapcheck.claims import Proof, along, any_vector, at_arm, constant_goal, lasalle, norm, rate_at_most, step
+from lyapcheck.claims import (
+    Proof,
+    along,
+    any_vector,
+    at_arm,
+    constant_goal,
+    lasalle,
+    norm,
+    rate_at_most,
+    step,
+)
 from lyapcheck.robots import load
 
 proof = Proof("kelly_filter", "PD control from positions alone", reference="kelly2005control")
@@ -45,5 +55,7 @@ proof.add(
 
 proof.section("What would be too much")
 proof.add("soft", "the same argument for all positive gains: a soft arm falls", regulator(soft=True)[2])
-proof.add("turned", "the same with the filter fed back with the other sign", rate_at_most(regulator(sign=-1)[2]))
+proof.add(
+    "turned", "the same with the filter fed back with the other sign", rate_at_most(regulator(sign=-1)[2])
+)
 proof.add("leak", "the same with A = 0: z is then Nq̃ and a constant, and nothing damps", regulator(leak=0)[2])

@@ -1,4 +1,4 @@
-"""LaSalle's theorem in steps: loops that come close to the rule and do not converge, and steps that say too much."""
+"""LaSalle's theorem in steps: loops close to the rule that do not converge, and steps that say too much."""
 
 import json
 from dataclasses import replace
@@ -118,9 +118,7 @@ def deaf_to_some():
 def through_friction():
     """The filter hears Bw, and B may vanish: τ = … − Bz, dz/dt = Bw − Az."""
     goal = constant_goal("any")
-    f = Filter(
-        goal=goal, rate=lambda f: goal.B @ f.w - f.A @ f.z, torque=lambda f: f.K @ f.e - goal.B @ f.z
-    )
+    f = Filter(goal=goal, rate=lambda f: goal.B @ f.w - f.A @ f.z, torque=lambda f: f.K @ f.e - goal.B @ f.z)
     V = f.w @ f.M @ f.w / 2 + f.e @ f.K @ f.e / 2 + f.z @ f.z / 2
     above = f.goal.mu / 2 * norm(f.w) ** 2 + f.K.min / 2 * norm(f.e) ** 2 + norm(f.z) ** 2 / 2
     still = step(norm(f.w) ** 2, still=[f.w, f.e], e=-f.w)
@@ -167,7 +165,8 @@ def test_a_step_needs_states_that_stand_still():
     assert "e: must be seen where the rest stays 0" in why(f.argued(f.moving))
     assert "e, w: must be seen where the rest stays 0" in why(f.argued())
     assert "needs a state that stands still" in why(f.argued(f.moving, step(norm(f.e) ** 2)))
-    assert "still = magic: is no state" in why(f.argued(step(norm(f.w) ** 2, still=[any_vector("magic")], z=f.w)))
+    magic = step(norm(f.w) ** 2, still=[any_vector("magic")], z=f.w)
+    assert "still = magic: is no state" in why(f.argued(magic))
     assert "rest = magic: must stand still" in why(f.argued(step(norm(f.w) ** 2, magic=f.w)))
 
 
@@ -198,7 +197,7 @@ def test_a_vector_of_what_the_controller_may_know(against, reason):
 
 
 def test_what_stands_still():
-    """Through A y + c with A positive and diagonal; not through M, a function, another state or a sum of gains."""
+    """Through A y + c with A positive and diagonal; not through M, a number that moves, or a sum of gains."""
 
     def said(motion, still, **more):
         f = Filter(rate=motion, more=more)

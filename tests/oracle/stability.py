@@ -2,8 +2,8 @@
 
 The equations of motion are written out here, for a pendulum and for two links in a vertical plane, at a q_d
 that rests. Arms, gains and constants are drawn until the conditions of the theorem hold. Then it is false if
-the origin moves, if a linearisation has an eigenvalue on the right, if it swings for ever where the functions have
-slopes at 0, or if another state rests too.
+the origin moves, if a linearisation has an eigenvalue on the right, if it swings for ever although functions
+have slopes at 0, or if another state rests too.
 """
 
 import warnings
@@ -286,9 +286,10 @@ def _fault(argument, loop, random):
 def _swings(loop, slope):
     """Whether two eigenvalues are imaginary, or one is 0, as far as doubles tell.
 
-    Where gains differ too much, weak damping looks like none; where a function is flat at 0, so does damping by it.
+    Where gains differ too much, weak damping looks like none; so does that by a function that is flat at 0.
     """
-    sizes = np.concatenate([own for (kind, name), own in loop.constants.items() if kind == "vec" and name != "B"])
+    gains = [own for (kind, name), own in loop.constants.items() if kind == "vec" and name != "B"]
+    sizes = np.concatenate(gains or [[]])
     even = len(sizes) == 0 or sizes.max() < 1e3 * sizes.min()
     sloped = all(abs(function(np.array([1e-3]))[0]) > 1e-4 for function in loop.functions.values())
     eigenvalues = np.linalg.eigvals(slope)

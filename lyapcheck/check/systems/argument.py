@@ -41,7 +41,7 @@ class Rest:
 
 @dataclass(frozen=True)
 class Step:
-    """States that stand still, then vectors for some, and what Σ xᵀ(their motion) is at least; ``theorems``."""
+    """States that stand still; vectors x beside some, and the form that Σ xᵀ(their motion) is at least."""
 
     still: tuple[str, ...]
     against: tuple[tuple[str, Tree], ...]
@@ -266,7 +266,7 @@ class Argument:
     def _stands(self, name: str, zero: Collection[str], still: Collection[str]) -> bool:
         """Whether a state stands still: its motion is 0, or A x + what stands still is, of one that does.
 
-        A is a product of positive diagonal matrices, and what stands still is made of such matrices and states.
+        A is a product of positive diagonal matrices; what stands still is made of such matrices and states.
         """
         system = self.system
         regular = {*system.gains, *(["B"] if system.friction == "positive" else [])}

@@ -98,7 +98,7 @@ def below(argument: Argument) -> Named:
 
 
 def at_rest(argument: Argument) -> Named:
-    """Σ xᵀ(motion) >= χ, positive definite, where the states that vanish before a step are 0; for each step."""
+    """For each step Σ xᵀ(motion) >= χ, positive definite, where the states that vanish before it are 0."""
     system = argument.system
     for k, (step, zero) in enumerate(zip(argument.to_rest, argument.vanishing(), strict=False), 1):
         parts: list[Tree] = [
