@@ -4,7 +4,7 @@ Springs between links and motors give τ = K(θ − q). With θ_d = q_d + K⁻¹
 the motors and J = (motor inertia)⁻¹, this is τ = K(q̃ − f) + g(q_d), df/dt = −Jp and
 dp/dt = K_p f − K_d J p − K(q̃ − f). V falls only where motors move. If they stay still, the springs pull with
 constant torque, so the links stand still too: q̃ is constant, and so q̇ = 0. What is left is statics.
-The theorem is that of Tomei (1991), whose text was not at hand. The condition is written here in λmin and λmax
+The theorem is that of Tomei (1991), whose text was not at hand. The condition is written in λmin and λmax
 of K and K_p: for springs that differ it asks for more than the least eigenvalue of both together would.
 """
 
