@@ -1,9 +1,10 @@
 """Bounded torques from positions alone, τ = K_p f(q̃) − N L k(z) + g(q), dz/dt = N q̇ − A k(z).
 
-No friction is needed. z = x + N q with dx/dt = −A k(x + N q) is computed from q. V falls only where z moves,
-so LaSalle's theorem needs two steps: z stays 0, so q̇ does, so K_p f(q̃) does. f and k are any bounded
-functions of the class. Loría, Kelly, Ortega and Santibáñez published such regulators in 1997. Their paper was not at hand
-here: the law and the proof are written anew, with gravity compensated at the present posture.
+No friction is needed. z = x + N q with dx/dt = −A k(x + N q) is computed from q. V falls only where z
+moves, so LaSalle's theorem needs two steps: z stays 0, so q̇ does, so K_p f(q̃) does. f and k are any
+bounded functions of the class. Loría, Kelly, Ortega and Santibáñez published such regulators in 1997.
+Their paper was not at hand here: the law and the proof are written anew, with gravity compensated at the
+present posture.
 """
 
 from lyapcheck.claims import (

@@ -5,12 +5,13 @@ sizes that see every state, of a cascade all but e, and that grow without end wi
 constants); V is C¹. Then
 
 - strict: dV/dt <= −ψ, ψ positive definite in sizes that see every state; nothing depends on time;
-- LaSalle: ψ sees some states only; nothing depends on time. Motions end in an invariant set with ψ = 0: there
-  what ψ sees is 0 at all times. Then step by step. A state that is constant there has no motion (that of w is
-  M ẇ), so Σ xᵀ(motion) = 0 for any vectors x; where that is at least χ, positive definite in its sizes, what
-  χ sees is 0 too. States that are 0 are constant. So is y if its motion is 0 where these are 0; or if
-  that of a constant state is then A y + c, as y = −A⁻¹c: A a product of positive diagonal matrices and a number, c
-  of constant matrices and states. After the last step every state is 0: the set is the origin;
+- LaSalle: ψ sees some states only; nothing depends on time. Motions end in an invariant set with ψ = 0:
+  there what ψ sees is 0 at all times. Then step by step. A state that is constant there has no motion
+  (that of w is M ẇ), so Σ xᵀ(motion) = 0 for any vectors x; where that is at least χ, positive definite in
+  its sizes, what χ sees is 0 too. States that are 0 are constant. So is y if its motion is 0 where these
+  are 0; or if that of a constant state is then A y + c, as y = −A⁻¹c: A a product of positive diagonal
+  matrices and a number, c of constant matrices and states. After the last step every state is 0: the set
+  is the origin;
 - uniform: as strict, and V <= Φ; as no time stands in φ, Φ and ψ, q_d may depend on it;
 - exponential: as uniform; φ, Φ and ψ are quadratic forms in the norms of all states, with constants.
 - ISS: as exponential, with an unknown torque d, ‖d‖ <= delta: dV/dt <= −ψ + delta·ℓ, ℓ linear in these norms.
