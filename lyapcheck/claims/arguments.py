@@ -69,7 +69,7 @@ def step(form: Expr, still: Iterable[AnyVector] = (), **against: AnyVector) -> S
         against: x for each state s that stands still, as in ``w=e``. The motion of w is Mẇ.
 
     Raises:
-        ValueError: what stands still is no letter.
+        ValueError: ``still`` has a sum or product.
     """
     for letter in still:
         if letter.tree[0] != "vec":
