@@ -65,7 +65,7 @@ def step(form: Expr, still: Iterable[AnyVector] = (), **against: AnyVector) -> S
 
     Args:
         form: positive definite in sizes of states, which are then 0 too.
-        still: states that stand still, as their motion, or that of others that stand still, shows.
+        still: states that stand still, as their own motion or another's shows.
         against: x for each state s that stands still, as in ``w=e``. The motion of w is Mẇ.
 
     Raises:
