@@ -11,8 +11,8 @@ from typing import Any
 from unicodedata import normalize
 
 from lyapcheck._types import Progress
-from lyapcheck.answers.check.proof import one_line
-from lyapcheck.answers.check.run import paper_case_data
+from lyapcheck.answers.check.proof import ORDER, ClaimResult, cut, one_line
+from lyapcheck.answers.check.run import paper_case_data, run_proof
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
@@ -21,12 +21,15 @@ from lyapcheck.claims.search_result import procedure_of
 from lyapcheck.claims.statements import Missing
 from lyapcheck.control.gains import proofs_folder
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Code, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
+from lyapcheck.output.text import PROSE
 
 FORMULA = re.compile(r"\(\w+\)")
 ACCENTS = {"'": "\N{COMBINING ACUTE ACCENT}", "~": "\N{COMBINING TILDE}"}
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
+MOST_LISTED = 14
+"""Claims of the short list."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,11 @@ class Part:
     name: str
     kind: str
     says: str
+
+    @property
+    def text(self) -> str:
+        """The part in one line."""
+        return f"{f'{self.name}: ' if self.name else ''}{self.says} [{self.kind}]"
 
 
 @dataclass(frozen=True)
@@ -62,8 +70,9 @@ class Explanation(Answer):
         parts: what is decided.
         lacking: why nothing can be decided for the paper's arm, empty where it can.
         procedures: how it is decided, one paragraph a procedure.
-        granted: what a proof of it takes for granted.
-        found: what came of it for the paper's arm, and on what evidence; empty where that was not asked.
+        granted: the assumptions of a proof of it.
+        decided: the claim for the paper's arm, a row for each m; empty where that was not asked.
+        asked: the script that was asked for; empty for one that comes with lyapcheck.
     """
 
     schema = "lyapcheck/explain/1"
@@ -82,38 +91,83 @@ class Explanation(Answer):
     lacking: str
     procedures: tuple[str, ...]
     granted: tuple[str, ...] = ()
-    found: tuple[str, ...] = ()
+    decided: tuple[ClaimResult, ...] = ()
+    asked: str = ""
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """The verdict for each m, with its counterexample or reason."""
+        return tuple(
+            "; ".join((f"{_member(row)}{row.decision.word} [{row.grade}]", *row.support))
+            for row in self.decided
+        )
 
     def document(self) -> Document:
-        """Where it stands, what is decided and how, what it uses and what uses it, how to decide it."""
-        how = tuple(block for text in self.procedures for block in _blocks(text))
-        formulas = ", ".join(FORMULA.findall(self.place))
+        """The verdict, what is decided and what it uses; in detail how, and the other claims about it."""
         source = f" of {_cited(self.reference)}" if self.reference else ""
-        place = f"{self.place}{source}" if self.place else "Not in the paper's text"
-        decided = [Paragraph(self.lacking)] if self.lacking else []
-        decided += [
-            Paragraph(f"{f'{part.name}: ' if part.name else ''}{part.says} [{part.kind}]")
-            for part in self.parts
+        place = f"{self.place}{source}" if self.place else "not in the paper's text"
+        said, made = f"“{one_line(self.says)}” (the author's words)", f"{place}; claimed in {self.script}"
+        title, lead = f"{self.id}: {said}", (made,)
+        if self.decided:
+            worst = next(v for v in ORDER if any(row.verdict is v for row in self.decided))
+            title, lead = f"{worst.sign} {self.id}: {self._verdicts()}", (said, made)
+        stated = [self.lacking] if self.lacking else [part.text for part in self.parts]
+        case = f", for {self.case}" if self.case else ""
+        links = [
+            f"{what} {cut(', '.join(name for name, _ in claims), PROSE - 12)}"
+            for what, claims in (("uses", self.uses), ("used by", self.used_by))
+            if claims
         ]
-        blocks = (
-            Paragraph(f"{place}; claimed in {self.script}."),
-            *((Section("What came of it", (Bullets(self.found),)),) if self.found else ()),
-            Section(f"What is decided{f', for {self.case}' if self.case else ''}", tuple(decided)),
-            Section("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
-            *((Section("What it takes for granted", (Bullets(self.granted),)),) if self.granted else ()),
-            Section("What it uses", (_claims(self.uses),)),
-            Section("What uses it", (_claims(self.used_by),)),
-            *((Section(f"Also about {formulas}", (_claims(self.near),)),) if self.near else ()),
-            Section("To decide it", (Code(self._command()),)),
+        remarks = (cut(f"decided{case}: {'; '.join(stated)}", 3 * PROSE), *links)
+        how = tuple(block for text in self.procedures for block in _blocks(text))
+        about = f"Also about {', '.join(FORMULA.findall(self.place))}"
+        sections = (
+            ("Verdicts", (Bullets(self.found),) if self.found else ()),
+            (f"What is decided{case}", tuple(map(Paragraph, stated))),
+            ("How it is decided", how or (Paragraph("Not for this arm and these gains."),)),
+            ("Assumptions", (Bullets(self.granted),) if self.granted else ()),
+            ("What it uses", (_claims(self.uses),)),
+            ("What uses it", (_claims(self.used_by),)),
+            (about, (_claims(self.near),) if self.near else ()),
         )
-        return Document(f"{self.id}: “{one_line(self.says)}” (the author's words)", blocks)
+        return Document(
+            title,
+            (*self._table(), Bullets(remarks)),
+            lead=tuple(cut(text, PROSE - 2) for text in lead) if self.decided else lead,
+            details=tuple(Section(head, blocks) for head, blocks in sections if blocks),
+            next=self._command(),
+        )
+
+    def _verdicts(self) -> str:
+        """Each verdict with the m that have it."""
+        rows: dict[str, list[str]] = {}
+        for row in self.decided:
+            rows.setdefault(row.decision.word, []).extend([] if row.m is None else [str(row.m)])
+        members = {word: f" for m = {', '.join(ms)}" if ms else "" for word, ms in rows.items()}
+        return "; ".join(word + ms for word, ms in members.items())
+
+    def _table(self) -> Iterator[Table]:
+        """The evidence of each verdict that has some."""
+        rows = [
+            ("" if row.m is None else str(row.m), row.grade, one_line("; ".join(row.support)))
+            for row in self.decided
+            if row.support
+        ]
+        if rows:
+            yield Table(("m", "grade", "counterexample or reason"), tuple(rows), align="lll", keys=3)
 
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
-        result = asdict(self) | {"granted": list(self.granted), "found": list(self.found)}
-        for key in ("uses", "used_by", "near"):
-            result[key] = [{"id": known, "says": says} for known, says in result[key]]
-        return result | {"shown_for_m": SHOWN_MEMBER, "run": self._command()}
+        plain = ("id", "says", "script", "title", "place", "reference", "case", "lacking")
+        linked = {"uses": self.uses, "used_by": self.used_by, "near": self.near}
+        return {
+            **{name: getattr(self, name) for name in plain},
+            **{key: [{"id": name, "says": says} for name, says in claims] for key, claims in linked.items()},
+            **{name: list(getattr(self, name)) for name in ("procedures", "granted", "found")},
+            "parts": [asdict(part) for part in self.parts],
+            "shown_for_m": SHOWN_MEMBER,
+            "run": self._command(),
+        }
 
     def records(self) -> list[dict[str, Any]]:
         """A row a part, or one that says why there is none."""
@@ -122,7 +176,7 @@ class Explanation(Answer):
         return [{**about, "part": row["name"], "kind": row["kind"], "statement": row["says"]} for row in rows]
 
     def _command(self) -> str:
-        return f"lyapcheck check {self.script} --only {self.id}"
+        return command("check", self.asked or self.script, "--only", self.id)
 
 
 @dataclass(frozen=True)
@@ -131,18 +185,32 @@ class ClaimList(Answer):
 
     Args:
         proofs: for each script its title, and the ids of its claims with the author's words.
+        asked: the script that was asked for; empty for those that come with lyapcheck.
     """
 
     schema = "lyapcheck/explain-list/1"
 
     proofs: tuple[tuple[str, str, tuple[tuple[str, str], ...]], ...]
+    asked: str = ""
 
     def document(self) -> Document:
-        """A table a script."""
-        sections = (
-            Section(f"{script}: {title}", (_claims(claims),)) for script, title, claims in self.proofs
+        """How many claims each script makes; of one script its claims."""
+        count = sum(len(claims) for *_, claims in self.proofs)
+        if len(self.proofs) == 1:
+            ((name, about, claims),) = self.proofs
+            more = (Bullets((f"{count - MOST_LISTED} more: -v lists them",)),) if count > MOST_LISTED else ()
+            blocks: tuple[Block, ...] = (_claims(claims[:MOST_LISTED]), *more)
+            title, lead = f"{count} claims of {name} can be explained", (about,)
+        else:
+            rows = tuple((script, str(len(claims)), about) for script, about, claims in self.proofs)
+            blocks = (Table(("script", "claims", "title"), rows, align="lrl", keys=3),)
+            title, lead = f"{count} claims of {len(self.proofs)} scripts can be explained", ()
+        listed = (Section(f"{script}: {about}", (_claims(claims),)) for script, about, claims in self.proofs)
+        first = next((claims[0][0] for *_, claims in self.proofs if claims), "16.6")
+        where = ["--proof", self.asked] if self.asked else []
+        return Document(
+            title, blocks, lead=lead, details=tuple(listed), next=command("explain", first, *where)
         )
-        return Document("Claims that can be explained", tuple(sections))
 
     def data(self) -> dict[str, Any]:
         """``results: [{script, id, says}]``."""
@@ -165,7 +233,7 @@ def list_claims(script: str | None = None) -> ClaimList:
         path = find_script(name)
         handover = ask(ScriptRequest(str(path), path.name))
         proofs.append((path.name, handover.title, tuple(_named(claim) for claim in handover.claims)))
-    return ClaimList(tuple(proofs))
+    return ClaimList(tuple(proofs), script or "")
 
 
 def explain(
@@ -217,23 +285,8 @@ def explain(
         lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
         granted=() if statement is None else statement.granted,
-        found=_found(script_path, meant, on_progress) if decide else (),
-    )
-
-
-def _found(script: Path, claim: str, on_progress: Progress | None) -> tuple[str, ...]:
-    """The verdict for each m, with its witness or reason."""
-    from lyapcheck.answers.check.run import run_proof
-
-    rows = run_proof(script, only=(claim,), on_progress=on_progress).claims
-    return tuple(
-        "; ".join(
-            (
-                f"{f'm = {row.m}: ' if row.m is not None else ''}{row.verdict} [{row.grade}]",
-                *row.support,
-            )
-        )
-        for row in rows
+        decided=run_proof(script_path, only=(meant,), on_progress=on_progress).claims if decide else (),
+        asked=script or "",
     )
 
 
@@ -288,6 +341,10 @@ def _blocks(text: str) -> Iterator[Block]:
             yield Bullets(tuple(map(one_line, block[2:].split("\n- "))))
         else:
             yield Paragraph(one_line(block))
+
+
+def _member(row: ClaimResult) -> str:
+    return "" if row.m is None else f"m = {row.m}: "
 
 
 def _named(claim: ClaimData) -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -10,24 +11,27 @@ from hashlib import sha256
 from typing import Any
 
 from lyapcheck import asked, store
+from lyapcheck.answers.assumed import assumed_line, file_words
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
-from lyapcheck.answers.running.sampled import periods_text
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
+from lyapcheck.control.conditions import REJECTED, UNDECIDED
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.control.sampled import judged_sampled, largest_period, require_sampled
-from lyapcheck.control.sampling import LoopRecord
+from lyapcheck.control.sampling import LoopRecord, time_text
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
 from lyapcheck.export.steps import Unbounded
 from lyapcheck.files.decimals import decimal_text, significant_down
 from lyapcheck.lyapunov.numeric import arm_digest
+from lyapcheck.output import fields
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_most
-from lyapcheck.output.document import Document, Paragraph, Section, Table
+from lyapcheck.output.digits import NONE, at_most
+from lyapcheck.output.document import Bullets, Document, Section, Table, command
+from lyapcheck.output.fields import Field
 from lyapcheck.output.json import laid_out
 from lyapcheck.promise import Promise, promised, told
 from lyapcheck.robots import RobotModel
@@ -39,8 +43,7 @@ ROUNDING = (
     f"to {ANGLES[0]} rad and all finite w. Up to 2³⁰ rad it is as the last column says; beyond, C refuses."
 )
 NOMINAL = "g(q) is that of the arm at its nominal numbers; a payload is not in it."
-IDEAL = "The gate judges a controller of infinite rate. What the line below it supposes stands in NAME.json."
-COMPILE = "next: cc -std=c99 -O2 {name}.c {name}_test.c -lm -o {name}_test && ./{name}_test"
+IDEAL = "The gate judges a controller of infinite rate. NAME.json lists the assumptions of the loop as run."
 
 
 @dataclass(frozen=True)
@@ -104,29 +107,30 @@ class Exported:
             "files": {name: sha256(text.encode()).hexdigest() for name, text in self.texts.items()},
         }
 
-    def section(self) -> Section:
-        """Joint by joint."""
-        controller, heads = self.controller, ("joint", "limit [N·m]", "rounding [N·m]", "up to 2³⁰ rad [N·m]")
-        rows = tuple(
-            (joint, "—" if limit is None else decimal_text(limit), *(at_most(x, 4) for x in bounds))
-            for joint, limit, *bounds in zip(
-                controller.model.joints, controller.limits, *self.rounding, strict=False
-            )
-        )
-        verdict = Paragraph(f"gate: {self.judged.spoken_standing} ({', '.join(self.judged.deciding)})")
-        sampled = Paragraph(self._sampled_text())
-        return Section(
-            f"{controller.gains.name}: {', '.join(self.files)}", (Table(heads, rows), verdict, sampled)
-        )
+    @property
+    def mark(self) -> str:
+        """How the gate's verdict and the loop as it is run came out, the worse of both."""
+        verdict = self.judged.verdict
+        return "✗" if verdict == REJECTED else "?" if verdict == UNDECIDED else "✓" if self.covered else "!"
 
-    def _sampled_text(self) -> str:
+    @property
+    def runs(self) -> str:
+        """What is known of the loop at the period asked for, in a word."""
+        if self.sampled is None or not self.covered:
+            return "open"
+        what = "stable" if self.certificate.statement.conclusion == "goal" else "stops"
+        return self.sampled.says(what + ("" if self.mark == "✓" else " while no motor saturates"))
+
+    @property
+    def running(self) -> str:
+        """The same in a sentence."""
         if self.sampled is None:
-            return f"as run: stability is open; {self.reason}"
-        loop, question = self.controller.loop, self.certificate.statement
-        what = "stable at the goal" if question.conclusion == "goal" else "comes to rest"
-        run = loop.text if self.covered else loop.how
-        words = f"as run ({run}): {what} {periods_text(question)}, while no motor saturates"
-        return self.sampled.says(words) + ("" if self.covered else "; at the period asked for it is open")
+            return f"as run: open for every period, because {self.reason}"
+        asked = self.certificate.statement
+        what = "stable" if asked.conclusion == "goal" else "stops"
+        apart = f", no interval above {decimal_text(asked.stretch)} times it" if asked.stretch > 1 else ""
+        words = f"as run: {what} for every period up to {time_text(asked.period)}{apart}"
+        return self.sampled.says(f"{words}, exact readings, no saturated motor")
 
     @property
     def covered(self) -> bool:
@@ -162,17 +166,53 @@ class Export(Answer):
 
     sets: tuple[Exported, ...]
 
+    file: GainFile
+    model: RobotModel
+    robot: str
+
     def document(self) -> Document:
-        """The largest rounding, then set by set."""
-        bounds = [bound for one in self.sets for row in one.rounding[:1] for bound in row]
-        worst = max(bounds, default=Fraction(0))
-        count = f"{len(self.sets)} gain set{'s' if len(self.sets) > 1 else ''} in C"
-        title = f"{count}: rounding moves no torque by more than {at_most(worst, 3)} N·m (computed)"
-        following = [COMPILE.format(name=one.controller.name) for one in self.sets[:1]]
-        open_ = ", ".join(one.controller.gains.name for one in self.sets if not one.covered)
-        said = f"as a computer runs it, stability at the period asked for is open: {open_}"
-        sections = tuple(one.section() for one in self.sets)
-        return Document(title, sections, (ROUNDING, NOMINAL, IDEAL, *following), (said,) if open_ else ())
+        """The verdicts, then a set joint by joint, or all sets."""
+        one, several = self.sets[0], len(self.sets) > 1
+        period = time_text(one.controller.loop.period or Fraction(0))
+        open_ = [each.controller.gains.name for each in self.sets if not each.covered]
+        worst = max((each.mark for each in self.sets), key="✓!?✗".index)
+        if several:
+            tally = Counter(each.judged.spoken for each in self.sets)
+            gate = ", ".join(f"{count} {verdict}" for verdict, count in tally.items())
+            title = f"{worst} {len(self.sets)} gain sets in C; gate: {gate}; open at {period}: {len(open_)}"
+            lead = [f"open at {period}, as a computer runs it: {', '.join(open_)}"] if open_ else []
+        else:
+            gate = one.judged.spoken_standing
+            title = f"{worst} {one.controller.gains.name} in C; gate: {gate}; run at {period}: {one.runs}"
+            lead = [one.running]
+        bound = at_most(max(max(each.rounding[0]) for each in self.sets), 3)
+        lead.append(f"rounding moves no torque by more than {bound} N·m (computed, up to {ANGLES[0]} rad)")
+        names = [each.controller.name for each in self.sets]
+        remarks = (
+            f"files: {', '.join(one.files)}" if not several else f"files of each set: {', '.join(names)}",
+            f"test: cc -std=c99 -O2 {names[0]}.c {names[0]}_test.c -lm -o run && ./run",
+        )
+        first = fields.table(SETS, [(each,) for each in self.sets]) if several else _by_joint(one)
+        details = [Section(each.controller.gains.name, (_by_joint(each),)) for each in self.sets]
+        supposed = Bullets(tuple(f"{each.controller.gains.name}: {each.running}" for each in self.sets))
+        return Document(
+            title,
+            (first, Bullets(remarks)),
+            (ROUNDING, NOMINAL, IDEAL),
+            tuple(lead),
+            (*(details if several else ()), supposed),
+            assumed_line(self.model, self.robot),
+            self._next(worst),
+        )
+
+    def _next(self, worst: str) -> str:
+        words = file_words(self.file, self.robot)
+        loop = self.sets[0].controller.loop
+        if worst == "✗" or loop.period is None:
+            return command("gate", *words)
+        rate = decimal_text(1 / loop.period)
+        timing = ["--period", f"{decimal_text(loop.period)} s"] if "/" in rate else ["--rate", rate]
+        return command("simulate", *words, *timing)
 
     def data(self) -> dict[str, Any]:
         """``results``: a record a set, which is also its file ``NAME.json``."""
@@ -180,19 +220,50 @@ class Export(Answer):
 
     def records(self) -> Sequence[dict[str, Any]]:
         """A row a joint."""
-        return [
-            {
-                "name": one.controller.gains.name,
-                "c_name": one.controller.name,
-                "joint": joint,
-                "limit": None if limit is None else decimal_text(limit),
-                **{f"rounding_{a}": at_most(x, 4) for a, x in zip(ANGLES, bounds, strict=False)},
-            }
-            for one in self.sets
-            for joint, limit, *bounds in zip(
-                one.controller.model.joints, one.controller.limits, *one.rounding, strict=False
-            )
-        ]
+        return [row for one in self.sets for row in fields.records(FIELDS, one, one.controller.model.n)]
+
+
+def _by_joint(one: Exported) -> Table:
+    parts = [field for field in FIELDS if field.each]
+    return fields.table(parts, [(one, i) for i in range(one.controller.model.n)])
+
+
+def _limit(limit: Fraction | None) -> str:
+    return NONE if limit is None else decimal_text(limit)
+
+
+FIELDS = (
+    Field("name", "controller.gains.name"),
+    Field("c_name", "controller.name"),
+    Field("joint", "controller.model.joints", "joint", align="l", each=True),
+    Field(
+        "limit",
+        "controller.limits",
+        "limit [N·m]",
+        _limit,
+        lambda all_: [None if one is None else decimal_text(one) for one in all_],
+        each=True,
+    ),
+    *(
+        Field(
+            f"rounding_{angle}",
+            lambda one, k=k: one.rounding[k],
+            head,
+            lambda bound: at_most(bound, 4),
+            lambda bounds: [at_most(bound, 4) for bound in bounds],
+            each=True,
+        )
+        for k, (angle, head) in enumerate(zip(ANGLES, ("rounding [N·m]", "up to 2³⁰ rad [N·m]"), strict=True))
+    ),
+)
+"""Of a joint of a set."""
+SETS = (
+    Field("", "controller.gains.name", "gains", align="l"),
+    Field("", "judged.spoken_standing", "gate", align="l"),
+    Field("", "runs", "as run", align="l"),
+    Field("", lambda one: max(one.rounding[0]), "rounding [N·m]", lambda bound: at_most(bound, 4)),
+)
+"""Of a set."""
 
 
 def export(
@@ -233,7 +304,7 @@ def export(
         period = _certified_period(gains, model, limits, loop)
         proofs = {name: one.digest for name, one in certificates([judged]).certificates.items()}
         result.append(Exported(controller, rounding, judged, proofs, controller.texts(), *period))
-    return Export(tuple(result))
+    return Export(tuple(result), gain_file, model, robot or gain_file.robot or "")
 
 
 def _certified_period(
@@ -249,6 +320,6 @@ def _certified_period(
         question = asked.sampled(gains, run, least, None, limits.gravity, conclusion)
     most = largest_period(question)
     if most is None:
-        return None, "L k_v of a joint is not below its friction, so that no period is shown"
+        return None, "L k_v of a joint is not below its friction"
     question = replace(question, period=significant_down(most * Fraction(9999, 10000), 4))
     return promised(question, judged_sampled(question))

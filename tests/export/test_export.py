@@ -359,9 +359,7 @@ def test_the_certified_period(tmp_path: Path) -> None:
     late = json.loads(invoke(*words, str(tmp_path / "late")).stdout)["results"]
     assert [row["period_covered"] for row in late] == [False] * 3
     headline = invoke(*words[:2], *words[4:6], "--out", str(tmp_path / "text")).stdout.splitlines()[1]
-    assert headline == (
-        "  as a computer runs it, stability at the period asked for is open: tau_m1, tau_m2, tau_m3"
-    )
+    assert headline == ("  open at 2.5 ms, as a computer runs it: tau_m1, tau_m2, tau_m3")
 
 
 @pytest.mark.parametrize(

@@ -239,7 +239,7 @@ class ProofResult(Answer):
         arm = f", robot {self.robot}" if self.robot else ""
         known = {row.grade for row in self.claims}
         notes = (WHOSE, *(text for grade, text in GRADES.items() if grade in known))
-        about = _cut(self.title, PROSE - 2)
+        about = cut(self.title, PROSE - 2)
         lead = (
             *([about] if about else []),
             f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",
@@ -310,7 +310,7 @@ class ProofResult(Answer):
     def _index(self) -> Iterator[Block]:
         """What is not proved, a line each with what the author calls it; of many the first."""
         rows = [
-            (verdict.sign, _ids(group), verdict.value, _cut(one_line(group[0].comment)))
+            (verdict.sign, _ids(group), verdict.value, cut(one_line(group[0].comment)))
             for verdict in ORDER
             if verdict is not Verdict.PROVED
             for group in _by_claim(self._with(verdict))
@@ -354,7 +354,7 @@ def _by_claim(rows: Sequence[ClaimResult]) -> list[list[ClaimResult]]:
     return list(result.values())
 
 
-def _cut(text: str, most: int = MOST_WORDS) -> str:
+def cut(text: str, most: int = MOST_WORDS) -> str:
     """As much of a text as a line has room for."""
     return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.promise import told
 
 if TYPE_CHECKING:
@@ -46,18 +46,19 @@ class Derivation(Answer):
         return all(row.agree for row in self.rows)
 
     def document(self) -> Document:
-        """Which of the two agree, the formulas, the comparison."""
+        """Which of the two agree, and the comparison; in detail the formulas."""
         agreed, members = sum(row.agree for row in self.rows), ", ".join(map(str, self.ms))
-        mark = "✓" if self.agreed else "✗"
-        title = (
-            f"{mark} SymPy and the checker agree on {agreed} of {len(self.rows)} derivations, m = {members}"
+        mark, more = "✓" if self.agreed else "✗", len(self.rows) - MOST_ROWS
+        title = f"{mark} SymPy and the checker agree on {agreed} of {len(self.rows)} derivations"
+        arm = f", arm {self.robot}" if self.robot else ""
+        return Document(
+            title,
+            (self.table(MOST_ROWS), *([Bullets((f"{more} more: -v lists them",))] if more > 0 else [])),
+            NOTES,
+            (f"for m = {members} and n = {self.n}{arm}; -v shows the formulas",),
+            (*([self.table()] if more > 0 else []), *self.formulas()),
+            next=command("check", "published.py", "--m", ",".join(map(str, self.ms)), *CLAIMS),
         )
-        return Document(title, (*self.blocks(), Paragraph(NEXT)), NOTES)
-
-    def blocks(self) -> Iterator[Block]:
-        """The comparison, then the formulas."""
-        yield self.table()
-        yield from self.formulas()
 
     def formulas(self) -> Iterator[Section]:
         """The formulas under their headings."""
@@ -71,13 +72,12 @@ class Derivation(Answer):
             (self.table(), Paragraph(NOTES[0]), *self.formulas()),
         )
 
-    def table(self) -> Table:
-        """A row a derivation."""
-        heads = ("what", "SymPy derives", "the checker judged now", "agree")
-        cells = (
-            (row.what, row.derived, self._judged(row), "yes" if row.agree else "no") for row in self.rows
-        )
-        return Table(heads, tuple(cells), align="llll")
+    def table(self, most: int | None = None) -> Table:
+        """A row a derivation, those that disagree first."""
+        heads = ("agree", "what", "SymPy derives", "the checker")
+        rows = sorted(self.rows, key=lambda row: row.agree)[:most]
+        cells = (("yes" if row.agree else "no", row.what, row.derived, self._judged(row)) for row in rows)
+        return Table(heads, tuple(cells), align="llll", keys=2, drop=(2,))
 
     def data(self) -> dict[str, Any]:
         """``formulas`` by part, and ``results``: a row a derivation."""
@@ -91,7 +91,9 @@ class Derivation(Answer):
         return f"{told(row.promise, row.verdict)} [{row.grade}]{beside}"
 
 
-NEXT = "next: lyapcheck check published.py --only 8,12,14,15 --certificates DIR"
+MOST_ROWS = 16
+CLAIMS = ("--only", "12", "--only", "15")
+"""The claims of the paper that V and dV/dt belong to."""
 NOTES = (
     "Equalities are decided by polynomials over the rationals: s = sinh x, cosh² = 1 + s², a letter for each "
     "entry of M, C and the gains. C is the matrix of the Christoffel symbols, H = diag(h′(q̃)), "
