@@ -107,10 +107,10 @@ class Explanation(Answer):
         source = f" of {_cited(self.reference)}" if self.reference else ""
         place = f"{self.place}{source}" if self.place else "not in the paper's text"
         said, made = f"“{one_line(self.says)}” (the author's words)", f"{place}; claimed in {self.script}"
-        title, lead = f"{self.id}: {said}", (made,)
+        title, lead = f"{self.id}: {said}", [made]
         if self.decided:
             worst = next(v for v in ORDER if any(row.verdict is v for row in self.decided))
-            title, lead = f"{worst.sign} {self.id}: {self._verdicts()}", (said, made)
+            title, lead = f"{worst.sign} {self.id}: {self._verdicts()}", [said, made]
         stated = [self.lacking] if self.lacking else [part.text for part in self.parts]
         case = f", for {self.case}" if self.case else ""
         links = [
@@ -133,7 +133,7 @@ class Explanation(Answer):
         return Document(
             title,
             (*self._table(), Bullets(remarks)),
-            lead=tuple(cut(text, PROSE - 2) for text in lead) if self.decided else lead,
+            lead=tuple(cut(text, PROSE - 2) for text in lead),
             details=tuple(Section(head, blocks) for head, blocks in sections if blocks),
             next=self._command(),
         )
@@ -200,16 +200,16 @@ class ClaimList(Answer):
             ((name, about, claims),) = self.proofs
             more = (Bullets((f"{count - MOST_LISTED} more: -v lists them",)),) if count > MOST_LISTED else ()
             blocks: tuple[Block, ...] = (_claims(claims[:MOST_LISTED]), *more)
-            title, lead = f"{count} claims of {name} can be explained", (about,)
+            title, lead = f"{count} claims of {name} can be explained", [about]
         else:
             rows = tuple((script, str(len(claims)), about) for script, about, claims in self.proofs)
             blocks = (Table(("script", "claims", "title"), rows, align="lrl", keys=3),)
-            title, lead = f"{count} claims of {len(self.proofs)} scripts can be explained", ()
+            title, lead = f"{count} claims of {len(self.proofs)} scripts can be explained", []
         listed = (Section(f"{script}: {about}", (_claims(claims),)) for script, about, claims in self.proofs)
         first = next((claims[0][0] for *_, claims in self.proofs if claims), "16.6")
         where = ["--proof", self.asked] if self.asked else []
         return Document(
-            title, blocks, lead=lead, details=tuple(listed), next=command("explain", first, *where)
+            title, blocks, lead=tuple(lead), details=tuple(listed), next=command("explain", first, *where)
         )
 
     def data(self) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from hashlib import sha256
 from typing import Any
 
@@ -232,6 +232,12 @@ def _limit(limit: Fraction | None) -> str:
     return NONE if limit is None else decimal_text(limit)
 
 
+def _rounding(k: int, one: Exported) -> tuple[Fraction, ...]:
+    return one.rounding[k]
+
+
+ROUNDED = ("rounding [N·m]", "up to 2³⁰ rad [N·m]")
+"""Heads of the bounds for each largest angle."""
 FIELDS = (
     Field("name", "controller.gains.name"),
     Field("c_name", "controller.name"),
@@ -247,13 +253,13 @@ FIELDS = (
     *(
         Field(
             f"rounding_{angle}",
-            lambda one, k=k: one.rounding[k],
+            partial(_rounding, k),
             head,
-            lambda bound: at_most(bound, 4),
+            partial(at_most, digits=4),
             lambda bounds: [at_most(bound, 4) for bound in bounds],
             each=True,
         )
-        for k, (angle, head) in enumerate(zip(ANGLES, ("rounding [N·m]", "up to 2³⁰ rad [N·m]"), strict=True))
+        for k, (angle, head) in enumerate(zip(ANGLES, ROUNDED, strict=True))
     ),
 )
 """Of a joint of a set."""
@@ -261,7 +267,7 @@ SETS = (
     Field("", "controller.gains.name", "gains", align="l"),
     Field("", "judged.spoken_standing", "gate", align="l"),
     Field("", "runs", "as run", align="l"),
-    Field("", lambda one: max(one.rounding[0]), "rounding [N·m]", lambda bound: at_most(bound, 4)),
+    Field("", lambda one: max(one.rounding[0]), "rounding [N·m]", partial(at_most, digits=4)),
 )
 """Of a set."""
 

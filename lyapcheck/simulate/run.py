@@ -62,7 +62,7 @@ class Breach:
         )
         value, limit = _rounded(at_least, self.value), _rounded(at_most, self.limit)
         result = f"{value} {self.unit}, above {limit}"
-        return f"{self.promise} is broken at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
+        return f"{self.promise} is violated at t = {self.t:.6g} s: {result}; {', '.join(state)} ({grade})"
 
     @property
     def data(self) -> dict[str, Any]:

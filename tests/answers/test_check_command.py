@@ -1,9 +1,12 @@
 """The check and explain commands: exit codes, formats, and one clear message for every bad input."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
+from lyapcheck.answers.check import run
+from lyapcheck.answers.check.run import run_proof
 from lyapcheck.cli.progress import progress
 from tests.helpers.command import lyapcheck
 
@@ -84,3 +87,30 @@ def test_lines_fit_a_terminal(tmp_path):
     asked = "--m", "2", "--only", "2.1", "--only", "16.6", "--all"
     run = lyapcheck("check", "published.py", *asked, folder=tmp_path)
     assert max(map(len, run.stdout.splitlines())) <= 102, "combining accents take no column"
+
+
+def test_a_theorem_whose_argument_fails_is_looked_for_elsewhere():
+    answer = run_proof("published.py", (1, 2), only=("P", "16.6"))
+    said = "theorem P still holds, proved by F.family of every_function.py"
+    assert str(answer).splitlines()[1] == f"  {said}"
+    rows = answer.data()["theorems"]
+    assert [(row["m"], row["verdict"], row["otherwise"]["id"]) for row in rows] == [
+        (1, "undecided", "F.family"),
+        (2, "undecided", "F.family"),
+    ]
+    assert "open here: P" in replace(answer, elsewhere={}).document().lead[0]
+    some = {key: other for key, other in answer.elsewhere.items() if key[1] == 1}
+    assert "open here: P" in replace(answer, elsewhere=some).document().lead[0]
+
+
+def test_another_theorem_counts_only_with_the_same_conclusion_and_no_more_conditions():
+    asked = run_proof("published.py", (1,), only=("P",)).theorems[0].stated
+    rows = run_proof("every_function.py", (1,), only=("F.family", "F.family.tracking", "F.tanh")).claims
+    stated = {row.id: row.stated for row in rows}
+    family = stated["F.family"]
+    assert run._says_as_much(family, asked)
+    assert not run._says_as_much(stated["F.family.tracking"], asked)
+    assert not run._says_as_much(stated["F.tanh"], asked)
+    assert not run._says_as_much(asked, family), "(19) is a condition of one only"
+    local = replace(family, argument=replace(family.argument, local=True))
+    assert not run._says_as_much(local, asked)

@@ -85,7 +85,7 @@ def test_kept_promises_pass_at_the_line_of_the_gain_set(kind: str) -> None:
     answer = answers()[kind]
     assert answer.exit_code is Exit.PROVED
     title = answer.document().title
-    assert title.startswith("! buap3: no promise broken by 2 gain sets")
+    assert title.startswith("! buap3: no bound violated by 2 gain sets")
     assert title.endswith(IDEAL)
     assert [(case.level, case.group, case.message) for case in answer.annotations()] == [
         (Level.PASSED, "tau_m1", ""),
@@ -134,7 +134,7 @@ def test_joints_of_a_record_have_the_printed_numbers_beside_them() -> None:
 def test_a_broken_promise_fails_in_every_system() -> None:
     answer = SetPointRuns((broken_run(), short_run(1)), file=FILE)
     assert answer.exit_code is Exit.REFUTED
-    assert answer.document().title == f"✗ buap3: promises broken by 1 of 2 gain sets{IDEAL}"
+    assert answer.document().title == f"✗ buap3: bounds violated by 1 of 2 gain sets{IDEAL}"
     log = json.loads(answer.written("sarif"))["runs"][0]
     assert [(one["ruleId"], one["level"]) for one in log["results"]] == [("promises", "error")]
     assert log["tool"]["driver"]["rules"][0]["shortDescription"]["text"] == SetPointRuns.promised
@@ -145,8 +145,8 @@ def test_a_broken_promise_fails_in_every_system() -> None:
     ]
     first, last = answer.written("github").splitlines()
     assert first.startswith("::error file=")
-    assert "is broken at t" in first
-    assert last.endswith(f"promises broken by 1 of 2 gain sets{IDEAL}")
+    assert "is violated at t" in first
+    assert last.endswith(f"bounds violated by 1 of 2 gain sets{IDEAL}")
     (row, *_) = read_csv(answer.written("csv"))
     assert row["breach_grade"] == "enclosure"
     assert float(row["breach_value"]) > float(row["breach_limit"])

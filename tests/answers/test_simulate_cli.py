@@ -48,7 +48,7 @@ def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
     for name in ("tau_m1 (m = 1)", "tau_m2 (m = 2)", "tau_m3 (m = 3)"):
         assert name in every
     assert done.stdout.startswith(
-        "! buap3: no promise broken by 3 gain sets, without the dry friction of the file\n"
+        "! buap3: no bound violated by 3 gain sets, without the dry friction of the file\n"
     )
     assert every.count("\nshoulder ") == 6  # the table of each of three sets is too wide and goes on below
     assert "is assumed" in lyapcheck(TABLE2, "--explain").stdout

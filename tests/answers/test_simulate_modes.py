@@ -89,7 +89,7 @@ def test_a_reference_is_followed_and_its_promises_stand_beside_what_was_seen(lya
 
 def test_tracking_in_words(lyapcheck, single, wave):
     text = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5, "-v").stdout
-    assert text.startswith("! reyes-kelly2: no promise broken by 1 gain set, without the dry friction")
+    assert text.startswith("! reyes-kelly2: no bound violated by 1 gain set, without the dry friction")
     assert text.splitlines()[1] == "  tracking (21)"
     assert "dV/dt ≤ −zᵀΘ'z at all 2001 samples" in text
     page = lyapcheck(single, "--reference", wave, "--time", 1, "--band", 5, "--format", "markdown").stdout
@@ -115,7 +115,7 @@ def test_figures_of_tracking_have_their_data_beside_them(lyapcheck, single, wave
 def test_a_broken_promise_leaves_with_1_and_the_state_that_broke_it(lyapcheck):
     done = lyapcheck(TABLE2, "--eps0", 50, "--format", "json")
     assert done.returncode == 1
-    assert done.stderr.count("promise broken: ") == 3
+    assert done.stderr.count("violated bound: ") == 3
     assert "confirmed in balls" in done.stderr
     for result in json.loads(done.stdout)["results"]:
         assert result["complete"] is False
@@ -142,7 +142,7 @@ def test_a_motor_beyond_its_limit_is_a_broken_promise(lyapcheck, tmp_path):
     assert done.returncode == 1
     assert "|τ| of base within the motor's limit" in done.stderr
     text = lyapcheck(strong).stdout
-    assert text.startswith("✗ buap3: promises broken by 1 of 1 gain set, without the dry friction of the")
+    assert text.startswith("✗ buap3: bounds violated by 1 of 1 gain set, without the dry friction of the")
     assert "CUT SHORT at 0 s" in text
     assert lyapcheck(strong, "--experiment", "--time", 0.5).returncode == 0
 
@@ -172,7 +172,7 @@ def test_random_starts_tell_how_the_indices_spread(lyapcheck):
 def test_random_starts_in_words_and_rows(lyapcheck):
     text = lyapcheck(TABLE2, "--runs", 12).stdout
     assert "12 starts within ±45° of (0, 0, 0)°, seed 0" in text
-    assert text.startswith("! buap3: no promise broken by 3 gain sets, without the")
+    assert text.startswith("! buap3: no bound violated by 3 gain sets, without the")
     assert text.count("12 of 12") == 3
     assert r"| L2 \[°\] |" in lyapcheck(TABLE2, "--runs", 3, "--format", "markdown").stdout
     rows = lyapcheck(TABLE2, "--runs", 12, "--csv", "-").stdout.splitlines()

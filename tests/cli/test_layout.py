@@ -142,3 +142,16 @@ def test_an_answer_is_short_and_its_next_command_works(words, documents):
     assert program == "lyapcheck"
     assert after != list(words)
     assert invoke(*after).exit_code in (0, 1, 3), document.next
+
+
+def test_the_last_lines_of_a_report_are_short():
+    done = invoke("report", "--gains", "gains.toml", "--format", "md,json", "--out", "reports")
+    assert done.exit_code == 0, done.stderr
+    first, where, blank, *rest = done.stdout.splitlines()
+    assert (first, blank) == ("✓ first: accepted", "")
+    assert where == "  open: reports/report.md, reports/report.json"
+    assert len(rest) <= TALL - 3
+    assert all(columns(line) <= 100 for line in rest)
+    program, command, *paths = rest[-1].removeprefix("  next: ").split()
+    assert (program, command) == ("lyapcheck", "recheck")
+    assert invoke(command, *(str(found) for path in paths for found in Path().glob(path))).exit_code in (0, 1)

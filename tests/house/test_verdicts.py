@@ -22,7 +22,8 @@ CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
     "answers.bounds.answer": (1, CERTIFICATE),
-    "answers.check.proof": (4, "an order of verdicts, and a word that promises alone may say"),
+    "answers.check.proof": (5, "an order of verdicts, and a word that promises alone may say"),
+    "answers.export": (2, "a word that promises alone may say"),
     "answers.epsilon.result": (4, "the name of a rule"),
     "answers.epsilon.certificates": (3, CERTIFICATE),
     "answers.epsilon.kept": (2, "the name of a certificate, and what the checker said when it was taken"),

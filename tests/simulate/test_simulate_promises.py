@@ -106,8 +106,8 @@ def test_a_stopped_run_ends_with_the_breach_and_is_marked():
     assert ",no," in runs_csv([partial])
     answer = SetPointRuns((partial,))
     title = answer.document().title
-    assert title == "✗ buap3: promises broken by 1 of 1 gain set, without the dry friction of the file"
-    assert f"promise broken: {TABLE2[0].name}: {result.sentence}" in answer.complaints()
+    assert title == "✗ buap3: bounds violated by 1 of 1 gain set, without the dry friction of the file"
+    assert f"violated bound: {TABLE2[0].name}: {result.sentence}" in answer.complaints()
     assert answer.data()["results"][0]["breach"]["q"] == list(result.at.q)
     (case,) = answer.annotations()
     assert (case.level, case.rule, case.message) == (Level.FAILED, "promises", result.sentence)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.certificate import to_json
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.check.judgement import shortened
+from lyapcheck.check.kinds.stability import Stable
+from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.coq import GRADE, accepted_before
 from lyapcheck.kernel.coq import GRADE as KERNEL
@@ -208,6 +210,7 @@ class ProofResult(Answer):
         about_gains: the ids of the claims that are about the gain set of their m.
         timings: True prints the seconds of each claim.
         extent: ``short``, ``failed`` for all that is not proved with its evidence, or ``all``.
+        elsewhere: another script and its claim that proves a theorem which this proof leaves open.
     """
 
     schema = "lyapcheck/check/2"
@@ -224,6 +227,12 @@ class ProofResult(Answer):
     about_gains: frozenset[str] = frozenset()
     timings: bool = False
     extent: str = SHORT
+    elsewhere: Mapping[tuple[str, int | None], tuple[str, ClaimResult]] = field(default_factory=dict)
+
+    @property
+    def theorems(self) -> list[ClaimResult]:
+        """The rows that say that a system is stable."""
+        return [row for row in self.claims if isinstance(row.stated, (Stable, StableArm))]
 
     @property
     def exit_code(self) -> Exit:
@@ -239,9 +248,9 @@ class ProofResult(Answer):
         arm = f", robot {self.robot}" if self.robot else ""
         known = {row.grade for row in self.claims}
         notes = (WHOSE, *(text for grade, text in GRADES.items() if grade in known))
-        about = cut(self.title, PROSE - 2)
+        about = self._theorem() or self.title
         lead = (
-            *([about] if about else []),
+            *([cut(about, PROSE - 2)] if about else []),
             f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",
         )
         every = tuple(self._sections(ORDER))
@@ -276,8 +285,14 @@ class ProofResult(Answer):
             "assumptions": list(self.assumptions),
             "counts": self.counts(),
             "refuted": refuted_by_source(self.claims),
+            "theorems": [self._theorem_data(row) for row in self.theorems],
             "claims": [row.data(self.timings) for row in self.claims],
         }
+
+    def _theorem_data(self, row: ClaimResult) -> dict[str, Any]:
+        script, other = self.elsewhere.get((row.id, row.m), ("", None))
+        otherwise = other and {"script": script, "id": other.id, "verdict": other.decision.word}
+        return {"id": row.id, "m": row.m, "verdict": row.decision.word, "otherwise": otherwise}
 
     def records(self) -> list[dict[str, Any]]:
         """A row a claim and m; the witness in words, what was found on the way left to the JSON."""
@@ -300,6 +315,28 @@ class ProofResult(Answer):
         worst = next((verdict for verdict in ORDER if result[verdict]), Verdict.UNDECIDED)
         tally = ", ".join(f"{count} {self._word(verdict)}" for verdict, count in result.items() if count)
         return f"{worst.sign} {tally or 'no claims'}: {self.name}"
+
+    def _theorem(self) -> str:
+        """Whether each theorem holds where a claim is refuted; empty where none is, and without theorems."""
+        if not self._with(Verdict.REFUTED) and all(row.verdict is Verdict.PROVED for row in self.theorems):
+            return ""
+        parts, open_, proved = [], [], []
+        for group in _by_claim(self.theorems):
+            name, others = group[0].id, [self.elsewhere.get((row.id, row.m)) for row in group]
+            known = [other for other in others if other is not None]
+            if all(row.verdict is Verdict.PROVED for row in group):
+                proved += group
+            elif len(known) == len(group):
+                (script, other), promises = known[0], [one.decision.promise for _, one in known]
+                words = f"theorem {name} still holds, proved by {other.id} of {script}"
+                parts.append(all_say(promises, words))
+            else:
+                open_.append(name)
+        parts += [f"theorems open here: {', '.join(open_)}"] if open_ else []
+        if proved:
+            names = ", ".join(dict.fromkeys(row.id for row in proved))
+            parts.append(all_say((row.decision.promise for row in proved), f"proved: {names}"))
+        return "; ".join(parts)
 
     def _word(self, verdict: Verdict) -> str:
         """A verdict that some claims have."""

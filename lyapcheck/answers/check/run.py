@@ -12,6 +12,7 @@ from lyapcheck._types import Progress, silent
 from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About, digest_of
+from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.claim import Case, in_order
 from lyapcheck.claims.decision import Proposal, certificates, chained, decided, file_name, rests_on, undecided
@@ -29,6 +30,8 @@ from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_GAINS = "table2"
 DEFAULT_ROBOT = "buap3"
+OTHER_SCRIPT, OTHER_THEOREMS = "every_function.py", ("F.family", "F.family.tracking")
+"""Theorems about (6) and (21) with h_m, which do not rest on the paper's argument."""
 BESIDE = {"method": str, "reason": str, "witness": dict | None, "evidence": dict}
 """What a search says beside its proof."""
 
@@ -104,7 +107,41 @@ def run_proof(
     Claims behind the hypotheses of a theorem must state these hypotheses.
     """
     proposed = proposed_proof(path, ms, robot, n, gains, only, on_progress)
-    return proposed.result(judge_afresh(proposed.certificates))
+    result = proposed.result(judge_afresh(proposed.certificates))
+    return replace(result, elsewhere=_elsewhere(result, proposed.model))
+
+
+def _elsewhere(result: ProofResult, model: Any) -> dict[Key, tuple[str, ClaimResult]]:
+    """Theorems that a proof leaves open and another script proves, each with that script and its claim.
+
+    Soundness: the other claim is proved, about the same system, without a condition or an assumption that
+    the open theorem does not have, and its conclusion is the same.
+    """
+    open_ = [row for row in result.theorems if row.verdict is not Verdict.PROVED and row.m is not None]
+    if not open_ or result.name == Path(OTHER_SCRIPT).stem:
+        return {}
+    ms, n = tuple(dict.fromkeys(row.m for row in open_ if row.m is not None)), result.n
+    others = run_proof(OTHER_SCRIPT, ms, model, n if model is None else None, only=OTHER_THEOREMS).claims
+    return {
+        (row.id, row.m): (OTHER_SCRIPT, other)
+        for row in open_
+        for other in others
+        if other.m == row.m and other.verdict is Verdict.PROVED and _says_as_much(other.stated, row.stated)
+    }
+
+
+def _says_as_much(shown: Statement | Missing, asked: Statement | Missing) -> bool:
+    """Whether one theorem of stability follows from another: see `_elsewhere`."""
+    if not isinstance(shown, Stable) or not isinstance(asked, Stable) or shown.argument.local:
+        return False
+    about = shown.argument.system == asked.argument.system and shown.conclusion == asked.conclusion
+    return about and _conditions(shown) <= _conditions(asked)
+
+
+def _conditions(theorem: Stable) -> set[object]:
+    """What a theorem supposes, without the meaning of its letters."""
+    meanings = [text for text in theorem.granted if text.startswith("the letters are ")]
+    return {*theorem.argument.where, *theorem.granted}.difference(meanings)
 
 
 @dataclass(frozen=True)

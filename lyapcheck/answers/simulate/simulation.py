@@ -1,4 +1,4 @@
-"""What the three kinds of simulation have in common: gain sets on an arm, and the promises they broke."""
+"""What the three kinds of simulation have in common: gain sets on an arm, and the bounds they violate."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ PROMISES, FINISHED = "promises", "finished"
 MOST_REMARKS = 3
 MARKS = {Level.PASSED: "✓", Level.FAILED: "✗", Level.UNDECIDED: "?"}
 NUMERIC = (
-    "Runs are integrated in floating point: what they show is simulated, not proved. Where balls confirm a "
-    "broken promise, this much is shown: at exactly that state V rises, or the torque (6) is beyond its "
-    "limit; not that a motion comes there. --certificates writes the states at which V rises; for torques "
-    "there is no certificate."
+    "Runs are integrated in floating point: they are simulated, not proved. Ball arithmetic can confirm a "
+    "violated bound: at exactly that state V rises, or the torque (6) exceeds its limit. It does not confirm "
+    "that a motion reaches the state. --certificates writes the states at which V rises. Torques have no "
+    "certificate."
 )
 BREACH_KEYS = ("promise", "t", "value", "limit", "unit", "grade")
 BREACH = (
     Field("breach", "breach", to=lambda breach: breach.data, csv=None),
     Field("", lambda one: breach_record(one.breach), csv="breach"),
 )
-"""What broke, whole for programs and in a few cells for spreadsheets."""
+"""The violated bound, whole for programs and in a few cells for spreadsheets."""
 
 
 Result = TypeVar("Result", bound="Run | Sweep | TrackingRun")
@@ -75,16 +75,16 @@ class Simulation(Answer, Generic[Result]):
     judged: dict[str, tuple[Check, ...]] = field(default_factory=dict)
     """What the checker says of each gain set as a computer runs it."""
 
-    against = "promises broken by"
+    against = "bounds violated by"
     """What is said of the gain sets that failed, before their number."""
     promised: ClassVar[str]
-    """What theory promises, in words."""
+    """The bounds of theory, in words."""
     fields: ClassVar[tuple[Field, ...]]
     """What is said of a gain set, and of each joint of it."""
 
     @property
     def exit_code(self) -> Exit:
-        """1 if a promise is proved broken, 3 if one was seen broken or something was not finished, else 0."""
+        """1 if a bound is proved violated, 3 if that was seen only or something was not finished, else 0."""
         levels = {self.level(name) for name in self._names()}
         if Level.FAILED in levels:
             return Exit.REFUTED
@@ -107,8 +107,8 @@ class Simulation(Answer, Generic[Result]):
         return MARKS[level] if level is not Level.PASSED or self.watches(name) else ""
 
     def complaints(self) -> list[str]:
-        """What went wrong: a sentence for each broken promise, and for what was not finished."""
-        broken = [f"promise broken: {name}: {one.sentence}" for name, one in self._breaches().items()]
+        """What went wrong: a sentence for each violated bound, and for what was not finished."""
+        broken = [f"violated bound: {name}: {one.sentence}" for name, one in self._breaches().items()]
         return [*broken, *(f"not finished: {one.reason}" for one in self.unfinished)]
 
     def document(self) -> Document:
@@ -152,7 +152,7 @@ class Simulation(Answer, Generic[Result]):
 
     def overview(self) -> Table:
         """A row a gain set, and how it came out."""
-        mark = Field("", lambda one: self.mark(one.name) or NONE, "promises", align="l")
+        mark = Field("", lambda one: self.mark(one.name) or NONE, "bounds checked", align="l")
         whole = [one for one in self.fields if not one.each]
         return fields.table([*whole, mark], [(one,) for one in self.results])
 
@@ -194,7 +194,7 @@ class Simulation(Answer, Generic[Result]):
         return ""
 
     def watches(self, name: str) -> bool:
-        """Whether the promises of theory were looked at for a gain set."""
+        """Whether the bounds of theory were checked for a gain set."""
         return True
 
     def _names(self) -> list[str]:
@@ -217,7 +217,7 @@ class Simulation(Answer, Generic[Result]):
         if open_:
             return f"? {robots}: undecided for {open_} of {count}"
         if any(map(self.watches, names)):
-            return f"{'!' if left_out else '✓'} {robots}: no promise broken by {count}"
+            return f"{'!' if left_out else '✓'} {robots}: no bound violated by {count}"
         return f"{robots}: {count}"
 
     def _notes(self) -> list[str]:
@@ -234,7 +234,7 @@ class Simulation(Answer, Generic[Result]):
 
 
 def breach_record(breach: Breach | None) -> dict[str, Any]:
-    """A broken promise as the part of a row; empty cells where none broke."""
+    """A violated bound as the part of a row; empty cells without one."""
     return {key: None if breach is None else breach.data[key] for key in BREACH_KEYS}
 
 

@@ -114,7 +114,7 @@ def _doubt(one: Sweep) -> str:
     where = (
         f"{one.name} on {one.robot}: V rose or a torque left its limit in {seen} of {one.starts.count} runs"
     )
-    return f"{where}, but the first of them breaks no promise when it is run alone"
+    return f"{where}, but the first of them violates no bound when it runs alone"
 
 
 def _task(one: Sweep) -> str:

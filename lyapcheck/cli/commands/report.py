@@ -17,10 +17,15 @@ from lyapcheck.verdicts import Exit
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile
+    from lyapcheck.output.document import Document
     from lyapcheck.report.model import Report, Subject
 
 COMPARED = {"html": "html", "md": "markdown", "json": "json"}
 """The files of a comparison by the formats they are in."""
+FIRST = {"html": "index.html", "md": "report.md", "json": "report.json", "pdf": "report.pdf"}
+"""The file of each format that is read first."""
+ORDER = ("good", "warn", "open", "bad")
+MOST_ROWS = 12
 _MEMBERS = "1:3"
 _MOST_MEMBERS = 20
 
@@ -89,7 +94,9 @@ def run(
     if changed is not None:
         files |= {f"compare.{end}": changed.written(name) for end, name in COMPARED.items()}
     write(files, out)
-    sys.stdout.write(document_text(_summary(report, out, formats)))
+    from lyapcheck.output.text import render as text
+
+    sys.stdout.write(document_text(text(_summary(report, subject.robot, out, formats))))
     if changed is None:
         return Exit.PROVED
     sys.stdout.write(f"\n{changed}\n")
@@ -134,16 +141,39 @@ def _members(files: Iterable[GainFile]) -> list[int]:
     return sorted({item.m for file in files for item in file.gains if item.m is not None})
 
 
-def _summary(report: Report, out: Path, formats: tuple[str, ...]) -> str:
-    """What was found, in a few lines, and where to read it."""
-    first = {"html": "index.html", "md": "report.md", "json": "report.json", "pdf": "report.pdf"}
-    from lyapcheck.output.document import command
+def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) -> Document:
+    """What was found, the worst first, and where to read it."""
+    from lyapcheck.answers.assumed import assumed_line
+    from lyapcheck.output import document as doc
+    from lyapcheck.report.model import SIGNS
     from lyapcheck.report.verdict import badges, sentences
 
-    lines = [f"{badge.subject}: {badge.word}" for badge in badges(report)]
-    lines += [f"  {text}" for text in sentences(report)] + [""]
-    written = [str(out / first[name]) for name in formats]
-    lines.append(f"  open: {written[0]}{''.join(f', {path}' for path in written[1:])}")
-    if report.certificates:
-        lines.append(f"  next: {command('recheck', out)}/certificates/*/")
-    return "\n".join(lines) + "\n"
+    first, *others = badges(report)
+    title, left = f"{SIGNS[first.tone]} {first.subject}: {first.word}", others
+    if report.own and others:
+        worst = max((first, *others), key=lambda badge: ORDER.index(badge.tone))
+        title, left = (
+            f"{SIGNS[worst.tone]} {len(others) + 1} gain sets on {report.robot.name}",
+            [first, *others],
+        )
+    rows = [(SIGNS[badge.tone], badge.subject, badge.word) for badge in left]
+    rows += [
+        (SIGNS[tile.tone], tile.subject if len(report.tiles) == 1 else f"{name}: {tile.subject}", tile.number)
+        for name, tiles in report.tiles.items()
+        for tile in tiles
+        if len(report.tiles) == 1 or tile.todo[0]
+    ]
+    written = [str(out / FIRST[name]) for name in formats]
+    remarks = sentences(report) if report.own else ()
+    return doc.Document(
+        title,
+        (
+            doc.Table(("", "subject", "result"), tuple(rows[:MOST_ROWS]), align="lll", keys=3),
+            doc.Bullets(remarks),
+        ),
+        lead=(f"open: {', '.join(written)}",),
+        assumed=assumed_line(report.robot, robot) if report.own else "",
+        next=f"{doc.command('recheck', out)}/certificates/*/"
+        if report.certificates
+        else doc.command("store"),
+    )
