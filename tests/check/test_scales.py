@@ -8,7 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.check.expressions.expression import ball, evaluate
-from lyapcheck.check.expressions.scales import Asymptotic, ScaleAlgebra, X, exactly, sign_beside, sign_from
+from lyapcheck.check.expressions.scales import (
+    Asymptotic,
+    ScaleAlgebra,
+    Start,
+    X,
+    exactly,
+    sign_beside,
+    sign_from,
+)
 from lyapcheck.claims import (
     atan,
     cos,
@@ -65,7 +73,7 @@ GROWING = {
 }
 
 
-def as_scale(tree, start=START):
+def as_scale(tree, start=Start(START)):
     value = evaluate(tree, {"x": Asymptotic(((X, exactly(1)),), start)}, ScaleAlgebra(start))
     return value
 
@@ -101,7 +109,7 @@ def test_an_asymptotic_sum_contains_its_function(name, point):
 def test_most_of_them_are_tight(name):
     """Apart from a sine of what grows, the enclosure at a large point is far smaller than the value."""
     with ctx.workprec(160):
-        there = at(as_scale(GROWING[name].tree, Fraction(40)), arb(50))
+        there = at(as_scale(GROWING[name].tree, Start(Fraction(40))), arb(50))
         wide = name in ("sine of what grows", "1 over a logarithm", "many terms")
         assert wide or float(there.rad()) < 1e-6 * abs(float(there.mid())), there
 

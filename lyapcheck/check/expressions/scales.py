@@ -9,11 +9,13 @@ References: ``gruntz1996limits`` for the scale; ``tucker2011validated``, chapter
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
 from math import prod
+from typing import NamedTuple
 
 from flint import arb, ctx, fmpq, fmpq_series
 
@@ -42,8 +44,8 @@ Key = tuple[Fraction | int, Fraction | int, int]
 ONE: Key = (0, 0, 0)
 X: Key = (0, 1, 0)
 LOG_X: Key = (0, 0, 1)
-ORDER = 12
-"""The order of Taylor polynomials."""
+ORDERS = (4, 12)
+"""The orders of Taylor polynomials, the first for most of all signs."""
 TERMS = 16
 """How many terms are kept; lower ones are taken into the last."""
 
@@ -150,12 +152,19 @@ def named(name: str, c: int = 0) -> Coefficient:
     return _collected([((((name, Fraction(c)), 1),), fmpq(1))])
 
 
+class Start(NamedTuple):
+    """X of [X, ∞), and the order of the Taylor polynomials there."""
+
+    x: Fraction
+    order: int = ORDERS[-1]
+
+
 @dataclass(frozen=True)
 class Asymptotic:
     """Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k} for x >= start, the dominant term first."""
 
     terms: tuple[tuple[Key, Coefficient], ...]
-    start: Fraction
+    start: Start
 
     def __add__(self, other: Asymptotic) -> Asymptotic:
         return summed([*self.terms, *other.terms], self.start)
@@ -173,7 +182,7 @@ class Asymptotic:
         """By  1/(1 + u) = 1 − u + … + (−u)^K/(1 + u)."""
         key, c, small = other.leading()
         result = constant(Coefficient(1 / (1 + small.enclosure())), self.start)
-        for _ in range(ORDER):
+        for _ in range(self.start.order):
             result = constant(exactly(1), self.start) - result * small
         return self * result.scaled(c.inverse(), power_of(key, Fraction(-1)))
 
@@ -194,7 +203,7 @@ class Asymptotic:
 
     def enclosure(self) -> arb:
         """A ball that contains every value; for functions whose terms are bounded."""
-        return sum((c.ball * _bounded(key, self.start) for key, c in self.terms), arb(0))
+        return sum((c.ball * _bounded(key, self.start.x) for key, c in self.terms), arb(0))
 
     def parts(self) -> tuple[list[tuple[Key, Coefficient]], Coefficient, Asymptotic]:
         """The terms that are not bounded, the constant one, and what tends to 0."""
@@ -249,7 +258,7 @@ def _bounded(key: Key, start: Fraction) -> arb:
     return arb(0).union((ball_of(Fraction(-j) / b) / arb(1).exp()) ** j)
 
 
-def summed(terms: list[tuple[Key, Coefficient]], start: Fraction) -> Asymptotic:
+def summed(terms: list[tuple[Key, Coefficient]], start: Start) -> Asymptotic:
     """The sum of terms; the lowest ones are taken into the last that is kept."""
     parts: dict[Key, list[Coefficient]] = {}
     for key, c in terms:
@@ -272,7 +281,7 @@ def _added(parts: list[Coefficient]) -> Coefficient:
     return Coefficient(sum(others, exact.ball)) if others else exact
 
 
-def constant(c: Coefficient, start: Fraction) -> Asymptotic:
+def constant(c: Coefficient, start: Start) -> Asymptotic:
     """A function that is one number, or lies in one ball."""
     return Asymptotic(() if c.is_zero else ((ONE, c),), start)
 
@@ -287,11 +296,12 @@ def composed(name: str, small: Asymptotic, centre: arb | None = None) -> Asympto
     about = arb(CENTRES[name]) if centre is None else centre
     values = about + arb(0).union(small.enclosure())
     outer: Tree = (name, ("var", "u"))
-    remainder = Coefficient(taylor(outer, "u", values, ORDER)[ORDER])
+    order = small.start.order
+    remainder = Coefficient(taylor(outer, "u", values, order)[order])
     if centre is None:
-        terms = [exactly(c) for c in _rational_taylor(name)]
+        terms = [exactly(c) for c in _rational_taylor(name, order)]
     else:
-        terms = [Coefficient(c) for c in taylor(outer, "u", centre, ORDER - 1)]
+        terms = [Coefficient(c) for c in taylor(outer, "u", centre, order - 1)]
     result = constant(remainder, small.start)
     for c in reversed(terms):
         result = result * small + constant(c, small.start)
@@ -301,21 +311,21 @@ def composed(name: str, small: Asymptotic, centre: arb | None = None) -> Asympto
 
 
 @lru_cache(maxsize=32)
-def _rational_taylor(name: str) -> tuple[Fraction, ...]:
-    """The Taylor coefficients 0 … ORDER − 1 of a function of ``CENTRES``."""
-    cap, ctx.cap = ctx.cap, ORDER
+def _rational_taylor(name: str, order: int) -> tuple[Fraction, ...]:
+    """The Taylor coefficients 0 … order − 1 of a function of ``CENTRES``."""
+    cap, ctx.cap = ctx.cap, order
     try:
         series = getattr(fmpq_series([CENTRES[name], 1]), name)()
     finally:
         ctx.cap = cap
-    return tuple(Fraction(int(series[k].p), int(series[k].q)) for k in range(ORDER))
+    return tuple(Fraction(int(series[k].p), int(series[k].q)) for k in range(order))
 
 
 @dataclass(frozen=True)
 class ScaleAlgebra(Algebra):
     """The arithmetic of :class:`Asymptotic` on [start, ∞)."""
 
-    start: Fraction
+    start: Start
 
     def number(self, value: Fraction) -> Asymptotic:
         return constant(exactly(value), self.start)
@@ -397,17 +407,13 @@ def sign_beside(tree: Tree, name: str, point: Fraction, width: Fraction) -> int:
 @lru_cache(maxsize=64)
 def _sign(tree: Tree, name: str, point: Fraction | None, reach: Fraction, bits: int) -> int:
     """The sign of f(x(t)) for all t from some start on; kept, since a rule asks what its search did."""
-    start = reach if point is None else 1 / abs(reach)
-    if start < 1:
-        return 0
-    t = Asymptotic(((X, exactly(1)),), start)
-    try:
-        if point is None:
-            x = t
-        else:
-            step = constant(exactly(1 if reach > 0 else -1), start) / t
-            x = constant(exactly(point), start) + step
-        function: Asymptotic = evaluate(tree, {name: x}, ScaleAlgebra(start))
-        return function.sign()
-    except (Open, Unsupported, ValueError, ZeroDivisionError):
-        return 0
+    first = reach if point is None else 1 / abs(reach)
+    for start in (Start(first, order) for order in ORDERS if first >= 1):
+        x = t = Asymptotic(((X, exactly(1)),), start)
+        with suppress(Open, Unsupported, ValueError, ZeroDivisionError):
+            if point is not None:
+                step = constant(exactly(1 if reach > 0 else -1), start) / t
+                x = constant(exactly(point), start) + step
+            function: Asymptotic = evaluate(tree, {name: x}, ScaleAlgebra(start))
+            return function.sign()
+    return 0

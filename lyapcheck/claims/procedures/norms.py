@@ -22,7 +22,14 @@ from lyapcheck.check.kinds.norm_bound import EqualEntries, NormBound, OneEntry, 
 from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.procedures.constants import find_relation
 from lyapcheck.claims.procedures.one_variable import find_for_all, sample
-from lyapcheck.claims.procedures.search import Point, first_refutation, values_of, witness_data, witness_of
+from lyapcheck.claims.procedures.search import (
+    Point,
+    doubtful,
+    first_refutation,
+    values_of,
+    witness_data,
+    witness_of,
+)
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "norm inequality"
@@ -31,13 +38,16 @@ METHOD = "norm inequality"
 @procedure(NormBound)
 def find_norm_bound(statement: NormBound) -> SearchResult:
     """Try the vectors that are worst; where none breaks the bound, prove it by one variable."""
-    result = first_refutation(rules.vector_relation(statement).comparison, vector_points(statement))
+    claim, points = rules.vector_relation(statement).comparison, vector_points(statement)
+    result, proof = first_refutation(claim, doubtful(claim, points)), None
+    if result is None:
+        proof = _by_supremum(statement)
+        proof = proof or (_prove_uniform(statement) if statement.power == 0 else _prove_linear(statement))
+        result = None if proof.is_proof else first_refutation(claim, points)
     if result is not None:
         return broken(witness_of(result), f"{METHOD}: a vector where it fails", witness_data(result))
-    by_definition = _by_supremum(statement)
-    if by_definition is not None:
-        return by_definition
-    return _prove_uniform(statement) if statement.power == 0 else _prove_linear(statement)
+    assert proof is not None
+    return proof
 
 
 def vector_points(statement: NormBound) -> list[Point]:

@@ -27,7 +27,7 @@ from lyapcheck.check.kinds.for_all import (
     zero_must_be_positive,
 )
 from lyapcheck.check.statement import Piece
-from lyapcheck.claims.procedures.search import first_refutation, witness_data, witness_of
+from lyapcheck.claims.procedures.search import doubtful, first_refutation, witness_data, witness_of
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 
 METHOD = "one-variable inequality"
@@ -44,18 +44,21 @@ class _Open(Exception):
 def find_for_all(statement: ForAll) -> SearchResult:
     """Look for a point where the relation fails, then for a proof on each piece of the domain."""
     claim, name = statement.relation.comparison, statement.variable
-    result = first_refutation(claim, [{name: p} for p in sample(statement)])
+    points = [{name: p} for p in sample(statement)]
+    likely = [*doubtful(claim, points), *({name: p} for p in valleys(statement))]
+    result, proofs, reason = first_refutation(claim, likely), [], ""
     if result is None:
-        result = first_refutation(claim, [{name: p} for p in valleys(statement)])
+        try:
+            with ctx.workprec(BITS):
+                proofs = [_prove(statement, domain) for domain in pieces(statement)]
+        except (Unsupported, _Open) as problem:
+            more = "; state it on a smaller interval, or split it into claims"
+            reason = f"{problem}{more if isinstance(problem, Unsupported) else ''}"
+            result = first_refutation(claim, points)
     if result is not None:
         return broken(witness_of(result), f"{METHOD}: a point where it fails", witness_data(result))
-    try:
-        with ctx.workprec(BITS):
-            proofs = [_prove(statement, domain) for domain in pieces(statement)]
-    except Unsupported as problem:
-        return still_open(f"{problem}; state it on a smaller interval, or split it into claims", METHOD)
-    except _Open as problem:
-        return still_open(str(problem), METHOD, points_tried=len(sample(statement)))
+    if reason:
+        return still_open(reason, METHOD, points_tried=len(points))
     return shown(Pieces(tuple(proofs)), f"{METHOD}: " + "; ".join(dict.fromkeys(map(_words, proofs))))
 
 

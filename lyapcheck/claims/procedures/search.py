@@ -28,6 +28,9 @@ LARGEST = 4096
 MOST_DIGITS = 400
 """That are shown of a side, however near it is to the other."""
 
+SEEN = 1e-6
+"""Of the sizes of both sides: by how much an inequality must hold for doubles to be believed at first."""
+
 ROUND = tuple(map(Fraction, ("0", "1", "1/2", "2", "1/10", "10", "1/100", "100")))
 """What a reader takes in at a glance, the roundest first."""
 
@@ -61,6 +64,15 @@ def first_refutation(
         if sides is not None and all(map(_can_be_written, (sides.left, sides.right))):
             return claim, point, sides
     return None
+
+
+def doubtful(claim: Comparison, points: Sequence[Point]) -> list[Point]:
+    """The points at which doubles do not see an inequality hold by far; the others are not worth balls."""
+    at = {name: np.array([float(point[name]) for point in points]) for name in points[0]}
+    left, right = values_of(claim[0], at), values_of(claim[2], at)
+    with np.errstate(all="ignore"):
+        far = right - left > SEEN * (np.abs(left) + np.abs(right))
+    return [point for point, seen in zip(points, far, strict=True) if not seen or claim[1] == "="]
 
 
 def broken_sides(claim: Comparison, point: Point, hypotheses: Sequence[Comparison] = ()) -> Sides | None:
