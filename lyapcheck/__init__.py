@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from lyapcheck.export.torque import torque
     from lyapcheck.family.asymptotes import gamma_less_than
     from lyapcheck.family.base import Family
-    from lyapcheck.family.registry import named as named_family
+    from lyapcheck.family.base import named as named_family
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
@@ -178,7 +178,7 @@ _HOMES = {
     "limits_for": "control.limits",
     "load_robot": "robots.registry:load",
     "lyapunov_graph": "lyapunov.graph",
-    "named_family": "family.registry:named",
+    "named_family": "family.base:named",
     "paper_gain_file": "control.gains",
     "read_certificates": "tasks",
     "read_gain_file": "control.gains",

@@ -3,7 +3,7 @@
 A kept file is its content followed by the SHA-256 of that, written beside its place and moved there in one
 step: a killed run leaves no half file, and a damaged one is not found. Keys of answers are digests of the
 question, of the versions behind it and of the source of lyapcheck itself, so that another version asks anew.
-Answers that hold verdicts are taken through `lyapcheck.kept`, which has their certificates judged again.
+Answers that hold verdicts are taken through `lyapcheck.store`, which has their certificates judged again.
 """
 
 from __future__ import annotations
@@ -14,16 +14,21 @@ import json
 import os
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
+from lyapcheck.certificate import Certificate
+from lyapcheck.check import certificate as read
+from lyapcheck.check.certificate import certificate_of, judge
+from lyapcheck.check.refusal import Refused
+from lyapcheck.computing import shared_between
 from lyapcheck.control.gains import proofs_folder
-from lyapcheck.temporary import pending
+from lyapcheck.process_tree import pending
 
 OFF = "LYAPCHECK_NO_STORE"
 """Set in the environment, so that worker processes know it too, where nothing is to be taken or kept."""
@@ -195,3 +200,71 @@ def _private(status: os.stat_result) -> bool:
     """Whether only this user can change it: what is kept here is run and shown."""
     mine = not hasattr(os, "getuid") or status.st_uid == os.getuid()
     return mine and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
+# --- Answers between runs: certificates by the digest of what was asked, judged again when they are taken.
+#
+# A certificate that the checker does not accept, or that is about another thing than what is asked now,
+# makes the whole answer unknown: it is computed anew. Plain data beside the certificates say how they were
+# found, and decide nothing.
+
+T = TypeVar("T")
+BROKEN = (Refused, AttributeError, KeyError, TypeError, ValueError, ZeroDivisionError)
+"""What comes of data that another program, or another person, has written."""
+
+
+@dataclass(frozen=True)
+class KeptCertificates:
+    """An answer as it is kept.
+
+    Args:
+        certificates: by name, what the answer rests on.
+        beside: plain data.
+    """
+
+    certificates: Mapping[str, read.Certificate]
+    beside: Mapping[str, Any] = field(default_factory=dict)
+
+
+def remembered(
+    question: Mapping[str, Any],
+    rebuilt: Callable[[KeptCertificates], T | None],
+    compute: Callable[[], T],
+    written: Callable[[T], KeptCertificates | None],
+    jobs: int = 1,
+) -> T:
+    """The answer to a question: from what is kept, where that holds, else computed now and kept.
+
+    Args:
+        question: plain data.
+        rebuilt: the answer from accepted certificates; ``None`` where they are not about what is asked.
+        compute: the answer.
+        written: an answer as it is kept; ``None`` where it is not worth it.
+        jobs: processes that may share a certificate.
+    """
+    if off():
+        return compute()
+    result = _taken(question, rebuilt, jobs)
+    if result is None:
+        result = compute()
+        if (one := written(result)) is not None:
+            texts = {name: Certificate.of(each).text() for name, each in one.certificates.items()}
+            put(question, {"certificates": texts, "beside": one.beside})
+    return result
+
+
+def _taken(
+    question: Mapping[str, Any], rebuilt: Callable[[KeptCertificates], T | None], jobs: int
+) -> T | None:
+    answer = take(question)
+    if answer is None:
+        return None
+    try:
+        texts: dict[str, str] = answer["certificates"]
+        found = {name: certificate_of(text.encode())[0] for name, text in texts.items()}
+        with shared_between(jobs):
+            for one in found.values():
+                judge(one)
+        return rebuilt(KeptCertificates(found, answer["beside"]))
+    except BROKEN:
+        return None

@@ -172,8 +172,7 @@ def decide(statement: Statement, m: int | None = None, n: int | None = None) -> 
     """
     from lyapcheck.certificate import Certificate
     from lyapcheck.check.certificate import About
-    from lyapcheck.claims.decision import decided
-    from lyapcheck.claims.fresh_check import judge_afresh
+    from lyapcheck.claims.decision import decided, judge_afresh
     from lyapcheck.claims.procedures import propose
 
     finding, key = propose(statement), ("statement", m)

@@ -14,9 +14,9 @@ from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import View
+from lyapcheck.process_tree import temporary_folder
 from lyapcheck.rechecking.command import Writer, as_json
 from lyapcheck.rechecking.trusted import GENERAL
-from lyapcheck.temporary import temporary_folder
 
 if TYPE_CHECKING:
     from lyapcheck.kernel.coq import Kernel

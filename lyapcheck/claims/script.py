@@ -17,13 +17,12 @@ from typing import Any
 
 from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.claim import Proof, in_order
-from lyapcheck.claims.fresh_check import command, environment
+from lyapcheck.claims.decision import command, environment
 from lyapcheck.claims.handover import Handover, ScriptRequest, read
 from lyapcheck.control.gains import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.reader import SCRIPT, read_bytes
-from lyapcheck.process_tree import run_apart
-from lyapcheck.temporary import temporary_folder
+from lyapcheck.process_tree import run_apart, temporary_folder
 
 SHIPPED = ("published.py", "scalar.py", "tracking.py", "asymptotics.py", "every_m.py", "sampled.py")
 """The proof scripts that come with lyapcheck."""

@@ -17,8 +17,7 @@ from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
 from lyapcheck.cli.stopping import Stopping
 from lyapcheck.cli.values import chosen
-from lyapcheck.errors import InputError, argument_error, nearest
-from lyapcheck.libraries import missing
+from lyapcheck.errors import InputError, argument_error, missing, nearest
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 

@@ -15,7 +15,7 @@ from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Section
 from lyapcheck.output.text import WIDTH, Depth, View
-from lyapcheck.temporary import pending, try_writing
+from lyapcheck.process_tree import pending, try_writing
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -13,7 +13,7 @@ import os
 import signal
 import sys
 
-from lyapcheck.process_tree import end_below, prepare
+from lyapcheck.process_tree import clear, end_below, prepare
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -86,9 +86,7 @@ def _stop(number: int, frame: object = None) -> None:
     """End this process and all below it; nothing that was half written stays."""
     with _ending:
         end_below()
-        temporary = sys.modules.get("lyapcheck.temporary")  # nothing is pending where nobody has loaded it
-        if temporary is not None:
-            temporary.clear()
+        clear()
         if "rich.progress" in sys.modules and os.isatty(2):
             os.write(2, b"\r\x1b[K\x1b[?25h")  # the bar is cleared, the cursor shown again
         os._exit(128 + number)

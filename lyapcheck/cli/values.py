@@ -113,7 +113,7 @@ def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
 
 def _complaint(part: str) -> tuple[str, str]:
     """What is wrong with one part, and the repair; two empty strings if nothing is."""
-    from lyapcheck.family.registry import LARGEST_M
+    from lyapcheck.family.base import LARGEST_M
 
     ends = [end.strip() for end in part.split(":")]
     if len(ends) > 2 or not all(_is_whole(end) for end in ends):

@@ -25,8 +25,13 @@ from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.constants.constant import ConstantResult, SupremumTask, from_distances
-from lyapcheck.constants.coriolis import coriolis_task
-from lyapcheck.constants.spectrum import ArmHarmonics, gravity_task, lambda_max_task, lambda_min_task
+from lyapcheck.constants.spectrum import (
+    ArmHarmonics,
+    coriolis_task,
+    gravity_task,
+    lambda_max_task,
+    lambda_min_task,
+)
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.errors import argument_error
 from lyapcheck.lyapunov.scalar import RobotBounds

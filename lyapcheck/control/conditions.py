@@ -25,7 +25,7 @@ from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, JudgedStatement
 from lyapcheck.control.threshold import Threshold, norms, number, scaled
 from lyapcheck.errors import argument_error
-from lyapcheck.family.registry import named
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import places_of
 from lyapcheck.promise import Promise
 

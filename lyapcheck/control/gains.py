@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
-from lyapcheck.family.registry import LARGEST_M, names
+from lyapcheck.family.base import LARGEST_M, names
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 from lyapcheck.files.toml import GAINS, KeyPath, Place, TomlFile, open_document, require_kind

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.files.decimals import decimal_text, significant_up
 
 if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
+
 
 ACCEPTED, REJECTED, UNDECIDED = "accepted", "rejected", "undecided"
 VERDICTS = {"proved": ACCEPTED, "refuted": REJECTED}
@@ -116,3 +119,18 @@ def rest_error(family: str, m: int | None, ratio: Fraction) -> Fraction | None:
 def degrees_above(error: Fraction) -> str:
     """An angle of rad in degrees, in four digits and never rounded down."""
     return f"{decimal_text(significant_up(error * DEGREES, 4))}°" if error else "0°"
+
+
+# --- Bounds of the errors at states of rest, tight to six digits, as the checker accepts them.
+#
+# References: ``reyes2019family`` (7), (11).
+
+
+def resting(gains: GainSet, dry: Sequence[Fraction]) -> JudgedStatement | None:
+    """Bounds of |e_i| at every state of rest under dry friction, N·m; none where no joint has one."""
+    errors = tuple(rest_error(gains.family, gains.m, f / k) for f, k in zip(dry, gains.kp, strict=True))
+    if all(x is None for x in errors):
+        return None
+    statement = Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), errors)
+    judged = judged_statement(statement, [AtBounds()])
+    return judged if judged.shown == "proved" else None

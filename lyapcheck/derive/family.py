@@ -14,7 +14,7 @@ from typing import Any
 
 import sympy as sp
 
-from lyapcheck.family.registry import hyperbolic
+from lyapcheck.family.base import hyperbolic
 
 X = sp.Symbol("x", real=True)
 S, C, U = sp.symbols("s c u")

@@ -1,6 +1,13 @@
 """The bounded functions that shape errors and rates into torques: a file each, behind one protocol."""
 
-from lyapcheck.family.base import Family, FamilyConstants, NumericForms, SymbolicForms
-from lyapcheck.family.registry import hyperbolic, named, names
+from lyapcheck.family.base import (
+    Family,
+    FamilyConstants,
+    NumericForms,
+    SymbolicForms,
+    hyperbolic,
+    named,
+    names,
+)
 
 __all__ = ["Family", "FamilyConstants", "NumericForms", "SymbolicForms", "hyperbolic", "named", "names"]

@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 
 from lyapcheck import store
-from lyapcheck.temporary import temporary_folder
+from lyapcheck.process_tree import temporary_folder
 
 OFF = "LYAPCHECK_NO_COMPILER"
 """Set to 1, this environment variable keeps lyapcheck from compiling anything."""

@@ -15,8 +15,7 @@ from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.decision import decided
-from lyapcheck.claims.fresh_check import judge_afresh
+from lyapcheck.claims.decision import decided, judge_afresh
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
 from lyapcheck.files.fields import file_stem

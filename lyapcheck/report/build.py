@@ -18,6 +18,7 @@ from lyapcheck._types import SEED, Progress, silent
 from lyapcheck.computing import main_unnamed
 from lyapcheck.errors import argument_error
 from lyapcheck.files.reader import holds
+from lyapcheck.process_tree import pending, temporary_folder, work_in
 from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
@@ -29,7 +30,6 @@ from lyapcheck.report.page import redirect
 from lyapcheck.report.page import render as page
 from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
-from lyapcheck.temporary import pending, temporary_folder, work_in
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer

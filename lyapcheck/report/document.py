@@ -12,12 +12,12 @@ from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
 from lyapcheck.output.typst import markup
+from lyapcheck.process_tree import temporary_folder
 from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
 from lyapcheck.report.model import SIGNS, WEIGHTS, Finding, Report
 from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.robots import RobotModel
-from lyapcheck.temporary import temporary_folder
 
 
 class ReportAnswer(Answer):

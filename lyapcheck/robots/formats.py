@@ -13,9 +13,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.errors import argument_error, file_error
+from lyapcheck.errors import argument_error, file_error, installed
 from lyapcheck.files.reader import URDF, read_bytes
-from lyapcheck.libraries import installed
 from lyapcheck.robots.choice import FILES, Choice
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import RobotModel

@@ -16,10 +16,9 @@ from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.computing import shared_between
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves, refutes
-from lyapcheck.errors import argument_error
+from lyapcheck.errors import argument_error, installed
 from lyapcheck.family import Family, named
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.libraries import installed
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
-from lyapcheck.family.registry import named
+from lyapcheck.family.base import named
 from lyapcheck.search.controlled_arm import ChainProof, DecreaseProof
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from subprocess import CompletedProcess
 
 import pytest
 
-from lyapcheck.claims import fresh_check
+from lyapcheck.claims import decision
 from tests.helpers.command import invoke
 
 SCRIPT = """
@@ -27,7 +27,7 @@ def contradicting(monkeypatch):
     def run(*_, **__):
         return CompletedProcess((), 4, json.dumps(answer).encode(), b"")
 
-    monkeypatch.setattr(fresh_check.subprocess, "run", run)
+    monkeypatch.setattr(decision.subprocess, "run", run)
 
 
 def test_an_alarm_of_the_checker_is_the_only_thing_that_is_said(contradicting, tmp_path):

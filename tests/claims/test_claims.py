@@ -59,9 +59,8 @@ from lyapcheck.claims import (
     tanh,
     var,
 )
-from lyapcheck.claims.decision import Decision, decided, undecided
+from lyapcheck.claims.decision import Decision, Judged, decided, undecided
 from lyapcheck.claims.expressions import exact_value
-from lyapcheck.claims.fresh_check import Judged
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.procedures.search import broken_sides
 from lyapcheck.verdicts import Grade, Verdict

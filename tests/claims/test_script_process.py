@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-import lyapcheck.claims.fresh_check
+import lyapcheck.claims.decision
 from lyapcheck.answers.check import run as runner
 from lyapcheck.answers.explain import explain
 from lyapcheck.check.recheck import gather, recheck
@@ -286,7 +286,7 @@ def test_a_rule_that_is_wrong_in_this_process_alone_proves_nothing(write, monkey
 
 @pytest.mark.slow
 def test_an_altered_certificate_is_refused_and_the_claim_undecided(write, monkeypatch):
-    judge = lyapcheck.claims.fresh_check.judge_afresh
+    judge = lyapcheck.claims.decision.judge_afresh
 
     class Altered:
         def __init__(self, certificate):
@@ -306,9 +306,7 @@ def test_an_altered_certificate_is_refused_and_the_claim_undecided(write, monkey
 
 
 def test_a_checker_that_does_not_answer_is_an_error_and_no_verdict(write, monkeypatch):
-    monkeypatch.setattr(
-        "lyapcheck.claims.fresh_check.command", lambda *words: [sys.executable, "-c", "1 / 0"]
-    )
+    monkeypatch.setattr("lyapcheck.claims.decision.command", lambda *words: [sys.executable, "-c", "1 / 0"])
     with pytest.raises(RuntimeError, match="the checker fails"):
         run_proof(write(TRUE), ms=(1,), n=1)
 

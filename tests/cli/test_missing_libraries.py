@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.control.gains import paper_gain_file
-from lyapcheck.libraries import PACKAGES, lacking, missing
+from lyapcheck.errors import PACKAGES, lacking, missing
 from tests.cli.test_every_command import CALLS, GAINS, PLAN
 from tests.helpers.environments import FLINT, environment, run
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck import temporary
+from lyapcheck import process_tree
 from lyapcheck.cli.stopping import Stopping
 from tests.helpers.shares import but, one_in
 
@@ -133,7 +133,7 @@ def test_processes_of_processes_end_too(tmp_path):
     """And a child that takes no Ctrl-C itself; what was being written is gone."""
     code = (
         "import subprocess, sys, time\n"
-        "from lyapcheck.cli.stopping import Stopping\nfrom lyapcheck.temporary import pending\n"
+        "from lyapcheck.cli.stopping import Stopping\nfrom lyapcheck.process_tree import pending\n"
         "with Stopping(), pending('half'), pending('folder'):\n"
         "    open('half', 'w').close()\n"
         "    subprocess.Popen(['sh', '-c', 'sleep 300 & sleep 300 & wait'])\n"
@@ -173,10 +173,10 @@ def test_a_signal_that_is_ignored_stays_ignored():
 
 def test_what_is_pending_no_more_stays(tmp_path):
     file = tmp_path / "file"
-    with temporary.pending(file):
+    with process_tree.pending(file):
         file.write_text("")
-    temporary.clear()
+    process_tree.clear()
     assert file.exists()
-    with temporary.pending(file), temporary.pending(tempfile.mkdtemp(dir=tmp_path)):
-        temporary.clear()
+    with process_tree.pending(file), process_tree.pending(tempfile.mkdtemp(dir=tmp_path)):
+        process_tree.clear()
     assert list(tmp_path.iterdir()) == []

@@ -16,7 +16,7 @@ from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.threshold import root
 from lyapcheck.errors import InputError
-from lyapcheck.family.registry import LARGEST_M
+from lyapcheck.family.base import LARGEST_M
 from lyapcheck.files.decimals import written
 
 MS = st.one_of(st.integers(1, 6), st.sampled_from([10, 37, 100]))

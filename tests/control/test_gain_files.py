@@ -16,7 +16,7 @@ from lyapcheck import load_robot, run_simulation
 from lyapcheck.control.gains import GainFile, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import limits_for
 from lyapcheck.errors import InputError
-from lyapcheck.family.registry import names as families
+from lyapcheck.family.base import names as families
 from lyapcheck.files.decimals import Written, decimal_text, places_of, round_down, written
 from lyapcheck.output.escapes import printable
 from tests.helpers.command import invoke, lyapcheck

@@ -15,7 +15,7 @@ import pytest
 def one_process():
     """As long as it lasts; what else is to be replaced as long may be."""
     from lyapcheck.check import certificate, guard
-    from lyapcheck.claims import fresh_check, script_process
+    from lyapcheck.claims import decision, script_process
     from lyapcheck.claims import script as ask
     from lyapcheck.rechecking import command as checker
 
@@ -36,5 +36,5 @@ def one_process():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(ask, "run_apart", run_script)
         patch.setattr(guard.Guard, "_ask", ask_worker)
-        patch.setattr(fresh_check, "subprocess", SimpleNamespace(run=run_checker))
+        patch.setattr(decision, "subprocess", SimpleNamespace(run=run_checker))
         yield patch

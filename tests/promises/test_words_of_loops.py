@@ -6,8 +6,8 @@ from importlib import import_module
 
 import pytest
 
+from lyapcheck.control.judgement import resting
 from lyapcheck.search.certified import certified_epsilon
-from lyapcheck.search.rest import resting
 from tests.helpers.command import invoke
 from tests.helpers.words_of_proof import left_over
 

@@ -16,8 +16,7 @@ from lyapcheck.check.loop.storage import Shown, coriolis_power, hinges
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.claims.arms import coriolis_bounded
-from lyapcheck.claims.bounds import ArmBounds
+from lyapcheck.claims.bounds import ArmBounds, coriolis_bounded
 from lyapcheck.claims.procedures import propose
 from lyapcheck.constants import arm_constants
 from lyapcheck.constants.arm import extreme

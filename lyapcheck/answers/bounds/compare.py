@@ -14,13 +14,12 @@ from lyapcheck import asked
 from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.answers.running import HoldsCheck, holds_checks
 from lyapcheck.check.kinds.resting import Resting
-from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED
+from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, resting
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.vary import corners, corners_text
-from lyapcheck.search.rest import resting
 from lyapcheck.simulate.closed_loop import SetPoint
 from lyapcheck.simulate.task import set_up
 

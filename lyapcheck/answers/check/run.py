@@ -15,8 +15,17 @@ from lyapcheck.check.certificate import About, digest_of
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.claim import Case, in_order
-from lyapcheck.claims.decision import Proposal, certificates, chained, decided, file_name, rests_on, undecided
-from lyapcheck.claims.fresh_check import Judged, judge_afresh
+from lyapcheck.claims.decision import (
+    Judged,
+    Proposal,
+    certificates,
+    chained,
+    decided,
+    file_name,
+    judge_afresh,
+    rests_on,
+    undecided,
+)
 from lyapcheck.claims.handover import CaseData, Handover, Key, ScriptRequest
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import ask, find_script
@@ -24,8 +33,8 @@ from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.claims.statements import Missing, remarks
 from lyapcheck.control.gains import GainFile, GainSet, gain_file_of, paper_gain_file
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.kept import KeptCertificates, remembered
 from lyapcheck.search.closed_loop import remember
+from lyapcheck.store import KeptCertificates, remembered
 from lyapcheck.verdicts import Grade, Verdict
 
 DEFAULT_GAINS = "table2"

@@ -19,7 +19,7 @@ from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.numbers.balls import hyperbolic_constants, precision
 from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.arms import rate_of_mass
+from lyapcheck.claims.bounds import rate_of_mass
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
 from lyapcheck.control.judgement import judged_statement

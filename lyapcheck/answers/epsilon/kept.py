@@ -27,10 +27,10 @@ from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.states import State
 from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.kept import KeptCertificates, remembered
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.falsify import RisingState, at_corner, confirmed
 from lyapcheck.search.weights import Weighted
+from lyapcheck.store import KeptCertificates, remembered
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet

@@ -32,9 +32,9 @@ from lyapcheck.control.judgement import (
     rest_error,
 )
 from lyapcheck.control.threshold import Threshold, scaled
-from lyapcheck.family.registry import named
+from lyapcheck.errors import installed
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, significant_up
-from lyapcheck.libraries import installed
 from lyapcheck.promise import promised
 from lyapcheck.robots import trig
 

@@ -59,7 +59,7 @@ def proved_otherwise(
 
 def unknown_function(gains: GainSet) -> str:
     """Why nothing is known of the h of a gain set, as that x h(x) > 0; empty where the checker knows h."""
-    from lyapcheck.family.registry import named
+    from lyapcheck.family.base import named
 
     family = named(gains.family, gains.m)
     if not family.bounded:  # PD: h(x) = x
@@ -90,7 +90,7 @@ def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -
 
 
 def _scalar(gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, ranges: bool) -> Check | None:
-    from lyapcheck.family.registry import named
+    from lyapcheck.family.base import named
     from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
     from lyapcheck.search.scalar_program import norm_proof
 

@@ -26,7 +26,7 @@ from lyapcheck.check.statement import Ends
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.libraries import PACKAGES, installed, repair
+from lyapcheck.errors import PACKAGES, installed, repair
 from lyapcheck.robots import Number, RobotModel
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.search.controlled_arm import ChainProof, ControlledArm, DecreaseProof, unphysical

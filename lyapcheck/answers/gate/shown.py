@@ -19,7 +19,7 @@ from lyapcheck.check.statement import Ends, Monomials, Proof
 from lyapcheck.control.conditions import CONDITIONS
 from lyapcheck.control.gravity import levers
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves
-from lyapcheck.family.registry import named
+from lyapcheck.family.base import named
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 

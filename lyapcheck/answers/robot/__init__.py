@@ -14,8 +14,7 @@ from lyapcheck.answers.robot.properties import (
     proposed_properties,
 )
 from lyapcheck.check.verify import each_once
-from lyapcheck.claims.decision import file_name
-from lyapcheck.claims.fresh_check import judge_afresh
+from lyapcheck.claims.decision import file_name, judge_afresh
 from lyapcheck.constants import arm_constants
 from lyapcheck.robots import RobotModel
 from lyapcheck.verdicts import Verdict

@@ -11,7 +11,7 @@ from lyapcheck.answers.assumed import arm_words, assumed_line
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
-from lyapcheck.claims.arms import ranges_of
+from lyapcheck.claims.bounds import ranges_of
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Annotation, Answer, Level

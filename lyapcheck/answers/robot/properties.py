@@ -16,9 +16,8 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
-from lyapcheck.claims.arms import ranges_of
-from lyapcheck.claims.decision import Decision, decided, undecided
-from lyapcheck.claims.fresh_check import Judged, judge_afresh
+from lyapcheck.claims.bounds import ranges_of
+from lyapcheck.claims.decision import Decision, Judged, decided, judge_afresh, undecided
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.search_result import SearchResult

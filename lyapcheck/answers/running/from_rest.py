@@ -14,8 +14,8 @@ from lyapcheck.asked import sampled_from_rest, viscous_of
 from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, SampledFromRest
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.sampling import ONE
+from lyapcheck.errors import PACKAGES, installed, repair
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 

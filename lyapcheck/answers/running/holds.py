@@ -42,7 +42,7 @@ from lyapcheck.control.judgement import (
     judged_statement,
     rest_error,
 )
-from lyapcheck.family.registry import named
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.promise import all_say, promised

@@ -22,9 +22,9 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.control.sampling import LoopRecord, time_text
-from lyapcheck.family.registry import named
+from lyapcheck.errors import PACKAGES, installed, repair
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, exact_decimal, significant_down
-from lyapcheck.libraries import PACKAGES, installed, repair
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.dynamics import TooManyTerms
 

@@ -10,7 +10,7 @@ from typing import Any
 from lyapcheck.answers.sweep.question import COLUMNS, Answered, line_of
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.files.reader import holds
-from lyapcheck.temporary import pending, try_writing
+from lyapcheck.process_tree import pending, try_writing
 
 ROWS, PART, TABLE, CERTIFICATES = "rows.jsonl", ".rows.jsonl", "rows.parquet", "certificates"
 GROUP = 1_000

@@ -277,7 +277,7 @@ def _steps(table: Fields, key: str, value: dict[str, Any]) -> list[Any] | None:
 
 
 def _member(value: Any) -> int | None:
-    from lyapcheck.family.registry import LARGEST_M
+    from lyapcheck.family.base import LARGEST_M
 
     good = isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= LARGEST_M
     return value if good else None

@@ -14,10 +14,9 @@ from typing import Any
 from lyapcheck import store
 from lyapcheck.answers.sweep.question import Answered, Question, answered, arm
 from lyapcheck.computing import main_unnamed
-from lyapcheck.errors import InputError, argument_error
+from lyapcheck.errors import InputError, argument_error, missing
 from lyapcheck.extensions import modules
-from lyapcheck.libraries import missing
-from lyapcheck.temporary import temporary_folder, work_in
+from lyapcheck.process_tree import temporary_folder, work_in
 
 PACKAGE = "lyapcheck.answers.sweep.asks"
 ERROR = "error"

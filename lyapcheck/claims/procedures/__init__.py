@@ -25,7 +25,7 @@ __path__ += folders(__name__)
 def propose(statement: Statement | Missing) -> SearchResult:
     """What the search for the kind of a statement finds, if it stands up to the rules that will judge it.
 
-    Not a verdict: that is for a fresh process of the checker to give, see ``fresh_check``.
+    Not a verdict: that is for a fresh process of the checker to give, see ``decision``.
     """
     if isinstance(statement, Missing):
         return still_open(statement.reason, "not applicable")

@@ -9,9 +9,19 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
+from random import Random
 
 from lyapcheck.check.expressions.expression import Unsupported
 from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.kinds.every_n import (
+    EntriesWitness,
+    EveryN,
+    at_size,
+    in_words,
+    moved_at,
+    names_of,
+    rates_fit,
+)
 from lyapcheck.check.kinds.identity import (
     Compared,
     Gap,
@@ -22,9 +32,18 @@ from lyapcheck.check.kinds.identity import (
     differences,
     gap_of,
 )
+from lyapcheck.check.letters.entries import exact
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.claims.procedures.search import BITS, Point, first_refutation, witness_data, witness_of
+from lyapcheck.check.refusal import Refused
+from lyapcheck.claims.procedures.search import (
+    BITS,
+    Point,
+    first_refutation,
+    point_of,
+    witness_data,
+    witness_of,
+)
 from lyapcheck.claims.search_result import (
     SearchResult,
     broken,
@@ -34,6 +53,7 @@ from lyapcheck.claims.search_result import (
     shown,
     still_open,
 )
+from lyapcheck.rechecking.drawn_entries import doubt_identity, drawn, solved_at
 
 METHOD = "identity"
 TRIES, FIRST = 12, 2
@@ -121,3 +141,72 @@ def _postures(statement: Compared, gap: Gap) -> Iterator[MovingPosture]:
         parameters = tuple(ends[step % 2] for ends in statement.parameters)
         yield MovingPosture(q, parameters, chosen)
         yield MovingPosture(q, parameters, tuple(Fraction(i + 1) for i in joints))
+
+
+# --- Identities for every n, proved by normal forms of words xᵀ A B … y and refuted by entries for some n.
+#
+# References: ``geddes1992algorithms``, chapter 3.
+
+EVERY_N = "identity for every n"
+SIZES = (1, 2, 3)
+TRIES_EVERY_N = 4
+SEED = 1
+
+
+@procedure(EveryN)
+def find_every_n(statement: EveryN) -> SearchResult:
+    """Try the normal forms in words, then entries for n = 1, 2, 3."""
+    try:
+        statement.require_well_formed()
+        if not rates_fit(statement):
+            return still_open("a symmetric matrix has a derivative that is not; correct it", EVERY_N)
+        if is_zero(in_words(statement)):
+            return _proved(statement)
+    except Refused as refusal:
+        return still_open(f"{refusal}; correct the statement", EVERY_N)
+    except Unsupported as problem:
+        return still_open(f"{problem}; write both sides in sums, products and quotients", EVERY_N)
+    seen = "no entries for n = 1, 2, 3 tell the sides apart"
+    for n, point in _attempts(statement):
+        try:
+            result = _difference(statement, n, point)
+            moved_at(statement, n, point)
+        except Refused as refusal:
+            seen = str(refusal)
+            continue
+        except (Unsupported, ZeroDivisionError):
+            continue
+        if result is not None:
+            return result
+    return still_open(f"the normal forms differ, but {seen}; compare by hand", EVERY_N)
+
+
+def _proved(statement: EveryN) -> SearchResult:
+    """Equal words, unless entries that are drawn say otherwise, or none are found."""
+    try:
+        doubt_identity(statement)
+    except Refused as doubt:
+        return still_open(str(doubt), EVERY_N)
+    return shown(NormalForm(), f"{EVERY_N}: equal normal forms in words of vectors and matrices")
+
+
+def _attempts(statement: EveryN) -> Iterator[tuple[int, Point]]:
+    """Entries that meet what is given: small rational numbers, then one linear system for each vector."""
+    random = Random(SEED)
+    for n in SIZES:
+        for _ in range(TRIES_EVERY_N):
+            names = names_of(statement, n)
+            try:
+                yield n, solved_at(statement, n, drawn(names, statement.positive, random))
+            except (Unsupported, ZeroDivisionError):
+                continue
+
+
+def _difference(statement: EveryN, n: int, point: Point) -> SearchResult | None:
+    """The finding that both sides differ at a point, if they do."""
+    sides, _ = at_size(statement, n)
+    left, right = (exact(side, point) for side in sides)
+    if left == right:
+        return None
+    data = failing({"n": n, **dict(sorted(point.items()))}, [str(left)] * 2, "=", [str(right)] * 2)
+    return broken(EntriesWitness(n, point_of(point)), f"{EVERY_N}: entries at which the sides differ", data)

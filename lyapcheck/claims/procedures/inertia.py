@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
+from lyapcheck.check.kinds.chain import ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import (
@@ -35,7 +36,12 @@ from lyapcheck.claims.search_result import (
     shown,
     still_open,
 )
+from lyapcheck.constants.arm import extreme
+from lyapcheck.constants.storage import storage_proof
 from lyapcheck.control.judgement import proves, refutes
+from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.fields import Number
+from lyapcheck.robots.plant import Plant
 from lyapcheck.search.closed_loop import mass_proof
 
 METHOD = "inertia"
@@ -162,3 +168,38 @@ def _sampled(statement: GravityBelow, k: int) -> tuple[float, PostureWitness]:
     ends = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
     values = [float(value) for value in statement.at(q, ends)]
     return float(np.linalg.norm(values)), PostureWitness(q, ends, ())
+
+
+# --- Bounds along a chain of links: forms that show them, else the posture at which the bound fails.
+
+LINKS = "links"
+
+
+@procedure(ChainBelow, ChainGravityBelow, ChainCoriolisBelow)
+def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBelow) -> SearchResult:
+    """The posture at which local searches end, where it breaks the bound; else forms that show it."""
+    chain, name = Chain(statement.links, (Fraction(0),) * 3), "lambda_max"
+    if isinstance(statement, ChainCoriolisBelow):
+        name = "k_c"
+    elif isinstance(statement, ChainGravityBelow):
+        chain, name = Chain(statement.links, statement.fall), "k_g"
+        if len(statement.joints) < len(statement.links):
+            if len(statement.joints) > 1:
+                return still_open("bounds are looked for of one torque or of all", LINKS)
+            name = f"k_g{statement.joints[0]}"
+    joints = tuple(f"joint {i + 1}" for i in range(chain.n))
+    reached = extreme(
+        Plant(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * chain.n), name
+    )
+    if reached.value > statement.high:
+        witness = failing(entries(q=reached.q, x=reached.x), reached.value, "<=", statement.high)
+        return broken(PostureWitness(reached.q, (), reached.x), f"{LINKS}: a posture", witness)
+    result = storage_proof(chain, name)
+    if result is None or result.bound > statement.high:
+        least = "none" if result is None else f"{float(result.bound):.6g}"
+        return still_open(
+            f"{float(reached.value):.6g} is reached, and the least bound that forms show is {least}; take a "
+            "larger one",
+            LINKS,
+        )
+    return shown(result.proof, f"{LINKS}: {result.proof.rule}")

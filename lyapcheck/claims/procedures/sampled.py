@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.sampled import GOAL, SampledStable
 from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
-from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
-from lyapcheck.control.judgement import proves
+from lyapcheck.claims.search_result import SearchResult, broken, failing, procedure, shown, still_open
+from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.control.sampled import largest_period, sampled_proof
+from lyapcheck.errors import installed
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
-from lyapcheck.libraries import installed
 
 METHOD = "friction above the held torque, (S)"
 DIGITS = 4
@@ -56,3 +57,24 @@ def find_from_rest(statement: SampledFromRest) -> SearchResult:
 def _milliseconds(period: Fraction | None) -> str:
     """A period that (S) shows, in four digits; empty if there is none."""
     return "" if period is None else f"{decimal_text(significant_down(1000 * period, DIGITS))} ms"
+
+
+# --- Where an arm may come to rest: decided by h at the bounds, or by a state of rest beyond one of them.
+
+RESTING = "states of rest"
+BEYOND = Fraction(1, 10**6)
+"""rad: how far beyond a bound a state against it is looked for."""
+
+
+@procedure(Resting)
+def find_resting(statement: Resting) -> SearchResult:
+    """By h at the bounds, else by a state of rest just beyond one of them."""
+    proof = AtBounds()
+    if proves(statement, proof):
+        return shown(proof, RESTING)
+    for joint, bound in enumerate(statement.errors):
+        against = RestWitness(joint, (bound or Fraction(0)) + BEYOND)
+        if bound is not None and refutes(statement, against):
+            witness = failing({f"e{joint + 1}": against.error}, against.error, "<=", bound)
+            return broken(against, f"{RESTING}: one beyond a bound", witness)
+    return still_open("h at the bounds does not decide it; take larger bounds", RESTING)

@@ -61,7 +61,7 @@ def run(
 
     from lyapcheck.answers.check.proof import ALL, FAILED, SHORT
     from lyapcheck.answers.check.run import run_proof
-    from lyapcheck.claims.fresh_check import ContradictionError
+    from lyapcheck.claims.decision import ContradictionError
     from lyapcheck.cli.progress import progress
     from lyapcheck.cli.show import open_folder, show, write_certificates
     from lyapcheck.cli.values import parse_m

@@ -9,7 +9,7 @@ from lyapcheck.check.judgement import MOST, Limits
 from lyapcheck.check.recheck import Outcome
 from lyapcheck.cli.show import current_view
 from lyapcheck.cli.values import add_format
-from lyapcheck.libraries import installed, lacking
+from lyapcheck.errors import installed, lacking
 from lyapcheck.rechecking import command
 from lyapcheck.rechecking.command import FORMATS, HELP
 

@@ -7,8 +7,14 @@ from typing import Any
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, NumericForms, SymbolicForms
-from lyapcheck.family.registry import require_none
+from lyapcheck.family.base import (
+    Arithmetic,
+    Family,
+    FamilyConstants,
+    NumericForms,
+    SymbolicForms,
+    require_none,
+)
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,14 @@ from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.functions.arctan import half_pi
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, NumericForms, SymbolicForms
-from lyapcheck.family.registry import require_none
+from lyapcheck.family.base import (
+    Arithmetic,
+    Family,
+    FamilyConstants,
+    NumericForms,
+    SymbolicForms,
+    require_none,
+)
 
 _SERIES_TERMS = 13
 _SERIES_END = 0.25

@@ -13,8 +13,7 @@ from flint import arb
 
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.balls import hyperbolic_constants, peak_of_h, peaks_of_dh
-from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, SymbolicForms
-from lyapcheck.family.registry import require_member
+from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, SymbolicForms, require_member
 
 
 @dataclass(frozen=True)

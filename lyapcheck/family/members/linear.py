@@ -8,8 +8,14 @@ from typing import Any
 from flint import arb
 
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, NumericForms, SymbolicForms
-from lyapcheck.family.registry import require_none
+from lyapcheck.family.base import (
+    Arithmetic,
+    Family,
+    FamilyConstants,
+    NumericForms,
+    SymbolicForms,
+    require_none,
+)
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.family.base import require_none
 from lyapcheck.family.members.hyperbolic import Hyperbolic
-from lyapcheck.family.registry import require_none
 
 
 @dataclass(frozen=True)
