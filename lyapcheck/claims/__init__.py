@@ -28,6 +28,7 @@ from lyapcheck.check.statement import Variable as Variable
 from lyapcheck.claims.arguments import along as along
 from lyapcheck.claims.arguments import at_arm as at_arm
 from lyapcheck.claims.arguments import cascade as cascade
+from lyapcheck.claims.arguments import converges as converges
 from lyapcheck.claims.arguments import exponential as exponential
 from lyapcheck.claims.arguments import input_to_state as input_to_state
 from lyapcheck.claims.arguments import lasalle as lasalle

@@ -95,6 +95,29 @@ def input_to_state(
     return _argued("ISS", loop, V, above, rate, below=below, gain=gain, **more)  # type: ignore[arg-type]
 
 
+def converges(
+    loop: System,
+    V: Expr,
+    above: Expr,
+    below: Expr,
+    rate: Expr,
+    to_zero: Iterable[AnyVector],
+    **more: object,
+) -> Stable:
+    """Claim that the origin is stable, motions are bounded, and some states tend to 0: those that rate sees.
+
+    As `uniform`, but ``rate`` need not see every state.
+
+    Raises:
+        ValueError: a state of ``to_zero`` is not in ``rate``.
+    """
+    stable = _argued("convergence", loop, V, above, rate, below=below, **more)  # type: ignore[arg-type]
+    for letter in to_zero:
+        if letter.tree[1] not in stable.argument.seen(stable.argument.rate):
+            raise ValueError(f"to_zero: {expression_text(letter.tree)} is not in rate, so it may stay away")
+    return stable
+
+
 def cascade(
     loop: System, V: Expr, above: Expr, rate: Expr, motion: Expr, contraction: Expr, **more: object
 ) -> Stable:

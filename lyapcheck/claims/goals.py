@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lyapcheck.check.expressions.text import expression_text
-from lyapcheck.check.systems.system import OWN_NAMES, Entrywise, Member, State, System
+from lyapcheck.check.systems.system import OWN_NAMES, Entrywise, Member, Regressor, State, System
 from lyapcheck.claims.expressions import Expr, diff, exact_value, var
 from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, diagonal
 
@@ -104,6 +104,8 @@ class Goal:
     _functions: list[Entrywise] = field(default_factory=list)
     _states: list[State] = field(default_factory=list)
     _constants: list[str] = field(default_factory=list)
+    _regressors: list[Regressor] = field(default_factory=list)
+    _sizes: list[tuple[str, str]] = field(default_factory=list)
     _closed: bool = False
 
     e, w = any_vector("e"), any_vector("w")
@@ -154,9 +156,10 @@ class Goal:
         """q̈_d."""
         return any_vector("ddqd")
 
-    def gains(self, names: str) -> list[Gain]:
-        """Diagonal positive matrices, by names between spaces."""
+    def gains(self, names: str, size: str = "n") -> list[Gain]:
+        """Diagonal positive matrices, by names between spaces; ``size`` names another size than n."""
         self._gains += self._free(names)
+        self._sizes += [(name, size) for name in names.split() if size != "n"]
         return [_gain(name) for name in names.split()]
 
     def constants(self, names: str) -> list[Expr]:
@@ -164,11 +167,23 @@ class Goal:
         self._constants += self._free(names)
         return [var(name) for name in names.split()]
 
-    def state(self, name: str, rate: AnyVector) -> AnyVector:
-        """A vector of the controller's own, with its derivative."""
+    def known(self, name: str, columns: str, bounded: bool = False) -> AnyMatrix:
+        """A regressor: any continuous n × ``columns`` matrix of the states.
+
+        Args:
+            name: the letter.
+            columns: the name of a size, such as the number of unknown parameters.
+            bounded: True lets it depend on time too. It is bounded where the states are.
+        """
+        self._regressors += [Regressor(one, columns, bounded) for one in self._free(name)]
+        return any_matrix(name)
+
+    def state(self, name: str, rate: AnyVector, size: str = "n") -> AnyVector:
+        """A vector of the controller's own, with its derivative; ``size`` names another size than n."""
         if not isinstance(rate, AnyVector):
             raise TypeError(f"{name}: the derivative of a state is a vector, as in α * e; this is none")
         self._states += [State(one, rate.tree) for one in self._free(name)]
+        self._sizes += [(name, size)] if size != "n" else []
         return any_vector(name)
 
     def entrywise(self, name: str, of: AnyVector, bounded: bool = True) -> Function:
@@ -225,6 +240,8 @@ class Goal:
             self.desired,
             self.friction,
             self.disturbed,
+            tuple(self._regressors),
+            tuple(self._sizes),
         )
 
     def _free(self, names: str) -> list[str]:
@@ -240,6 +257,8 @@ class Goal:
                 raise ValueError(f"{name}: sizes and bounds have an underscore; take a name without one")
             functions = [f"{kind}{f.name}" for f in self._functions for kind in ("", "d", "U")]
             own = [*self._gains, *self._constants, *(state.name for state in self._states), *functions]
+            own += [name for one in self._regressors for name in (one.name, one.columns) if name != "n"]
+            own += dict(self._sizes).values()
             if name in OWN_NAMES or name in own or names.split().count(name) > 1:
                 taken = ", ".join(sorted({*OWN_NAMES, *own}, key=lambda one: (one.casefold(), one)))
                 raise ValueError(f"{name} is taken; take a name that is none of {taken}")

@@ -155,15 +155,23 @@ class Loop:
     goal: Array
     constants: dict[Any, Any]
     functions: dict[str, Function]
+    sizes: dict[str, int]
+    regressors: dict[str, Function]
+
+    @property
+    def ends(self):
+        """Where the states end in the whole state."""
+        each = [self.arm.n, self.arm.n, *(self.sizes.get(one.name, self.arm.n) for one in self.system.states)]
+        return np.cumsum(each)
 
     @property
     def size(self):
-        return self.arm.n * (2 + len(self.system.states))
+        return int(self.ends[-1])
 
     def rate(self, x):
         """The derivative of (e, w, further states) by the equation of motion of the arm."""
         n, arm, system = self.arm.n, self.arm, self.system
-        e, w, *more = np.split(x, self.size // n)
+        e, w, *more = np.split(x, self.ends[:-1])
         q, still = self.goal - e, np.zeros(n)
         at_goal = arm.g(self.goal)
         vectors = {"e": e, "w": w, "dqd": still, "ddqd": still, "g": arm.g(q), "gd": at_goal}
@@ -173,11 +181,14 @@ class Loop:
         nothing = np.zeros((n, n))
         matrices = {"M": arm.M(q), "C": arm.C(q, w), "D": nothing, "dD": nothing}
         matrices |= {"dM": arm.M(q) - arm.M(self.goal)}
+        matrices |= {name: own(x) for name, own in self.regressors.items()}
         known = self.constants | {("vec", k): v for k, v in vectors.items()}
+        known |= {("var", "s"): 1 / (1 + np.linalg.norm(e))}
         known |= {("mat", k): v for k, v in matrices.items()}
         torque = value(system.torque, known) + still
         moved = np.linalg.solve(arm.M(q), torque - arm.C(q, w) @ w - arm.g(q) - arm.viscous * w)
-        return np.concatenate([-w, moved, *(value(state.rate, known) + still for state in system.states)])
+        moving = [value(one.rate, known) + 0 * own for one, own in zip(system.states, more, strict=True)]
+        return np.concatenate([-w, moved, *moving])
 
     def slope(self):
         """The linearisation at the origin."""
@@ -191,9 +202,8 @@ def _loops(argument, random):
     for _ in range(TRIES):
         arm = _arm(random, system.friction)
         wide = random.choice((3, 30, 1000))
-        gains = {
-            name: np.array([_size(random, 1 / wide, wide) for _ in range(arm.n)]) for name in system.gains
-        }
+        sizes, regressors = _sized(system, arm.n, random)
+        gains = {name: np.array(_sizes(random, wide, sizes.get(name, arm.n))) for name in system.gains}
         constants, functions = dict(arm.constants), {}
         for name, own in {**gains, "B": arm.viscous}.items():
             ends = {"min": own.min(), "max": own.max(), "norm": np.linalg.norm(own)}
@@ -210,10 +220,26 @@ def _loops(argument, random):
         known |= {("vec", name): own for name, own in gains.items()} | {("vec", "B"): arm.viscous}
         gaps = [(value(one.right, known) - value(one.left, known), one.strict) for one in argument.where]
         if all(gap > 0 or (gap == 0 and not strict) for gap, strict in gaps):
-            yield Loop(system, arm, np.array([random.uniform(-3, 3) for _ in range(arm.n)]), known, functions)
+            goal = np.array([random.uniform(-3, 3) for _ in range(arm.n)])
+            yield Loop(system, arm, goal, known, functions, sizes, regressors)
             count += 1
         if count == ARMS:
             return
+
+
+def _sized(system, n, random):
+    """The sizes of gains and states that are not n, and regressors: smooth functions of the state."""
+    columns = {name: random.randint(1, 3) for _, name in system.sizes}
+    columns |= {one.columns: columns.get(one.columns, random.randint(1, 3)) for one in system.regressors}
+    columns["n"] = n
+
+    def regressor(width):
+        shift = np.array([[random.uniform(-2, 2) for _ in range(width)] for _ in range(n)])
+        slope = random.uniform(-1, 1)
+        return lambda x: np.cos(shift + slope * x[: 2 * n].sum())
+
+    regressors = {one.name: regressor(columns[one.columns]) for one in system.regressors}
+    return {name: columns[size] for name, size in system.sizes}, regressors
 
 
 def _function(f, random):
@@ -244,7 +270,7 @@ def _stable_arm(statement, random):
     known = {("vec", name): row for name, row in gains.items()} | {("vec", "B"): np.array(arm.viscous, float)}
     functions = {f.name: _function(f, random)[0] for f in argument.system.functions}
     goal = np.array([random.uniform(-3, 3) for _ in arm.mass])
-    loop = Loop(argument.system, Written(arm), goal, known, functions)
+    loop = Loop(argument.system, Written(arm), goal, known, functions, {}, {})
     try:
         fault = _fault(argument, loop, random)
     except KeyError:
@@ -278,13 +304,15 @@ def _fault(argument, loop, random):
         return f"an eigenvalue is {rightmost:.3g}"
     if argument.theorem in ("exponential", "ISS") and rightmost > -1e-12 * scale:
         return f"no decay: an eigenvalue is {rightmost:.3g}"
-    if argument.theorem in ("LaSalle", "strict") and _swings(loop, slope):
-        return "a linearisation swings for ever"
-    return "" if argument.local else _rests_elsewhere(loop, random)
+    fading = {"LaSalle": set(loop.system.moving), "convergence": argument.seen(argument.rate)}
+    if _swings(loop, slope, fading.get(argument.theorem, ())):
+        return "a linearisation does not fade"
+    comes = argument.theorem != "convergence" or "e" in argument.seen(argument.rate)
+    return _rests_elsewhere(loop, random) if comes and not argument.local else ""
 
 
-def _swings(loop, slope):
-    """Whether two eigenvalues are imaginary, or one is 0, as far as doubles tell.
+def _swings(loop, slope, fading):
+    """Whether an eigenvalue is imaginary, as far as doubles tell, and states that should fade move with it.
 
     Where gains differ too much, weak damping looks like none; so does that by a function that is flat at 0.
     """
@@ -292,8 +320,10 @@ def _swings(loop, slope):
     sizes = np.concatenate(gains or [[]])
     even = len(sizes) == 0 or sizes.max() < 1e3 * sizes.min()
     sloped = all(abs(function(np.array([1e-3]))[0]) > 1e-4 for function in loop.functions.values())
-    eigenvalues = np.linalg.eigvals(slope)
-    return bool(even and sloped and eigenvalues.real.max() > -1e-9 * np.abs(eigenvalues).max())
+    values, vectors = np.linalg.eig(slope)
+    lasting = vectors[:, values.real > -1e-9 * np.abs(values).max()]
+    parts = dict(zip(loop.system.moving, np.split(lasting, loop.ends[:-1]), strict=True))
+    return even and sloped and any(np.abs(parts[name]).max(initial=0) > 1e-4 for name in fading)
 
 
 def _rests_elsewhere(loop, random):

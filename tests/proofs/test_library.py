@@ -27,6 +27,10 @@ REFUSED = {
     "bounded_filter": dict.fromkeys(("leak", "order", "at once"), "undecided"),
     "kelly_filter": {"soft": "undecided", "turned": "refuted", "leak": "undecided"},
     "flexible_joints": dict.fromkeys(("soft", "undamped", "still"), "undecided"),
+    "adaptive_pd": dict.fromkeys(("any a", "turned", "learned", "asymptotic"), "undecided"),
+    "slotine_li_adaptive": dict.fromkeys(
+        ("printed", "turned", "unbounded", "learned", "exponential"), "undecided"
+    ),
 }
 """Claims that are there to be refused; all others are proved."""
 REASONS = {
@@ -37,6 +41,8 @@ REASONS = {
     ("tomei", "soft.pelican"): " < 10 is refuted",
     ("feedforward", "soft.pelican"): " < 10 is refuted",
     ("bounded_filter", "order"): "rest = w: must stand still before the step that uses it",
+    ("adaptive_pd", "asymptotic"): "has no letters of other sizes",
+    ("slotine_li_adaptive", "unbounded"): "must be bounded where q_d depends on time",
     ("flexible_joints", "still"): "rest = e: must stand still before the step that uses it",
 }
 
@@ -120,6 +126,18 @@ FAULTS = {
         ("K.max**2 < (K.min - k_g) * (K.min + K_p.min)", "k_g < K_p.min"),
         ("K @ (e - f) + goal.gravity_at_goal", "K @ (e + f) + goal.gravity_at_goal"),
         ("e=-w), step", "f=-w), step"),
+    ],
+    "adaptive_pd": [
+        ("(w - ε * e)", "(w + ε * e)"),
+        ("K_p @ e - K_v @ w + goal", "K_p @ e + K_v @ w + goal"),
+        ("a * (K_v.max + goal.B.max) ** 2 / 4 < K_p.min * d", "a * (K_v.max + goal.B.max) < K_p.min"),
+        (" + goal.gravity + Y", " + Y"),
+    ],
+    "slotine_li_adaptive": [
+        ("model + K @ s + Y", "model - K @ s + Y"),
+        ("adapt * transpose(Y) @ s", "adapt * transpose(Y) @ w"),
+        ("(goal.acceleration - Λ @ w)", "goal.acceleration"),
+        ("+ f @ G @ f / 2, goal", "- f @ G @ f / 2, goal"),
     ],
 }
 

@@ -63,6 +63,11 @@ class Stable(Total):
             least = "Φ" if argument.upper is not None else "V"
             conclusion = known.conclusion.removeprefix("globally ")
             conclusion += f", and attracts where ‖e‖ ≤ R and {least} is below the least φ on ‖e‖ = R,"
+        if argument.theorem == "convergence":
+            seen = argument.seen(argument.rate)
+            left = ", ".join(name for name in moving if name not in seen)
+            conclusion += f", and {', '.join(name for name in moving if name in seen)} → 0"
+            conclusion += f" (nothing is said of where {left} goes)" if left else ""
         return f"{origin} is {conclusion}"
 
     def text(self) -> str:
@@ -114,10 +119,16 @@ def energy_text(argument: Argument) -> str:
 def _over(argument: Argument) -> Iterator[str]:
     """Over what a conclusion runs."""
     system = argument.system
-    yield "every n"
+    sizes = {size: None for _, size in system.sizes} | {one.columns: None for one in system.regressors}
+    yield ", ".join(["every n", *(size for size in sizes if size != "n")])
+    for one in system.regressors:
+        of = "time and the states, bounded where they are" if one.bounded else "the states"
+        yield f"every continuous n × {one.columns} matrix {one.name} of {of}"
     yield f"every arm {FRICTION[system.friction]}"
     if system.gains:
         yield f"all diagonal {', '.join(system.gains)} > 0"
+    for name, size in system.sizes:
+        yield f"{name} of size {size}"
     if system.constants:
         yield f"all {', '.join(system.constants)} > 0"
     used = set().union(*(variables(relation.gap) for relation in argument.where))
@@ -162,8 +173,8 @@ def _granted(argument: Argument) -> Iterator[str]:
     disturbance = " + d with ‖d‖ ≤ delta" if system.disturbed else ""
     yield (
         f"the robot is M(q)q̈ + C(q,q̇)q̇{friction} + g(q) = τ{disturbance}, and 0 < mu ≤ λmin(M(q)), "
-        "‖M(q)‖ ≤ beta, ‖C(q,x)y‖ ≤ kc ‖x‖ ‖y‖ for all q, with Ṁ = C + Cᵀ; the torque is applied as it is, "
-        "and all in it is known exactly"
+        "‖M(q)‖ ≤ beta, ‖C(q,x)y‖ ≤ kc ‖x‖ ‖y‖ for all q, with Ṁ = C + Cᵀ; the torque is applied as it is"
+        + ("" if system.regressors else ", and all in it is known exactly")
     )
     yield f"the letters are {', '.join(_meanings(argument))}"
     if system.friction != "none":

@@ -63,6 +63,7 @@ class StableArm(Total):
         self.argument.require_well_formed()
         system, arm = self.argument.system, self.arm
         n = len(arm.mass)
+        require(not (system.regressors or system.sizes), "sizes", "", "are of no arm alone")
         require_mass(arm.mass, ())
         require_polynomials([arm.potential], n, ())
         names = [name for name, _ in self.gains]

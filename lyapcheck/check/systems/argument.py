@@ -14,7 +14,7 @@ from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import EPS0, SHARE, Form
-from lyapcheck.check.systems.system import System
+from lyapcheck.check.systems.system import G, System
 from lyapcheck.check.systems.theorems import THEOREMS
 
 
@@ -106,6 +106,16 @@ class Argument:
         require(known.upper == (self.upper is not None), "upper", "", "must be given where it is asked for")
         disturbed = system.disturbed == known.disturbed == (self.gain is not None)
         require(disturbed, "disturbance", "", "must be in the system, the theorem and its gain, or in none")
+        sized = bool(system.regressors or system.sizes)
+        require(
+            not sized or self.theorem == "convergence", "sizes", self.theorem, "has no letters of other sizes"
+        )
+        timed = system.desired and not all(one.bounded for one in system.regressors)
+        require(not timed, "regressor", "", "must be bounded where q_d depends on time")
+        for change in self.changes:
+            fits = system.shape(change.equals) == (system.size(change.state),)
+            require(fits, "change", change.state, "is of another size")
+        system.shape(self.energy)
         require(not (self.gravity and system.desired), "gravity", "", "has no energy where q_d(t) moves")
         local = self.theorem in ("strict", "LaSalle", "uniform", "exponential")
         require(not self.local or local, "local", self.theorem, "is no theorem with a region")
@@ -166,7 +176,8 @@ class Argument:
         trees = [tree for form in self.forms for tree in form.coefficients]
         trees += [relation.gap for relation in self.where]
         trees += [self.cascade.motion] if self.cascade is not None else []
-        return set().union(*map(variables, trees))
+        moved = {"ad", "kg"} if self.theorem == "convergence" and self.system.desired else set[str]()
+        return moved.union(*map(variables, trees))
 
     @property
     def changed(self) -> tuple[str, ...]:
@@ -225,6 +236,9 @@ class Argument:
             require(not left, "rest", ", ".join(sorted(left)), "must be seen where the rest stays 0")
         else:
             require(not self.to_rest, "rest", "", "is for LaSalle's theorem alone")
+            if self.theorem == "convergence":
+                self._require_continuous(seen)
+                seen = every
             rule = "must be seen: but for LaSalle's, a theorem asks for a rate in every state"
             require(seen == every, "rate", ", ".join(sorted(every - seen)), rule)
         if self.gain is not None:
@@ -247,6 +261,17 @@ class Argument:
                 require(
                     all(SHARE not in variables(tree) for tree in form.coefficients), "form", SHARE, "varies"
                 )
+
+    def _require_continuous(self, seen: Collection[str]) -> None:
+        """Motions of what tends to 0 are bounded where states are: g(q) alone has no bound there."""
+        require(len(seen) > 0, "rate", "", "must see a state")
+        for state in sorted(seen):
+            words = Words((), {}, {})
+            for word, factor in words.expand(self.system.motion(state)).items():
+                terms = terms_of(factor)
+                inner = (one for _, names in terms for name in names for one in words.seen.get(name, ()))
+                free = len(terms) > 0 and any(G in one for one in (word, *inner))
+                require(not free, "motion", state, "has g(q), which has no bound for q_d(t)")
 
     def _require_steps(self) -> None:
         """Each is about states that stand still; and what it says stands still does."""

@@ -14,7 +14,7 @@ References: ``reyes2019family`` (1), (11), Properties 2.1 to 2.8.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from lyapcheck.check.expressions.expression import Tree
@@ -75,6 +75,18 @@ class State:
 
 
 @dataclass(frozen=True)
+class Regressor:
+    """An n × columns matrix that a controller knows: any continuous function of the states.
+
+    If ``bounded``, of time too, and bounded wherever the states are.
+    """
+
+    name: str
+    columns: str
+    bounded: bool
+
+
+@dataclass(frozen=True)
 class System:
     """The arm (1) under a torque.
 
@@ -88,6 +100,8 @@ class System:
         friction: what the arm has: ``positive`` for a diagonal positive B, ``any`` for one that may vanish,
             ``none`` for B = 0.
         disturbed: whether an unknown torque d, ‖d‖ <= delta, acts beside τ.
+        regressors: matrices of which nothing more is known.
+        sizes: of gains and states that are not of size n, each with the name of its size.
     """
 
     torque: Tree
@@ -98,11 +112,17 @@ class System:
     desired: bool
     friction: str
     disturbed: bool = False
+    regressors: tuple[Regressor, ...] = field(default=(), metadata={"left_out": True})
+    sizes: tuple[tuple[str, str], ...] = field(default=(), metadata={"left_out": True})
 
     def require_well_formed(self) -> None:
         """Refuse names given twice, letters that nothing is known of, and functions of what is no state."""
         names = [*self.gains, *self.constants, *(state.name for state in self.states)]
         names += [f"{prefix}{f.name}" for f in self.functions for prefix in ("", "d", "U")]
+        names += [one.name for one in self.regressors]
+        of_own = dict(self.sizes)
+        own = {*of_own.values(), *(one.columns for one in self.regressors)} - {"n"}
+        names += sorted(own)
         for name in names:
             require(names.count(name) == 1 and name not in OWN_NAMES, "name", name, "is taken")
             require("_" not in name, "name", name, "must have no underscore: sizes and bounds have one")
@@ -112,14 +132,43 @@ class System:
             require(f.of in self.moving, "function", f.name, f"is of {f.of!r}, which is no state")
             fits = f.member is None or f.bounded == (f.member.gamma is not None)
             require(fits, "function", f.name, "is said to be bounded, or not, against its numbers")
-        for tree in (self.torque, *(state.rate for state in self.states)):
+        sized = {*self.gains, *(state.name for state in self.states)}
+        fits = len(of_own) == len(self.sizes) and of_own.keys() <= sized and "n" not in of_own.values()
+        require(fits, "sizes", ", ".join(of_own), "must be of gains and states, once each, and not n")
+        for tree, size in ((self.torque, "n"), *((one.rate, self.size(one.name)) for one in self.states)):
             require_sort(tree, "vector")
             self.require_letters(tree, self.known, "the torque and the states")
+            require(self.shape(tree) == (size,), "size", size, "must be that of the torque or the rate")
 
     def require_letters(self, tree: Tree, known: Collection[Tree], where: str) -> None:
         """Refuse a letter that is not known."""
         for letter in sorted(letters(tree)):
             require(letter in known, "letter", letter[1], f"has no meaning in {where} of this system")
+
+    def size(self, name: str) -> str:
+        """That of a vector: of a function, a potential or a changed letter that of its state."""
+        owner = {name: f.of for f in self.functions for name in (f.name, f"d{f.name}", f"U{f.name}")}
+        name = name.removeprefix("y_")
+        return dict(self.sizes).get(owner.get(name, name), "n")
+
+    def shape(self, tree: Tree) -> tuple[str, ...]:
+        """Rows, and columns if it is a matrix; none of a number. Refused where parts do not fit together.
+
+        Soundness: what is proved for square matrices and all n holds for sizes that fit. With zeros put in up
+        to the largest size, products, sums, norms, forms and functions that are 0 at 0 stay as they are.
+        """
+        kind, *rest = tree
+        if kind in ("vec", "diag"):
+            return (self.size(rest[0]),) * (1 if kind == "vec" else 2)
+        if kind == "mat":
+            return ("n", {one.name: one.columns for one in self.regressors}.get(rest[0], "n"))
+        parts = [self.shape(part) for part in rest if isinstance(part, tuple)]
+        fits = parts[0][1:] == parts[1] if kind == "apply" else kind == "scale" or len(set(parts)) <= 1
+        require(fits, "size", kind, "is of parts whose sizes do not fit")
+        if kind == "scale":
+            return parts[1]
+        whole = {"transpose": slice(None, None, -1), "apply": slice(1), "sum": slice(None)}
+        return (*parts, ("n",))[0][whole[kind]] if kind in whole else ()
 
     @property
     def moving(self) -> tuple[str, ...]:
@@ -137,7 +186,8 @@ class System:
         vectors = {*self.moving, *self.diagonal, *(f.name for f in self.functions)}
         vectors |= {"g", "dg", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
         matrices = {"M", "C", "D", "dM", "dD"} if self.desired else {"M", "C"}
-        result = {("vec", name) for name in vectors} | {("mat", name) for name in matrices}
+        matrices |= {one.name for one in self.regressors}
+        result = {("vec", name) for name in vectors} | {("mat", name) for name in matrices} | {S}
         return frozenset(result | {("var", name) for name in self.constants})
 
     @property

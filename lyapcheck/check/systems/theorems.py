@@ -20,6 +20,11 @@ constants); V is C¹. Then
   of ‖e‖², e is bounded too, and goes to 0 if y does. So motions go on for all time, and ‖M ẏ‖, at most a
   polynomial in sizes, is bounded: y is uniformly continuous. ψ is positive definite with constants and sees
   y, so ‖y‖² has a finite integral. By Barbalat's lemma y → 0; then e → 0 and w → 0. Stability is not said.
+- convergence: as uniform, but ψ sees some states only, and conclusions are less. V falls, so the origin is
+  stable and all motions are bounded, and go on for all time. The motions of states that ψ sees are then
+  bounded (M⁻¹ by 1/mu; all letters but g(q) where states are, with ‖q̈_d‖ <= ad and ‖dg‖ <= kg ‖e‖), so ψ
+  is uniformly continuous. Its integral is at most V at first. By Barbalat's lemma ψ → 0; so do the states
+  that it sees.
 
 ``local``: dV/dt <= −ψ as long as ‖e‖ <= R. Where ‖e‖ <= R and V is below the least φ on ‖e‖ = R, it stays so;
 with time in V, where Φ is below it, whatever the initial time.
@@ -77,6 +82,13 @@ THEOREMS = {
         timed=True,
         upper=True,
         disturbed=True,
+    ),
+    "convergence": Theorem(
+        "the theorem of LaSalle and Yoshizawa",
+        "globally uniformly stable, and all motions are bounded",
+        "khalil2002nonlinear, theorem 8.4",
+        timed=True,
+        upper=True,
     ),
     "cascade": Theorem(
         "Barbalat's lemma and a cascade",
