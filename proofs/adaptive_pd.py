@@ -3,7 +3,7 @@
 g(q) = Y(q)π is linear in unknown parameters π of the links and of what they hold. Their error is Gf = π̂ −
 π, with df/dt = −Yᵀ(q̇ − ε q̃) and ε = a/(1 + ‖q̃‖), so that τ = K_p q̃ − K_v q̇ + g(q) + Y G f. V is the
 energy with a cross term and ½fᵀGf: no parameter is left in dV/dt, and q̃ tends to 0. Parameters may stay
-wrong. The scheme follows Tomei (1991), whose text was not at hand: his multiplier may be another. """
+wrong. The scheme follows Tomei (1991), whose text was not at hand: his multiplier may be another."""
 
 from lyapcheck.claims import Proof, constant_goal, converges, norm, strict, transpose
 

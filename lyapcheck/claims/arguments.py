@@ -106,7 +106,7 @@ def converges(
 ) -> Stable:
     """Claim that the origin is stable, motions are bounded, and some states tend to 0: those that rate sees.
 
-    As `uniform`, but ``rate`` need not see every state.
+    As `uniform`, but ``rate`` may see some states only.
 
     Raises:
         ValueError: a state of ``to_zero`` is not in ``rate``.

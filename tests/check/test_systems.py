@@ -491,7 +491,7 @@ def test_what_differs_between_the_arm_and_its_goal():
 def test_a_theorem_that_the_checker_does_not_know():
     argument = replace(PD().argued().argument, theorem="magic")
     assert "is not one that the checker knows" in why(Stable(argument))
-    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential", "ISS", "cascade"}
+    assert set(THEOREMS) == {"strict", "LaSalle", "uniform", "exponential", "ISS", "cascade", "convergence"}
 
 
 def test_conditions_that_nothing_meets_show_nothing():
