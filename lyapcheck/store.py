@@ -16,7 +16,7 @@ import stat
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -119,7 +119,23 @@ def _versions() -> tuple[tuple[str, str], ...]:
 
 def exact(*subjects: object) -> str:
     """The digest of what some objects show of themselves, such as arms and gains all their exact numbers."""
-    return hashlib.sha256(repr(subjects).encode("utf-8", "surrogatepass")).hexdigest()
+    return hashlib.sha256(_spelled(subjects).encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def _spelled(subject: Any) -> str:
+    """All fields of a record and of its parts, whatever its own ``repr`` leaves out."""
+    if is_dataclass(subject) and not isinstance(subject, type):
+        known = [(one, getattr(subject, one.name)) for one in fields(subject) if one.repr]
+        kept = [(one.name, value) for one, value in known if value or not one.metadata.get("left_out")]
+        inner = ", ".join(f"{name}={_spelled(value)}" for name, value in kept)
+        return f"{type(subject).__qualname__}({inner})"
+    if type(subject) is tuple:
+        return f"({', '.join(map(_spelled, subject))}{',' if len(subject) == 1 else ''})"
+    if type(subject) is list:
+        return f"[{', '.join(map(_spelled, subject))}]"
+    if type(subject) is dict:
+        return f"{{{', '.join(f'{_spelled(key)}: {_spelled(value)}' for key, value in subject.items())}}}"
+    return repr(subject)
 
 
 @cache

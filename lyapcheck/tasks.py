@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.errors import argument_error
+from lyapcheck.errors import InputError, argument_error
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -222,4 +223,13 @@ def _task(
 
     goal = [45.0] * model.n if target is None else target
     first = None if start is None else [math.radians(x) for x in start]
-    return task_for(model.n, [math.radians(x) for x in goal], first, None, seconds)
+    try:
+        return task_for(model.n, [math.radians(x) for x in goal], first, None, seconds)
+    except InputError as error:
+        given = {"target_rad": ("target_deg", goal), "start_rad": ("start_deg", start or ())}
+        problems = []
+        for one in error.problems:
+            key, values = given.get(one.key, (one.key, None))
+            value = one.value if values is None else ", ".join(f"{x:g}" for x in values)
+            problems.append(replace(one, key=key, value=value))
+        raise InputError(problems) from None

@@ -40,11 +40,11 @@ BAND = 1.0
 _OPTIONS = {
     "T": "--time",
     "eps0": "--eps0",
-    "band": "--band",
+    "band_rad": "--band",
     "reference": "--reference",
-    "w0": "--velocity",
-    "q0": "--start",
-    "q_d": "--target",
+    "velocity_rad": "--velocity",
+    "start_rad": "--start",
+    "target_rad": "--target",
 }
 _NEEDS = {"--spread": "--runs", "--seed": "--runs", "--band": "--reference"}
 _CLASHES = (

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.family.base import LARGEST_M, names
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 from lyapcheck.files.toml import GAINS, KeyPath, Place, TomlFile, open_document, require_kind
@@ -76,6 +77,11 @@ class GainSet:
     angle_unit: str = "rad"
     index: int = 0
     condition: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        kp, kv = (", ".join(map(decimal_text, row)) for row in (self.kp, self.kv))
+        member = self.family if self.m is None else f"m = {self.m}"
+        return f"<GainSet: {self.name}, {member}, kp = [{kp}], kv = [{kv}]>"
 
     @property
     def n(self) -> int:

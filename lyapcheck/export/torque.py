@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 def torque(
     gain_set: GainSet | str | Path,
     model: RobotModel | str | Path,
-    q: ArrayLike,
-    w: ArrayLike,
-    q_d: ArrayLike,
+    q_rad: ArrayLike,
+    velocity_rad: ArrayLike,
+    target_rad: ArrayLike,
 ) -> Array:
     """τ = K_p h(q_d − q) − K_v h(w) + g(q), N·m, without overflow at any finite q, w and q_d.
 
     Args:
         gain_set: the controller, or the path of a gain file with one gain set.
         model: the arm, its name or its file; uncertain parameters are at their nominal values.
-        q: (..., n) angles in rad.
-        w: (..., n) rates in rad/s.
-        q_d: (..., n) goals in rad.
+        q_rad: (..., n) angles in rad.
+        velocity_rad: (..., n) velocities in rad/s.
+        target_rad: (..., n) goals in rad.
 
     Raises:
         InputError: gains or arrays for another number of joints.
@@ -45,8 +45,8 @@ def torque(
     """
     arm = arm_of(model)
     gains = gains_for(one_gain_set(gain_set), arm.n)
-    places = [np.asarray(x, dtype=np.float64) for x in (q, w, q_d)]
-    for name, x in zip(("q", "w", "q_d"), places, strict=True):
+    places = [np.asarray(x, dtype=np.float64) for x in (q_rad, velocity_rad, target_rad)]
+    for name, x in zip(("q_rad", "velocity_rad", "target_rad"), places, strict=True):
         if x.shape[-1:] != (arm.n,):
             rule = f"has the shape {x.shape}, and its last axis must be the {arm.n} joints"
             raise argument_error(name, "", rule, f"give arrays of the shape (..., {arm.n})")

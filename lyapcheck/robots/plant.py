@@ -206,6 +206,10 @@ class RobotModel(Plant):
     printed: PrintedTorques | None = None
     loop: LoopEntry = NOTHING
 
+    def __repr__(self) -> str:
+        assumed = sum(number.assumed for number in self.numbers.values())
+        return f"<RobotModel: {self.name}, {self.n} joints, {assumed} of {len(self.numbers)} numbers assumed>"
+
     @property
     def dry(self) -> bool:
         """Whether the file gives dry friction to a joint."""

@@ -197,9 +197,9 @@ POINTS = 2001
 def simulate(
     gain_set: GainSet | str | Path,
     model: RobotModel | str | Path,
-    q_d: Sequence[float],
-    q0: Sequence[float] | None = None,
-    w0: Sequence[float] | None = None,
+    target_rad: Sequence[float],
+    start_rad: Sequence[float] | None = None,
+    velocity_rad: Sequence[float] | None = None,
     T: float = 5.0,
     *,
     eps0: float | None = None,
@@ -217,9 +217,9 @@ def simulate(
     Args:
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
         model: the arm, its name or its file; uncertain parameters have nominal values.
-        q_d: (n,) goal in rad.
-        q0: (n,) start in rad. Default: 0.
-        w0: (n,) initial velocities in rad/s. Default: 0.
+        target_rad: (n,) goal in rad.
+        start_rad: (n,) start in rad. Default: 0.
+        velocity_rad: (n,) initial velocities in rad/s. Default: 0.
         T: seconds.
         eps0: the ε₀ of V. Default: 0, and V is the energy.
         points: number of returned samples, evenly spaced with both ends. Indices and violations use the
@@ -240,7 +240,7 @@ def simulate(
     References: (6), (11), (12), (20) of ``reyes2019family``.
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
-    setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0, points=points)
+    setup = set_up(gain_set, model, target_rad, start_rad, velocity_rad, T=T, eps0=eps0, points=points)
     return SetPoint(setup, points).moved(tolerance, max_steps, stop, on_progress or silent)
 
 

@@ -71,9 +71,9 @@ def task_for(
         InputError: every value that is not finite, too large, or of the wrong length; all at once.
     """
     problems = [
-        *_vector_problems("q_d", q_d, n, FARTHEST, "rad"),
-        *_vector_problems("q0", q0, n, FARTHEST, "rad"),
-        *_vector_problems("w0", w0, n, FASTEST, "rad/s"),
+        *_vector_problems("target_rad", q_d, n, FARTHEST, "rad"),
+        *_vector_problems("start_rad", q0, n, FARTHEST, "rad"),
+        *_vector_problems("velocity_rad", w0, n, FASTEST, "rad/s"),
     ]
     if not SHORTEST <= T <= LONGEST:
         rule = f"must be from {SHORTEST:g} to {LONGEST:g} s"

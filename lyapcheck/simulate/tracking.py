@@ -122,9 +122,7 @@ def request_for(
         problems += error.problems
     if not 0.0 < band <= math.pi:
         rule = "must be more than 0 and at most 180°"
-        problems.append(
-            argument_problem("band", f"{math.degrees(band):g}", rule, "give degrees, for instance 1")
-        )
+        problems.append(argument_problem("band_rad", f"{math.degrees(band):g}°", rule, "choose about 1°"))
     if reference is not None:
         problems += _reference_problems(n, reference)
     if problems:
@@ -288,12 +286,12 @@ def track(
     gain_set: GainSet | str | Path,
     model: RobotModel | str | Path,
     reference: Reference,
-    q0: Sequence[float] | None = None,
-    velocity: Sequence[float] | None = None,
+    start_rad: Sequence[float] | None = None,
+    velocity_rad: Sequence[float] | None = None,
     T: float | None = None,
     *,
     eps0: float | None = None,
-    band: float = BAND,
+    band_rad: float = BAND,
     points: int = POINTS,
     tolerance: float = TOLERANCE,
     max_steps: int = MAX_STEPS,
@@ -310,11 +308,11 @@ def track(
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
         model: the arm, its name or its file; uncertain parameters are at their nominal values.
         reference: q_d(t).
-        q0: (n,) start in rad. Default: 0.
-        velocity: (n,) initial q̇ in rad/s. Default: 0.
+        start_rad: (n,) start in rad. Default: 0.
+        velocity_rad: (n,) initial q̇ in rad/s. Default: 0.
         T: seconds. Default: the duration of the reference.
         eps0: the ε₀ of V. Default: half of the largest with Θ' positive definite at v_d.
-        band: rad, for the time from which on each |e_i| stays within it.
+        band_rad: rad, for the time from which on each |e_i| stays within it.
         points: number of returned samples, evenly spaced with both ends.
         tolerance: relative tolerance of the first integration.
         max_steps: a budget for each integration.
@@ -343,6 +341,7 @@ def track(
     References: (13), (20), (21) of ``reyes2019family``; ``proofs/tracking.py``.
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
-    task = request_for(model.n, reference, q0, velocity, T, eps0=eps0, band=band, points=points)
-    course = Tracking(gain_set, model, reference, task, eps0=eps0, band=band, points=points)
+    way = (reference, start_rad, velocity_rad, T)
+    task = request_for(model.n, *way, eps0=eps0, band=band_rad, points=points)
+    course = Tracking(gain_set, model, reference, task, eps0=eps0, band=band_rad, points=points)
     return course.moved(tolerance, max_steps, stop, on_progress or silent)

@@ -47,9 +47,9 @@ RUNAWAY = 1e6
 def experiment(
     gain_set: GainSet | str | Path,
     model: RobotModel | str | Path,
-    q_d: Sequence[float],
-    q0: Sequence[float] | None = None,
-    w0: Sequence[float] | None = None,
+    target_rad: Sequence[float],
+    start_rad: Sequence[float] | None = None,
+    velocity_rad: Sequence[float] | None = None,
     T: float = 5.0,
     *,
     eps0: float | None = None,
@@ -63,9 +63,9 @@ def experiment(
     Args:
         gain_set: the controller, of any family, or the path of a gain file with one gain set.
         model: the arm, its name or its file; uncertain parameters and friction at nominal values.
-        q_d: (n,) goal in rad.
-        q0: (n,) start in rad. Default: 0.
-        w0: (n,) initial velocities in rad/s. Default: 0.
+        target_rad: (n,) goal in rad.
+        start_rad: (n,) start in rad. Default: 0.
+        velocity_rad: (n,) initial velocities in rad/s. Default: 0.
         T: seconds, cut to whole periods.
         eps0: the ε₀ of V. Default: 0, and V is the energy.
         bench: the loop as it is run.
@@ -85,7 +85,7 @@ def experiment(
     References: ``reyes2019family``, Section 4 and Table 1.
     """
     gain_set, model = one_gain_set(gain_set), arm_of(model)
-    setup = set_up(gain_set, model, q_d, q0, w0, T=T, eps0=eps0)
+    setup = set_up(gain_set, model, target_rad, start_rad, velocity_rad, T=T, eps0=eps0)
     periods = math.floor(T / bench.T * (1 + 1e-12))
     if not 1 <= periods < MOST_POINTS:
         rule = f"is shorter than one period of {bench.T} s" if periods < 1 else f"has {periods} periods"

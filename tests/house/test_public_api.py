@@ -5,6 +5,7 @@ import doctest
 import inspect
 import subprocess
 import sys
+from dataclasses import replace
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
@@ -12,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import lyapcheck
-from lyapcheck import _HOMES
+from lyapcheck import _HOMES, store
 from lyapcheck import __all__ as PUBLIC
 from tests.helpers.shares import but
 
@@ -101,3 +102,32 @@ def test_the_examples_of_the_documentation_are_true(home):
     failed, tried = doctest.testmod(import_module(f"lyapcheck.{home}"))
     assert failed == 0
     assert tried > 0
+
+
+ANGLES = {"q", "w", "e", "q0", "w0", "q_d", "target", "start", "goal", "velocity", "band", "within"}
+
+
+@pytest.mark.parametrize("name", [name for name in OBJECTS if inspect.isfunction(getattr(lyapcheck, name))])
+def test_an_argument_that_is_an_angle_names_its_unit(name):
+    value = getattr(lyapcheck, name)
+    names = inspect.signature(value).parameters
+    assert not ANGLES & set(names)
+    for argument in names:
+        if argument.endswith(("_rad", "_deg")):
+            (said,) = (line for line in value.__doc__.splitlines() if line.strip().startswith(f"{argument}:"))
+            assert "rad" in said if argument.endswith("_rad") else "deg" in said or "angle" in said
+
+
+def test_gains_and_arms_print_as_one_short_line():
+    gains = lyapcheck.read_gain_file(lyapcheck.paper_gain_file("table2")).gains[0]
+    assert repr(gains) == "<GainSet: tau_m1, m = 1, kp = [28, 60, 5], kv = [0.233, 0.233, 0.233]>"
+    assert repr(lyapcheck.load_robot("buap3")) == "<RobotModel: buap3, 3 joints, 10 of 18 numbers assumed>"
+
+
+def test_what_is_kept_of_an_arm_has_its_own_key():
+    """A digest is of all numbers, although the arm prints as one line."""
+    arm = lyapcheck.load_robot("pendulum1")
+    (name, number), *_ = arm.numbers.items()
+    other = replace(arm, numbers={**arm.numbers, name: replace(number, value=number.value * 2)})
+    assert repr(arm) == repr(other)
+    assert store.exact(arm) != store.exact(other)

@@ -89,7 +89,7 @@ def test_the_torque_at_the_start_is_that_of_the_gains():
 def test_every_arm_and_family_balances_its_energy(name, family):
     model = robots.load(name)
     run = simulate(
-        gains(model.n, family=family), model, [1.0] * model.n, w0=[2.0] * model.n, T=1.0, points=201
+        gains(model.n, family=family), model, [1.0] * model.n, velocity_rad=[2.0] * model.n, T=1.0, points=201
     )
     assert run.energy_balance < 1e-9
     assert run.accuracy < 1e-7
@@ -133,7 +133,7 @@ def test_a_V_that_is_no_lyapunov_function_is_seen_to_rise():
 
 def test_at_the_goal_nothing_moves():
     model = robots.load("buap3")
-    run = simulate(TABLE2[0], model, [0.3, -0.2, 1.0], q0=[0.3, -0.2, 1.0], T=2.0, eps0=0.1)
+    run = simulate(TABLE2[0], model, [0.3, -0.2, 1.0], start_rad=[0.3, -0.2, 1.0], T=2.0, eps0=0.1)
     assert np.all(run.e == 0.0)
     assert np.all(run.V == 0.0)
     assert np.all(run.dV == 0.0)
@@ -147,7 +147,14 @@ def test_at_the_goal_nothing_moves():
 def test_no_motion_leaves_the_torque_bound_or_gains_energy(start, m):
     model = robots.load("reyes-kelly2")
     run = simulate(
-        gains(2, m=m), model, [0.0, 0.0], q0=start[:2], w0=start[2:], T=1.0, points=101, stop=False
+        gains(2, m=m),
+        model,
+        [0.0, 0.0],
+        start_rad=start[:2],
+        velocity_rad=start[2:],
+        T=1.0,
+        points=101,
+        stop=False,
     )
     assert run.promises.inside_bound
     assert run.promises.torque_norm <= run.promises.torque_bound
@@ -196,13 +203,13 @@ def test_a_solution_that_ends_in_finite_time_is_cut_short():
 
 
 BAD = [
-    ({"q_d": [1.0]}, "q_d"),
-    ({"q_d": [math.nan, 0.0]}, "q_d"),
-    ({"q_d": [1e9, 0.0]}, "q_d"),
-    ({"q0": [0.0, 0.0, 0.0]}, "q0"),
-    ({"q0": [0.0, math.inf]}, "q0"),
-    ({"w0": [math.nan, 0.0]}, "w0"),
-    ({"w0": [1e4, 0.0]}, "w0"),
+    ({"target_rad": [1.0]}, "target_rad"),
+    ({"target_rad": [math.nan, 0.0]}, "target_rad"),
+    ({"target_rad": [1e9, 0.0]}, "target_rad"),
+    ({"start_rad": [0.0, 0.0, 0.0]}, "start_rad"),
+    ({"start_rad": [0.0, math.inf]}, "start_rad"),
+    ({"velocity_rad": [math.nan, 0.0]}, "velocity_rad"),
+    ({"velocity_rad": [1e4, 0.0]}, "velocity_rad"),
     ({"T": 0.0}, "T"),
     ({"T": -1.0}, "T"),
     ({"T": math.nan}, "T"),
@@ -216,7 +223,7 @@ BAD = [
 
 @pytest.mark.parametrize(("change", "key"), BAD, ids=[f"{key}-{i}" for i, (_, key) in enumerate(BAD)])
 def test_impossible_requests_are_refused_by_name(change, key):
-    request = {"q_d": [1.0, 1.0], **change}
+    request = {"target_rad": [1.0, 1.0], **change}
     with pytest.raises(InputError) as refused:
         simulate(gains(2), robots.load("reyes-kelly2"), **request)
     assert [problem.key for problem in refused.value.problems] == [key]

@@ -109,7 +109,7 @@ def test_every_family_keeps_its_promises_and_balances_its_energy(name, family):
 
 def test_an_arm_that_starts_on_the_reference_stays_on_it():
     first = WAVE.at(np.zeros(1))[0]
-    run = run_of(q0=first[0], velocity=first[1])
+    run = run_of(q0=first[0], velocity_rad=first[1])
     assert np.max(np.abs(run.e)) < 1e-10
     assert run.indices.entered.tolist() == [0.0, 0.0, 0.0]
     assert run.V[-1] < 1e-15
@@ -217,7 +217,7 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
 @settings(max_examples=8)
 @given(start=st.lists(st.floats(-1.5, 1.5), min_size=6, max_size=6), m=st.integers(1, 4))
 def test_no_motion_leaves_the_bounds_of_the_torque(start, m):
-    run = run_of(gains(3, m, 20, 2), q0=start[:3], velocity=start[3:], T=0.5, points=51, stop=False)
+    run = run_of(gains(3, m, 20, 2), q0=start[:3], velocity_rad=start[3:], T=0.5, points=51, stop=False)
     most = np.array([float(x) for x in run.promise.torque.total])
     assert np.all(run.indices.peak_torque <= most)
     assert np.linalg.norm(run.w, axis=1).max() <= float(run.promise.torque.error_rate)
@@ -248,9 +248,9 @@ def test_a_spent_budget_keeps_what_was_reached():
 
 
 BAD = [
-    ({"q0": [1.0]}, ["q0"]),
-    ({"velocity": [math.nan, 0, 0]}, ["w0"]),
-    ({"T": 0.0, "eps0": -1.0, "band": 0.0}, ["T", "band", "eps0"]),
+    ({"q0": [1.0]}, ["start_rad"]),
+    ({"velocity_rad": [math.nan, 0, 0]}, ["velocity_rad"]),
+    ({"T": 0.0, "eps0": -1.0, "band_rad": 0.0}, ["T", "band_rad", "eps0"]),
     ({"reference": TWO}, ["reference"]),
     ({"reference": Sine(row(30, 30, 30), row(900, 900, 900), row(0, 0, 0), row(0, 0, 0))}, ["reference"]),
 ]

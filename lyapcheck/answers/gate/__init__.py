@@ -28,7 +28,7 @@ def gate(
     arms: dict[str, ArmLimits] | None = None,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
-    within: Fraction | None = None,
+    within_deg: Fraction | None = None,
 ) -> GateAnswer:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
@@ -41,7 +41,7 @@ def gate(
         arms: arms already read, by name, for many files on one arm. Arms that are read now are added.
         on_progress: receives the fraction done, and the certificate in search.
         loop: the sampled loop, which replaces the loop in the files.
-        within: degrees. Search a proof for starts at rest within this range, at exactly this period.
+        within_deg: degrees. Search a proof for starts at rest within this range, at exactly this period.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
@@ -58,5 +58,5 @@ def gate(
         ['accepted', 'rejected', 'rejected']
     """
     file = gain_file_of(gain_file)
-    more: dict[str, Any] = {"on_progress": on_progress, "loop": loop, "within": within}
+    more: dict[str, Any] = {"on_progress": on_progress, "loop": loop, "within": within_deg}
     return GateAnswer(judged_sets(file, robot, deciding, gamma, strict, arms, **more))

@@ -227,7 +227,7 @@ def follow(
     from lyapcheck.simulate.tracking import track
 
     runs: list[TrackingRun] = []
-    mover = partial(track, eps0=eps0, band=band, stop=stop)
+    mover = partial(track, eps0=eps0, band_rad=band, stop=stop)
     for gain_set, told in job.each():
         way = (gain_set, job.model, reference, task.q0, task.w0, task.T)
         runs.append(job.moved(gain_set, partial(mover, *way, on_progress=told)))
