@@ -178,7 +178,7 @@ def test_any_arguments_are_refused_or_within_the_bound(
     one.hold(*rows)
 
 
-@pytest.mark.parametrize("m", [*range(1, 10), 100, 100_000])
+@pytest.mark.parametrize("m", [*range(1, 10), 100, 10_000])
 def test_the_seams_of_h_for_every_m(m: int, compiled: Callable[..., Compiled]) -> None:
     """Where the branch, the k of the reduction and the flat end change, by single doubles; and far beyond."""
     one = compiled(m=m)
