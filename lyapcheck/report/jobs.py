@@ -185,9 +185,7 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRow, dict[str, str]]:
     """The four ε₀, rounded to the safe side, and why one is missing; and their certificates."""
-    from lyapcheck.answers.epsilon.certificates import certificates
-    from lyapcheck.answers.epsilon.kept import kept_epsilon
-    from lyapcheck.answers.epsilon.options import Options
+    from lyapcheck.answers.epsilon import Options, certificates, kept_epsilon
 
     if lacking := without_friction(gain_set, model):
         blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(EpsilonRow))
@@ -200,9 +198,9 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
     row = EpsilonRow(
         name=result.name,
         m=result.m,
-        robot=result.robot,
+        robot=model.name,
         certified_by=result.certified_by or None,
-        assumptions=tuple(result.assumptions),
+        assumptions=model.assumptions,
         seed=result.seed,
         published=rounded(result.published, up=False),
         scalar=rounded(result.scalar, up=False),

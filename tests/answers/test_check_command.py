@@ -60,7 +60,7 @@ def test_gain_sets_that_are_left_out_are_told(tmp_path):
 
 def test_what_is_assumed_about_an_arm_is_said_where_a_claim_looks_at_it(tmp_path):
     said = {
-        claim: "assumptions about buap3"
+        claim: "numbers of this arm are assumed"
         in lyapcheck("check", "published.py", "--only", claim, folder=tmp_path).stdout
         for claim in ("2.7", "19")
     }

@@ -7,10 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.epsilon.compute import epsilon
-from lyapcheck.answers.epsilon.forms import by_forms
-from lyapcheck.answers.epsilon.four import Contradiction, findings, require_consistent
-from lyapcheck.answers.epsilon.result import EpsilonResults
+from lyapcheck.answers.epsilon import Contradiction, EpsilonResults, epsilon
+from lyapcheck.answers.epsilon.compute import by_forms, findings, require_consistent
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file

@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 
-from lyapcheck.answers.epsilon import epsilon
-from lyapcheck.answers.epsilon.certificates import certificates
+from lyapcheck.answers.epsilon import certificates, epsilon
 from lyapcheck.check.certificate import digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lyapcheck.answers.epsilon.forms import by_forms
-from lyapcheck.answers.epsilon.forms import proof_of as scalar_proof_of
+from lyapcheck.answers.epsilon.compute import by_forms
+from lyapcheck.answers.epsilon.compute import proof_of as scalar_proof_of
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds

@@ -9,10 +9,7 @@ from functools import cache
 import pytest
 
 from lyapcheck import store
-from lyapcheck.answers.epsilon import epsilon, kept
-from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.answers.epsilon.kept import kept_epsilon
-from lyapcheck.answers.epsilon.options import Options
+from lyapcheck.answers.epsilon import Options, certificates, epsilon, kept, kept_epsilon
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary

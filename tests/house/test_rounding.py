@@ -33,9 +33,8 @@ BESIDE_PROOF = {
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
 SEEN = {
-    "answers/epsilon/result.py:data": "seconds of computing",
-    "answers/epsilon/result.py:_row": "seconds of computing",
-    "answers/epsilon/words.py:remarks": "the size of a speed where no arm comes",
+    "answers/epsilon/answer.py:data": "seconds of computing",
+    "answers/epsilon/answer.py:_every": "seconds of computing",
     "answers/robot/answer.py:constant_data": "the gap of numeric ends",
     "answers/robot/answer.py:_state_rows": "the angles of a witness, whole in the data",
     "answers/tune/response/trial.py:__post_init__": "the largest value that may be asked",

@@ -211,6 +211,7 @@ class ProofResult(Answer):
         timings: True prints the seconds of each claim.
         extent: ``short``, ``failed`` for all that is not proved with its evidence, or ``all``.
         elsewhere: another script and its claim that proves a theorem which this proof leaves open.
+        assumed: how many numbers of the arm are assumed, as every answer says it.
     """
 
     schema = "lyapcheck/check/2"
@@ -228,6 +229,7 @@ class ProofResult(Answer):
     timings: bool = False
     extent: str = SHORT
     elsewhere: Mapping[tuple[str, int | None], tuple[str, ClaimResult]] = field(default_factory=dict)
+    assumed: str = ""
 
     @property
     def theorems(self) -> list[ClaimResult]:
@@ -259,10 +261,6 @@ class ProofResult(Answer):
         open_ = [verdict for verdict in ORDER if verdict is not Verdict.PROVED]
         if self.extent == FAILED:
             return Document(self._title(), tuple(self._sections(open_)), notes, lead)
-        assumed = ""
-        if self.robot and self.assumptions:
-            listed = command("robot", self.robot, "--assumptions")
-            assumed = f"{len(self.assumptions)} assumptions about {self.robot}: {listed}"
         script, failed = self.script or self.name, any(map(self._with, open_))
         then = command(
             "check",
@@ -272,7 +270,7 @@ class ProofResult(Answer):
             *(["--failed"] if failed else ["--certificates", "certificates"]),
         )
         blocks = (*self._index(), *self._of_nothing())
-        return Document(self._title(), blocks, notes, lead, every, assumed, then)
+        return Document(self._title(), blocks, notes, lead, every, self.assumed, then)
 
     def data(self) -> dict[str, Any]:
         """``claims: [{id, m, statement, verdict, …}]``, and what they were asked for."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck._types import Progress, silent
+from lyapcheck.answers.assumed import assumed_line
 from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About, digest_of
@@ -197,6 +198,7 @@ class ProposedProof:
             frozenset(
                 claim.id for claim in claims if any("gains" in answer.read for answer in claim.answers)
             ),
+            assumed=assumed_line(self.model, self.model.name) if self.model and about_arm else "",
         )
 
 

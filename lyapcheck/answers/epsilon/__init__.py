@@ -3,9 +3,16 @@
 The searches propose, the checker disposes; this folder asks them in turn and holds their answers together.
 """
 
-from lyapcheck.answers.epsilon.compute import epsilon
-from lyapcheck.answers.epsilon.four import Contradiction
-from lyapcheck.answers.epsilon.options import Options
-from lyapcheck.answers.epsilon.result import EpsilonResult, EpsilonResults
+from lyapcheck.answers.epsilon.answer import EpsilonResult, EpsilonResults
+from lyapcheck.answers.epsilon.compute import Contradiction, Options, epsilon
+from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
 
-__all__ = ["Contradiction", "EpsilonResult", "EpsilonResults", "Options", "epsilon"]
+__all__ = [
+    "Contradiction",
+    "EpsilonResult",
+    "EpsilonResults",
+    "Options",
+    "certificates",
+    "epsilon",
+    "kept_epsilon",
+]

@@ -1,21 +1,22 @@
-"""Four ε₀ found before: their certificates again, and what follows from these derived anew.
+"""Certificates of ε₀, and four ε₀ found before: their certificates again, and what follows derived anew.
 
 Words and counts of the search are taken as they were. Nothing is kept of a linear h: it has no certificates.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
-from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.answers.epsilon.compute import four, put_together
-from lyapcheck.answers.epsilon.forms import by_forms
-from lyapcheck.answers.epsilon.options import Options
-from lyapcheck.answers.epsilon.result import EpsilonResult
-from lyapcheck.check.certificate import Certificate
+from lyapcheck.answers.epsilon.answer import EpsilonResult
+from lyapcheck.answers.epsilon.compute import Options, by_forms, four, put_together
+from lyapcheck.certificate import Certificate
+from lyapcheck.check.certificate import About
+from lyapcheck.check.certificate import Certificate as Read
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -26,7 +27,10 @@ from lyapcheck.check.kinds.decreasing import (
 from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.states import State
+from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.control.judgement import JudgedStatement
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.fields import file_stem
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.falsify import RisingState, at_corner, confirmed
 from lyapcheck.search.weights import Weighted
@@ -36,23 +40,57 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
+PROOF = "epsilon"
+_Epsilon = tuple[Fraction, Sequence[Fraction]]
+"""ε₀, and the weights Λ if there are some."""
 BESIDE = ("boxes", "certified_by", "seed")
+
+
+def certificates(result: EpsilonResult) -> dict[str, Certificate]:
+    """Certificates by file name: of each ε₀ that is called certified, of the scalar one if it has one."""
+    made: dict[str, Certificate] = {}
+    arms = "for every arm in its ranges" if result.ranges else "at nominal numbers"
+
+    def add(file: str, kind: str, about: _Epsilon, statement: Statement, verdict: str, proof: Proof) -> None:
+        eps0, coupling = about
+        weights = ", ".join(map(decimal_text, coupling))
+        says = (
+            f"dV/dt < 0 at every state but the origin: {result.name} on {result.model.name}, {arms}, "
+            f"ε₀ = {decimal_text(eps0)}{f', Λ = diag({weights})' if weights else ''}"
+        )
+        own = About(f"{result.name}.{kind}", says, result.m, len(result.gains.kp), PROOF)
+        certificate = Certificate(own, statement, verdict, "enclosure", proof)
+        made[f"{file_stem(result.name)}.{file}.json"] = certificate
+
+    weighted = result.weighted
+    known = {
+        ("certified", "proved"): result.proof,
+        ("scalar", "scalar"): result.scalar_proof,
+        ("weighted", "weighted"): weighted.proof if weighted and weighted.proof.coupling else None,
+    }
+    for (file, kind), proof in known.items():
+        if proof is not None:
+            add(file, kind, (proof.eps0, proof.coupling), proof.statement, "proved", proof.certificate)
+    if result.against is not None:
+        statement, state = result.against
+        add("falsified", "refuted", (statement.eps0, statement.coupling), statement, "refuted", state)
+    return made
 
 
 def kept_epsilon(
     gain_set: GainSet, model: RobotModel, options: Options, on_progress: Progress = silent
 ) -> EpsilonResult:
     """What :func:`lyapcheck.epsilon` answers, from the store where it is there and holds."""
-    if options.seconds is not None:  # another run of so many seconds may find a larger one
-        return four(gain_set, model, options, on_progress)
-    if (controlled := ControlledArm(gain_set, model, options.ranges)).too_long:
+    controlled = ControlledArm(gain_set, model, options.ranges)
+    # another run of so many seconds may find a larger one
+    if options.seconds is not None or controlled.too_long:
         return four(gain_set, model, options, on_progress)
     # all that the four depend on; not the name of the gain set
     gains = gain_set.family, gain_set.m, gain_set.kp, gain_set.kv, gain_set.angle_unit
     budget = {name: getattr(options, name) for name in ("max_boxes", "ranges", "weights", "starts", "seed")}
     return remembered(
         {"epsilon": store.exact(gains, model), **budget},
-        lambda kept: _rebuilt(kept, controlled, model.assumptions),
+        lambda kept: _rebuilt(kept, controlled, model),
         lambda: four(gain_set, model, options, on_progress),
         _written,
         options.jobs,
@@ -71,41 +109,31 @@ def _written(result: EpsilonResult) -> KeptCertificates | None:
     return KeptCertificates(made, beside)
 
 
-def _rebuilt(
-    kept: KeptCertificates, controlled: ControlledArm, assumptions: tuple[str, ...]
-) -> EpsilonResult | None:
+def _rebuilt(kept: KeptCertificates, controlled: ControlledArm, model: RobotModel) -> EpsilonResult | None:
     """The answer, if the certificates are of these gains and this arm."""
     made, beside = dict(kept.certificates), kept.beside
     at, witness = _witness(made.pop("falsified", None), controlled, beside["kind"])
     proofs = {kind: _proof(one, controlled) for kind, one in made.items()}
-    scalar_proof = proofs.get("scalar")
+    scalar_proof, weighted = proofs.get("scalar"), None
     published, scalar, reasons = by_forms(controlled)
     if scalar_proof is not None and scalar_proof.loop.eps0 != scalar.eps0:
         return None
+    if beside["weighted"] is not None:  # that of Λ = I where the search came to no other
+        states, looked_at, reason = beside["weighted"]
+        proof = proofs.get("weighted") or proofs["certified"]
+        weighted = Weighted(proof, int(states), int(looked_at), str(reason))
+    said = {name: str(text) for name, text in (beside["reasons"] | reasons).items()}
+    found = {name: beside[name] for name in BESIDE} | {
+        "published": published,
+        "scalar": scalar.eps0,
+        "model": model,
+    }
     return put_together(
-        controlled,
-        at,
-        witness,
-        published=published,
-        scalar=scalar.eps0,
-        proof=proofs.get("certified"),
-        scalar_proof=scalar_proof,
-        weighted=_weighted(proofs, beside["weighted"]),
-        reasons={name: str(text) for name, text in (beside["reasons"] | reasons).items() if text},
-        assumptions=assumptions,
-        **{name: beside[name] for name in BESIDE},
+        controlled, at, witness, proofs.get("certified"), scalar_proof, weighted, said, **found
     )
 
 
-def _weighted(proofs: dict[str, DecreaseProof], found: Any) -> Weighted | None:
-    """The proof with weights, or that of Λ = I where the search came to no other."""
-    if found is None:
-        return None
-    states, looked_at, reason = found
-    return Weighted(proofs.get("weighted") or proofs["certified"], int(states), int(looked_at), str(reason))
-
-
-def _proof(one: Certificate, controlled: ControlledArm) -> DecreaseProof:
+def _proof(one: Read, controlled: ControlledArm) -> DecreaseProof:
     """The proof of a certificate, which was judged when it was taken and must be of what is asked now."""
     stated, proof = one.statement, one.proof
     if not isinstance(stated, Decreasing) or not isinstance(proof, PositiveAndDecreasing):
@@ -123,7 +151,7 @@ def _proof(one: Certificate, controlled: ControlledArm) -> DecreaseProof:
 
 
 def _witness(
-    one: Certificate | None, controlled: ControlledArm, kind: str
+    one: Read | None, controlled: ControlledArm, kind: Any
 ) -> tuple[ControlledArm, RisingState | None]:
     """The state of a certificate, and the arm that it is a state of, one of those meant."""
     if one is None:

@@ -117,7 +117,7 @@ def run(
     with progress("epsilon") as advance:
         results, times = _each(chosen, own, model, options, advance)
     if folder is not None:
-        from lyapcheck.answers.epsilon.certificates import certificates as certificates_of
+        from lyapcheck.answers.epsilon import certificates as certificates_of
 
         write_certificates(folder, *map(certificates_of, results))
     show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
@@ -164,7 +164,7 @@ def _each(
         options: what is asked.
         advance: receives the fraction done.
     """
-    from lyapcheck.answers.epsilon.kept import kept_epsilon
+    from lyapcheck.answers.epsilon import kept_epsilon
     from lyapcheck.robots.vary import outside
 
     results: list[EpsilonResult] = []

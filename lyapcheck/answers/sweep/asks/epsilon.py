@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from lyapcheck.answers.epsilon.certificates import certificates
-from lyapcheck.answers.epsilon.kept import kept_epsilon
-from lyapcheck.answers.epsilon.options import Options
-from lyapcheck.answers.epsilon.result import result_data
-from lyapcheck.answers.epsilon.words import exact
+from lyapcheck.answers.epsilon import Options, certificates, kept_epsilon
+from lyapcheck.answers.epsilon.answer import FIELDS, exact
 from lyapcheck.answers.sweep.question import VERDICTS, Answered, Question, UncertainArm, answered
+from lyapcheck.output.fields import data
 from lyapcheck.verdicts import Exit
 
 OPTIONS = {"max_boxes": 100_000, "starts": 30}
@@ -24,7 +22,7 @@ def ask(question: Question, known: UncertainArm, options: Mapping[str, Any]) -> 
     return answered(
         question,
         VERDICTS[Exit.UNDECIDED] if result.promise is None else result.promise.says(VERDICTS[Exit.PROVED]),
-        result_data(result),
+        data(FIELDS, result),
         tuple(certificates(result).values()),
         "; ".join(text for kind, text in result.reasons.items() if kind == "certified" and not result.proof),
         eps0=exact(result.certified),
