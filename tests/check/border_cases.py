@@ -301,6 +301,109 @@ SIGNS = [
 ]
 
 
+def form(z, *lower, d):
+    """Squares of a vector of monomials."""
+    return {"monomials": z, "lower": list(lower), "diagonal": d}
+
+
+NO_SQUARES = form([], d=[])
+
+
+def squared(conclusion, *products, variables=(REAL,), given=(), lift=NO_SQUARES):
+    """What a sum of squares shows; a product is a form, with the hypothesis and the monomial, if any."""
+    statement = {
+        "kind": "Implies",
+        "variables": [{"name": name, "low": low, "strict": strict} for name, low, strict in variables],
+        "hypotheses": list(given),
+        "conclusion": conclusion,
+    }
+    parts = [{"hypothesis": None, "monomial": [], **one} for one in products]
+    return claimed(statement, {"rule": "sum of squares", "lift": lift, "products": parts})
+
+
+def times(squares, hypothesis=None, monomial=()):
+    return {"squares": squares, "hypothesis": hypothesis, "monomial": list(monomial)}
+
+
+Y, REALS = ["var", "y"], (REAL, ("y", None, True))
+BOTH = ["add", SQUARE, ["pow", Y, 2]]
+ALL, OF_1, OF_X = [[[0, 1]], [[1, 1]]], form([[]], [], d=["1"]), form([[[0, 1]]], [], d=["1"])
+OF_BOTH, WITH_1 = form(ALL, [], ["0"], d=["1", "1"]), form([[], [[0, 1]]], [], ["0"], d=["1", "1"])
+FLAT = form([[], [[0, 1]]], [], ["0"], d=["1", "0"])
+LESS_X = form([[[0, 1]]], [], d=["-1"])
+OPEN, DIFFER = "is not shown to be strict", "both sides differ"
+
+
+def above_0(*given):
+    """0 < x² + y², if something holds."""
+    return squared(relation(ZERO, "<", BOTH), times(OF_BOTH), variables=REALS, given=given)
+
+
+SQUARES = [
+    ("sos.form", change, words)
+    for change, words in (
+        (squared(NONNEGATIVE, times(OF_X)), ACCEPTED),
+        (squared(POSITIVE, times(OF_X)), OPEN),
+        (squared(POSITIVE, times(OF_X), variables=[FROM_0]), OPEN),
+        (squared(POSITIVE, times(OF_X), variables=[ABOVE_0]), ACCEPTED),
+        (squared(relation(ZERO, "<=", ["neg", SQUARE]), times(LESS_X)), "must not be negative"),
+        (squared(NONNEGATIVE, times(form([[[0, 1]]], [], d=["2"]))), DIFFER),
+        (squared(relation(ZERO, "<=", ["div", SQUARE, TWO]), times(OF_X)), DIFFER),
+        (
+            squared(relation(ZERO, "<=", ["div", SQUARE, TWO]), times(form([[[0, 1]]], [], d=["1/2"]))),
+            ACCEPTED,
+        ),
+        (squared(POSITIVE, times(OF_1, 0), given=[POSITIVE]), ACCEPTED),
+        (squared(POSITIVE, times(OF_1, 0), given=[NONNEGATIVE]), OPEN),
+        (squared(POSITIVE, times(OF_1, 1), given=[POSITIVE]), "does not exist"),
+        (squared(POSITIVE, times(OF_1, -1), given=[POSITIVE]), "does not exist"),
+        (squared(relation(ZERO, "<=", ["neg", X]), times(OF_1, 0), given=[X_NONNEGATIVE]), DIFFER),
+        (above_0(), OPEN),
+        (above_0(X_NONNEGATIVE), OPEN),
+        (above_0(X_POSITIVE), ACCEPTED),
+        (above_0(relation(["num", "-1"], "<", X)), OPEN),
+        (above_0(relation(ONE, "<=", X)), ACCEPTED),
+        (above_0(relation(ZERO, "<=", Y), relation(Y, "<", ZERO)), ACCEPTED),
+        (squared(POSITIVE, times(OF_X), variables=REALS, given=[relation(ZERO, "<", Y)]), OPEN),
+        (squared(relation(ZERO, "<", ["add", SQUARE, ONE]), times(WITH_1)), ACCEPTED),
+        (squared(relation(ZERO, "<", ONE), times(FLAT), given=[NONNEGATIVE]), OPEN),
+        (squared(relation(ZERO, "<=", ONE), times(FLAT), given=[NONNEGATIVE]), ACCEPTED),
+        (squared(relation(ZERO, "<", ONE), times(WITH_1), lift=OF_X, given=[NONNEGATIVE]), ACCEPTED),
+        (squared(relation(ZERO, "<", ONE), times(OF_1), lift=OF_X, given=[NONNEGATIVE]), DIFFER),
+        (
+            squared(relation(ZERO, "<", ONE), times(FLAT), lift=LESS_X, given=[NONNEGATIVE]),
+            "must not be negative",
+        ),
+        (squared(relation(ZERO, "<=", CUBE), times(OF_X, monomial=[[0, 1]])), "may be negative"),
+        (
+            squared(relation(ZERO, "<=", CUBE), times(OF_X, monomial=[[0, 1]]), variables=[FROM_0]),
+            ACCEPTED,
+        ),
+        (squared(relation(ZERO, "<", CUBE), times(OF_X, monomial=[[0, 1]]), variables=[FROM_0]), OPEN),
+        (squared(relation(ZERO, "<", CUBE), times(OF_X, monomial=[[0, 1]]), variables=[ABOVE_0]), ACCEPTED),
+        (squared(relation(TWO, "<=", X), times(OF_1, monomial=[[0, 1]]), variables=[FROM_2]), ACCEPTED),
+        (squared(relation(TWO, "<", X), times(OF_1, monomial=[[0, 1]]), variables=[FROM_2]), OPEN),
+        (squared(relation(ONE, "<", X), times(OF_1, monomial=[[0, 1]]), variables=[FROM_2]), DIFFER),
+        (squared(NONNEGATIVE, times(form([[[0, 1]]], d=["1"]))), "one a monomial"),
+        (squared(NONNEGATIVE, times(form([[[0, 1]]], ["0"], d=["1"]))), "one a monomial"),
+        (squared(NONNEGATIVE, times(form([[[0, 1]]], [], d=[]))), "must have 1 entries"),
+        (squared(NONNEGATIVE, times(form([[[1, 1]]], [], d=["1"]))), "must be of the variables alone"),
+        (squared(NONNEGATIVE, times(form([[[9, 1]]], [], d=["1"]))), "does not exist"),
+        (squared(NONNEGATIVE, times(form([[[0, 65]]], [], d=["0"]))), "must be at most 64"),
+        (squared(NONNEGATIVE, *[times(OF_X)] * 201), "must be at most 200"),
+        (squared(relation(ZERO, "<=", ["mul", ROOT, SQUARE]), times(OF_X)), "between polynomials"),
+        (
+            squared(NONNEGATIVE, times(OF_X), given=[relation(["sin", X], "<=", ONE)]),
+            "between polynomials",
+        ),
+        (
+            squared(relation(ZERO, "<=", ["div", SQUARE, ["add", SQUARE, ONE]]), times(OF_X)),
+            "between polynomials",
+        ),
+    )
+]
+
+
 def rests(family, m, torque, error):
     """That one joint with k_p = 1 rests within an error."""
     sizes = {"kp": ["1"], "torque": [torque], "errors": [error]}
@@ -339,5 +442,5 @@ RESTS = [
     ("ext.not-resting", rests_beyond("21/40", bound=None), "must be beyond the bound"),
     *(("ext.not-resting", rests_beyond("21/40", joint=joint), "must be from 0 to 0") for joint in (-1, 1)),
 ]
-BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N, *SIGNS, *OF_LOOPS, *RESTS]
+BORDERS = [*NUMBERS, *PRINTED, *FOR_ALL, *FOR_SMALL, *ONE_ARM, *EVERY_N, *SIGNS, *SQUARES, *OF_LOOPS, *RESTS]
 """A good certificate of the arena, what stands in its place, and words of the reason why it is refused."""

@@ -1,10 +1,14 @@
 """Polynomial facts: strictness comes from a hypothesis or from the form, and is never invented."""
 
+from collections import Counter
+from random import Random
+
 import pytest
 
-from lyapcheck.claims import implies, nonnegative, positive, reals, var
-from lyapcheck.claims.procedures import propose
+from lyapcheck.claims import expr, implies, nonnegative, positive, reals, var
+from lyapcheck.claims.procedures import implication, propose
 from lyapcheck.verdicts import Verdict
+from tests.helpers.polynomial_facts import fact
 
 x, y, a, b, c = map(var, "xyabc")
 OF_REALS = reals("x", "y")
@@ -37,3 +41,71 @@ def test_a_strict_hypothesis_makes_the_conclusion_strict(name):
 @pytest.mark.parametrize("name", BORDER)
 def test_strictness_at_a_border_is_refuted(name):
     assert propose(BORDER[name]).verdict is Verdict.REFUTED
+
+
+# Sums of squares --------------------------------------------------------------------------------------------
+
+V = 3 * x**2 / 2 - x * y + y**2
+RATE = -(x**2) - y**2 - x**3 * y + 2 * x**2 * y**2
+AWAY = x**2 + y**2 > 0
+TEXTBOOK = {
+    "a trinomial": implies(OF_REALS, [], x**2 - x * y + y**2 >= 0),
+    "a product": implies(OF_REALS, [], x * y <= x**2 + y**2),
+    "a square": implies(OF_REALS, [], 2 * x * y <= x**2 + y**2),
+    "V with cross terms": implies(OF_REALS, [AWAY], V > 0),
+    "V away from the origin otherwise": implies(OF_REALS, [x**2 + y**4 > 0], V > 0),
+    "V above a form": implies(OF_REALS, [], (x**2 + y**2) / 2 <= V),
+    "Van der Pol, V falls": implies(OF_REALS, [AWAY, V <= 2], RATE < 0),
+    "Van der Pol, a bounded region": implies(OF_REALS, [V <= 2], x**2 + y**2 <= 4),
+    "with a constant": implies(OF_REALS, [], x**2 - 2 * x * y + y**2 + 1 > 0),
+    "a half-plane": implies(OF_REALS, [x + y > 1], x**2 + y**2 > expr("1/2")),
+    "two means": implies(nonnegative("a", "b", "c"), [], a**3 + b**3 + c**3 >= 3 * a * b * c),
+    "gains": implies(positive("a", "b"), [], a**2 - a * b + b**2 > 0),
+    "Motzkin": implies(OF_REALS, [], x**4 * y**2 + x**2 * y**4 + 1 >= 3 * x**2 * y**2),
+    "a shift": implies([*OF_REALS, *positive("a")], [a >= 2], x**2 + a * x * y + a**2 * y**2 >= 0),
+}
+PLANTED = {
+    "the origin": implies(OF_REALS, [], x**2 - x * y + y**2 > 0),
+    "the border of a half-plane": implies(OF_REALS, [x + y >= 1], x**2 + y**2 > expr("1/2")),
+    "equal numbers": implies(positive("a", "b", "c"), [], a**3 + b**3 + c**3 > 3 * a * b * c),
+    "Motzkin": implies(OF_REALS, [], x**4 * y**2 + x**2 * y**4 + 1 > 3 * x**2 * y**2),
+    "beyond": implies(OF_REALS, [], x**2 - expr("2.000001") * x * y + y**2 >= 0),
+    "a large region": implies(OF_REALS, [AWAY, V <= 3], RATE < 0),
+    "the wrong side": implies(OF_REALS, [x + y <= 1], x**2 + y**2 >= expr("1/2")),
+}
+
+
+@pytest.mark.parametrize("name", TEXTBOOK)
+def test_a_textbook_fact_is_proved(name):
+    assert propose(TEXTBOOK[name]).verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_a_planted_fault_is_refuted(name):
+    assert propose(PLANTED[name]).verdict is Verdict.REFUTED
+
+
+def verdicts(true, draws):
+    return Counter(propose(fact(Random(f"{true} {k}"), true)).verdict for k in draws)
+
+
+@pytest.mark.parametrize("first", range(0, 20, 5))
+def test_facts_drawn_at_random_are_decided(first):
+    draws = range(first, first + 5)
+    assert verdicts(True, draws)[Verdict.PROVED] >= 4
+    assert verdicts(False, draws)[Verdict.REFUTED] >= 4
+
+
+@pytest.mark.slow
+def test_most_facts_drawn_at_random_are_decided_and_none_wrongly():
+    true, false = verdicts(True, range(200)), verdicts(False, range(200))
+    assert true[Verdict.REFUTED] == false[Verdict.PROVED] == 0
+    assert true[Verdict.PROVED] >= 190
+    assert false[Verdict.REFUTED] >= 180
+
+
+def test_a_missing_library_is_named(monkeypatch):
+    monkeypatch.setattr(implication, "installed", lambda name: name != "cvxpy")
+    found = implication.find_implies(TEXTBOOK["a trinomial"])
+    assert found.verdict is Verdict.UNDECIDED
+    assert "pip install cvxpy" in found.reason

@@ -50,8 +50,8 @@ class Ratio:
             return Ratio(self.top + other.top, self.bottom)
         common = self.bottom.gcd(other.bottom)
         left, right = self.bottom / common, other.bottom / common
-        top = _product(self.top, right) + _product(other.top, left)
-        return Ratio(top, _product(left, other.bottom))
+        top = product(self.top, right) + product(other.top, left)
+        return Ratio(top, product(left, other.bottom))
 
     def __neg__(self) -> Ratio:
         return Ratio(-self.top, self.bottom)
@@ -60,12 +60,12 @@ class Ratio:
         return self + (-other)
 
     def __mul__(self, other: Ratio) -> Ratio:
-        return Ratio(_product(self.top, other.top), _product(self.bottom, other.bottom))
+        return Ratio(product(self.top, other.top), product(self.bottom, other.bottom))
 
     def __truediv__(self, other: Ratio) -> Ratio:
         if other.top == 0:
             raise Unsupported("division by an expression that is identically zero")
-        return Ratio(_product(self.top, other.bottom), _product(self.bottom, other.top))
+        return Ratio(product(self.top, other.bottom), product(self.bottom, other.top))
 
     def lowest(self) -> Ratio:
         """The same quotient in lowest terms, with a leading coefficient of 1 below."""
@@ -197,10 +197,10 @@ class RationalAlgebra(Algebra):
                 lower[(*exponents[:index], exponents[index] - 2, *exponents[index + 1 :])] = coefficient
             else:
                 keep[exponents] = coefficient
-        return self.ring.from_dict(keep) + _product(self.ring.from_dict(lower), square)
+        return self.ring.from_dict(keep) + product(self.ring.from_dict(lower), square)
 
 
-def _product(left: fmpq_mpoly, right: fmpq_mpoly) -> fmpq_mpoly:
+def product(left: fmpq_mpoly, right: fmpq_mpoly) -> fmpq_mpoly:
     """The product, unless it takes too many steps: a short text may stand for a polynomial without end."""
     if len(left) * len(right) > MAX_STEPS:
         raise Unsupported(f"a product of polynomials with {len(left)} and {len(right)} terms")

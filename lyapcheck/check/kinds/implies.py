@@ -68,6 +68,8 @@ class Signs:
         names = sorted({name for r in relations for name in variables_of(r.gap)})
         self.algebra = RationalAlgebra(names, room_for(*(r.gap for r in relations)))
         self.ring: fmpq_mpoly_ctx = self.algebra.ring
+        self.bottoms: list[fmpq_mpoly] = []
+        """Of the conclusion and the hypotheses; the polynomials are the tops."""
         with ctx.workprec(BITS):
             self.conclusion = self._polynomial(conclusion)
             self.hypotheses = [(self._polynomial(h), h.strict) for h in hypotheses]
@@ -78,6 +80,7 @@ class Signs:
         top, bottom = (self._shifted(self.algebra.reduced(p)) for p in (ratio.top, ratio.bottom))
         if not self.is_positive(bottom):
             raise Unsupported("a denominator whose sign is not plain from its terms")
+        self.bottoms.append(bottom)
         return top
 
     def _shifted(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:

@@ -1,15 +1,15 @@
-"""Implications between inequalities: proved by a certificate of signs, refuted by an exact point.
+"""Implications between inequalities: proved by a certificate of signs or squares, refuted by an exact point.
 
-The proof is an identity  μ·C = Σ λ_k μ_k H_k + R  in which C is the gap of the conclusion, H_k are gaps of
-hypotheses, λ_k > 0 are rational, μ and μ_k are monomials that are positive, and R has no negative term. It is
-found by cancelling the negative terms of C one after the other.
+A certificate of signs is an identity  μ·C = Σ λ_k μ_k H_k + R.  C is the gap of the conclusion, H_k are gaps
+of hypotheses, λ_k > 0 are rational, μ and μ_k are positive monomials, and R has no negative term. It is
+found by cancelling the negative terms of C one after the other. ``squares`` has the sums of squares.
 
 References: ``stengle1974nullstellensatz`` (the certificates are its simplest members).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -26,9 +26,12 @@ from lyapcheck.check.kinds.implies import (
     Signs,
     signs_of,
 )
+from lyapcheck.check.kinds.sum_of_squares import is_plain
 from lyapcheck.check.statement import Variable
 from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
+from lyapcheck.claims.procedures.squares import NEEDED, by_squares, lowest_points
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
+from lyapcheck.libraries import PACKAGES, installed, repair
 
 # --- The search for identities of signs: negative terms of the conclusion are cancelled one after the other.
 
@@ -142,7 +145,7 @@ ARITHMETIC = ("add", "mul", "neg", "div", "pow", "sqrt")
 
 @procedure(Implies)
 def find_implies(statement: Implies) -> SearchResult:
-    """Look for an identity of signs and for counterexamples by turns."""
+    """Look for an identity of signs and for counterexamples by turns, then for sums of squares."""
     if not all(is_algebraic(r.gap) for r in (*statement.hypotheses, statement.conclusion)):
         return _refuted(statement) or still_open(
             "no counterexample among the points tried, and no proof for functions that are not algebraic; "
@@ -157,12 +160,28 @@ def find_implies(statement: Implies) -> SearchResult:
         result = _refuted(statement) if depth == SEARCH_AFTER else None
         if result is not None:
             return result
-    return still_open(
+    result = _by_squares(statement, signs) if signs is not None and is_plain(signs) else None
+    return result or still_open(
         "no certificate of signs and no counterexample among the points tried; "
         "split the claim, or add a hypothesis: a bound of the variables, or what always holds, as "
         "0 <= (x - y)**2",
         METHOD,
     )
+
+
+def _by_squares(statement: Implies, signs: Signs) -> SearchResult | None:
+    """The points where descents end, then sums of squares, for polynomials."""
+    missing = next((one for one in NEEDED if not installed(one)), None)
+    if missing is not None:
+        return still_open(
+            f"no certificate of signs, and sums of squares need {PACKAGES[missing]}; {repair(missing)}",
+            METHOD,
+        )
+    result = _refuted(statement, lowest_points(statement, signs))
+    if result is not None:
+        return result
+    squares = by_squares(statement, signs)
+    return None if squares is None else shown(squares, f"{METHOD}: sum of squares")
 
 
 def is_algebraic(tree: Tree) -> bool:
@@ -172,13 +191,14 @@ def is_algebraic(tree: Tree) -> bool:
     return tree[0] in ARITHMETIC and all(is_algebraic(part) for part in tree[1:] if isinstance(part, tuple))
 
 
-def counterexample(statement: Implies) -> Failure | None:
-    """A point that balls confirm, or None."""
+def counterexample(statement: Implies, points: Iterable[dict[str, Fraction]] | None = None) -> Failure | None:
+    """A point that balls confirm, among those given or those that sampling finds, or None."""
     from lyapcheck.claims.procedures.search import candidates
 
     given = [hypothesis.comparison for hypothesis in statement.hypotheses]
     given += [bound_of(v) for v in statement.variables if v.low is not None]
-    points = candidates(statement.variables, statement.hypotheses, statement.conclusion)
+    if points is None:
+        points = candidates(statement.variables, statement.hypotheses, statement.conclusion)
     result = first_refutation(statement.conclusion.comparison, points, given)
     return None if result is None else rounder(result, given)
 
@@ -191,8 +211,8 @@ def sampled() -> dict[str, int]:
     return {"samples": SAMPLES, "seed": SEED}
 
 
-def _refuted(statement: Implies) -> SearchResult | None:
-    result = counterexample(statement)
+def _refuted(statement: Implies, points: Iterable[dict[str, Fraction]] | None = None) -> SearchResult | None:
+    result = counterexample(statement, points)
     if result is None:
         return None
     return broken(witness_of(result), f"{METHOD}: a point where it fails", witness_data(result), **sampled())

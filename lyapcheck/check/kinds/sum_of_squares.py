@@ -1,0 +1,135 @@
+"""Implications between polynomials, shown by an identity  (1 + σ)·C = Σ μ_k σ_k H_k.
+
+C is the gap of the conclusion. H_k are gaps of hypotheses, or 1. μ_k are monomials that are never negative.
+σ and σ_k are zᵀ L D Lᵀ z: z are monomials, L has ones on its diagonal and 0 above it, and D ≥ 0 is diagonal.
+
+References: ``putinar1993positive``, ``parrilo2003semidefinite``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import fmpq, fmpq_mpoly
+
+from lyapcheck.check.expressions.normal_form import product
+from lyapcheck.check.kinds.implies import Exponents, Implies, Monomial, Signs, signs_of
+from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Proof
+from lyapcheck.check.verify import Accepted, rule
+
+MOST_MONOMIALS, MOST_DEGREE = 200, 64
+"""Of all vectors together, and of a monomial."""
+
+
+@dataclass(frozen=True)
+class Squares:
+    """``Σ d_k (z_k + Σ_{i>k} L_ik z_i)²``; ``lower`` has the entries of L below its diagonal, row by row."""
+
+    monomials: tuple[Monomial, ...]
+    lower: tuple[tuple[Fraction, ...], ...]
+    diagonal: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
+class Product:
+    """``monomial · squares · gap of a hypothesis``, or without that gap."""
+
+    hypothesis: int | None
+    monomial: Monomial
+    squares: Squares
+
+
+@dataclass(frozen=True)
+class SumOfSquares(Proof):
+    """``(1 + lift) · gap of the conclusion = Σ products``."""
+
+    rule = "sum of squares"
+    lift: Squares
+    products: tuple[Product, ...]
+
+
+@rule(Implies, SumOfSquares)
+def by_squares(statement: Implies, proof: SumOfSquares) -> Accepted:
+    """Soundness: take a point of the domain at which every hypothesis holds, in the generators of ``Signs``.
+
+    There μ_k ≥ 0 by the bounds of its variables, σ_k ≥ 0 as D ≥ 0, and H_k ≥ 0. So (1 + σ)C ≥ 0, and C ≥ 0
+    as 1 + σ ≥ 1. If μ_k > 0, H_k > 0 (it is 1, or strict) and σ_k > 0 for one k, then C > 0.
+    For D > 0, σ_k = 0 only if Lᵀz = 0, that is z = 0. This is so nowhere if a monomial of z is positive, as 1
+    is. If z has each variable by itself it can be so at the origin alone, which is no such point if a
+    variable is positive or a hypothesis fails there.
+    """
+    signs = signs_of(statement)
+    require(is_plain(signs), "relations", "", "are not all between polynomials over the rational numbers")
+    conclusion, *hypotheses = gaps_of(signs)
+    size = sum(len(one.monomials) for one in (proof.lift, *(term.squares for term in proof.products)))
+    require(size <= MOST_MONOMIALS, "monomials", size, f"must be at most {MOST_MONOMIALS}")
+    rest = product(conclusion, squares_of(signs, proof.lift)[0] + 1)
+    strict = False
+    for term in proof.products:
+        gap, positive = signs.ring.constant(1), True
+        if term.hypothesis is not None:
+            k = term.hypothesis
+            require(0 <= k < len(hypotheses), "hypothesis", k, "does not exist")
+            gap, positive = hypotheses[k], statement.hypotheses[k].strict
+        over = exponents_of(signs, term.monomial)
+        require(signs.monomial_is(over, False), "monomial", term.monomial, "may be negative")
+        value, definite = squares_of(signs, term.squares)
+        rest -= product(value * signs.ring.from_dict({over: fmpq(1)}), gap)
+        strict = strict or (positive and definite and signs.monomial_is(over, True))
+    require(rest == 0, "sum of squares", "", "is not the conclusion: both sides differ")
+    require(strict or not statement.conclusion.strict, "conclusion", "", "is not shown to be strict")
+    return Accepted("proved", "exact")
+
+
+def is_plain(signs: Signs) -> bool:
+    """Whether all gaps are polynomials in the variables, with rational coefficients."""
+    count = len(signs.algebra.names)
+    tops = (signs.conclusion, *(top for top, _ in signs.hypotheses))
+    functions = any(any(exponents[count:]) for top in tops for exponents in top.monoms())
+    return not functions and all(bottom.is_constant() for bottom in signs.bottoms)
+
+
+def gaps_of(signs: Signs) -> list[fmpq_mpoly]:
+    """The gaps of the conclusion and of the hypotheses, where they are plain."""
+    tops = (signs.conclusion, *(top for top, _ in signs.hypotheses))
+    return [top / bottom.leading_coefficient() for top, bottom in zip(tops, signs.bottoms, strict=True)]
+
+
+def squares_of(signs: Signs, squares: Squares) -> tuple[fmpq_mpoly, bool]:
+    """The sum of squares, and whether it is positive wherever all hypotheses hold."""
+    n, d = len(squares.monomials), squares.diagonal
+    require(len(d) == n, "diagonal", len(d), f"must have {n} entries")
+    shape = [len(row) for row in squares.lower]
+    require(shape == list(range(n)), "lower", shape, "must have rows of 0, 1, 2, … entries, one a monomial")
+    require(all(weight >= 0 for weight in d), "diagonal", min(d, default=0), "must not be negative")
+    z = [exponents_of(signs, monomial) for monomial in squares.monomials]
+    terms = [signs.ring.from_dict({exponents: fmpq(1)}) for exponents in z]
+    result = signs.ring.constant(0)
+    for k, weight in enumerate(d):
+        below = ((i, squares.lower[i][k]) for i in range(k + 1, n))
+        row = sum((terms[i] * rational(entry) for i, entry in below if entry), terms[k])
+        result += row * row * rational(weight)
+    alone = {e.index(1) for e in z if sum(e) == 1}
+    somewhere = any(signs.monomial_is(e, True) for e in z)
+    apart = alone >= set(range(len(signs.algebra.names))) and origin_is_out(signs)
+    return result, all(weight > 0 for weight in d) and (somewhere or apart)
+
+
+def origin_is_out(signs: Signs) -> bool:
+    """Whether the hypotheses or the ranges leave out the point at which all generators are 0."""
+    zero: Exponents = (0,) * signs.ring.nvars()
+    at_zero = ((gap.to_dict().get(zero, 0), strict) for gap, strict in signs.hypotheses)
+    fails = any(value < 0 or (strict and value == 0) for value, strict in at_zero)
+    return fails or any(signs.kind(i) == "positive" for i in range(len(signs.algebra.names)))
+
+
+def exponents_of(signs: Signs, monomial: Monomial) -> Exponents:
+    """The exponents of a monomial in the variables alone, of a degree within reach."""
+    result = signs.exponents(monomial)
+    require(sum(result) <= MOST_DEGREE, "degree", sum(result), f"must be at most {MOST_DEGREE}")
+    used = any(result[len(signs.algebra.names) :])
+    require(not used, "monomial", monomial, "must be of the variables alone")
+    return result
