@@ -58,11 +58,11 @@ def test_a_small_variable_and_parts_are_seen():
 
 
 BODY = """
-from lyapcheck.claims import Proof, implies, reals, var
+from lyapcheck.claims import Proof, implies, reals, sqrt, var
 proof, x = Proof("mine", "Mine"), var("x")
 proof.add("never", "", implies(reals("x"), [x <= 1, 2 <= x], x <= 5))
 proof.add("perhaps", "", implies(reals("x"), [x**2 <= 2, 2 <= x**2], x**2 <= 5))
-proof.add("open", "", implies(reals("x"), [x <= 1, 2 <= x], 7 <= x))
+proof.add("open", "", implies(reals("x"), [x <= 1, 2 <= x], 7 <= sqrt(1 + x**2)))
 proof.add("some", "", implies(reals("x"), [2 <= x], 1 <= x))
 """
 
