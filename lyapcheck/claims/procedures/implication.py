@@ -31,7 +31,7 @@ from lyapcheck.check.statement import Variable
 from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
 from lyapcheck.claims.procedures.squares import NEEDED, by_squares, lowest_points
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
-from lyapcheck.libraries import PACKAGES, installed, repair
+from lyapcheck.errors import PACKAGES, installed, repair
 
 # --- The search for identities of signs: negative terms of the conclusion are cancelled one after the other.
 
