@@ -17,7 +17,6 @@ from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 from lyapcheck.robots.trig import to_terms
-from lyapcheck.search.closed_loop import mass_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -32,23 +31,11 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import Bounds, GainSet
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.plant import Plant
-
-
-def parameters_of(arm: Plant) -> tuple[Ends, ...]:
-    """The range of each parameter of M; one that M does not depend on is held at its value."""
-    first, rows = 2 * arm.n, mass_of(arm)
-    terms = (powers for row in rows for entry in row for powers, _ in entry)
-    used = {place for powers in terms for place, power in enumerate(powers[first:]) if power}
-    return tuple(
-        number.bounds if place in used else (number.value, number.value)
-        for place, number in enumerate(arm.parameters.values())
-    )
 
 
 def decreasing(
     gains: GainSet,
-    arm: Plant,
+    arm: RobotModel,
     eps0: Fraction,
     coupling: tuple[Fraction, ...] = (),
     *,
@@ -71,7 +58,7 @@ def decreasing(
     arm = arm.fixed() if nominal else arm
     viscous = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)
     try:
-        mass = mass_of(arm)
+        mass = arm.mass_terms
     except TooManyTerms:
         if arm.chain is None or coupling:
             raise
@@ -80,7 +67,7 @@ def decreasing(
     return Decreasing(
         mass=mass,
         viscous=viscous,
-        parameters=parameters_of(arm),
+        parameters=arm.ranges_of_mass,
         family=gains.family,
         m=gains.m,
         kp=tuple(gains.kp),
@@ -132,9 +119,9 @@ def sampled(
         k_g=() if arm else tuple(k_g),
         links=chain.links if chain else (),
         fall=chain.fall if chain else (),
-        mass=mass_of(model) if model else (),
+        mass=model.mass_terms if model else (),
         potential=tuple(to_terms(model.potential)) if model else (),
-        parameters=tuple(number.bounds for number in model.parameters.values()) if model else (),
+        parameters=model.ranges if model else (),
         period=loop.period,
         stretch=loop.stretch,
         delay=loop.delay,
@@ -143,7 +130,7 @@ def sampled(
     )
 
 
-def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: Plant, within: Fraction) -> SampledFromRest:
+def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: RobotModel, within: Fraction) -> SampledFromRest:
     """Do these gains bring the arm to each goal from rest within so many degrees, at exactly this period?
 
     Args:
@@ -164,16 +151,16 @@ def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: Plant, within: Frac
         kp=tuple(gains.kp),
         kv=tuple(gains.kv),
         viscous=tuple(number.bounds for number in arm.viscous),
-        mass=mass_of(arm),
+        mass=arm.mass_terms,
         potential=tuple(to_terms(arm.potential)),
-        parameters=tuple(number.bounds for number in arm.parameters.values()),
+        parameters=arm.ranges,
         period=loop.period,
         delay=loop.delay,
         within=within,
     )
 
 
-def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -> Statement:
+def bound_of_constant(name: str, arm: RobotModel, end: Fraction, along_links: bool) -> Statement:
     """Is a constant of the arm above this number (λmin(M)), or at most this number (all others)?
 
     Args:
@@ -184,20 +171,20 @@ def bound_of_constant(name: str, arm: Plant, end: Fraction, along_links: bool) -
     """
     if along_links:
         return _of_links(name, arm, end)
-    ranges = tuple(number.bounds for number in arm.parameters.values())
+    ranges = arm.ranges
     if name == "lambda_min":
-        return MassAbove(mass_of(arm), ranges, end)
+        return MassAbove(arm.mass_terms, ranges, end)
     if name == "lambda_max":
-        return MassBelow(mass_of(arm), ranges, end)
+        return MassBelow(arm.mass_terms, ranges, end)
     if name == "k_c":
         from lyapcheck.check.kinds.coriolis import CoriolisBelow
 
-        return CoriolisBelow(mass_of(arm), ranges, end)
+        return CoriolisBelow(arm.mass_terms, ranges, end)
     gravity = tuple(tuple(to_terms(arm.gravity[i])) for i in _joints(name, arm))
     return GravityBelow(arm.n, gravity, ranges, end)
 
 
-def _of_links(name: str, arm: Plant, end: Fraction) -> Statement:
+def _of_links(name: str, arm: RobotModel, end: Fraction) -> Statement:
     from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 
     chain = arm.chain
@@ -211,7 +198,7 @@ def _of_links(name: str, arm: Plant, end: Fraction) -> Statement:
     return ChainGravityBelow(chain.links, chain.fall, tuple(i + 1 for i in _joints(name, arm)), end)
 
 
-def _joints(name: str, arm: Plant) -> range:
+def _joints(name: str, arm: RobotModel) -> range:
     """All joints for ``k_g``, one for ``k_g2``."""
     if name == "k_g":
         return range(arm.n)
@@ -219,7 +206,7 @@ def _joints(name: str, arm: Plant) -> range:
     return range(joint, joint + 1)
 
 
-def over_ranges(stated: Statement, arm: Plant) -> Statement | None:
+def over_ranges(stated: Statement, arm: RobotModel) -> Statement | None:
     """Does the same hold for all values of the ranges of M and g? ``None``: the kind knows no ranges."""
     if isinstance(stated, AllOf):
         parts = [(name, over_ranges(part, arm)) for name, part in stated.parts]
@@ -228,9 +215,9 @@ def over_ranges(stated: Statement, arm: Plant) -> Statement | None:
     names = {one.name for one in fields(stated)}  # type: ignore[arg-type]
     if "parameters" not in names:
         return None
-    asked: dict[str, Any] = {"parameters": tuple(number.bounds for number in arm.parameters.values())}
+    asked: dict[str, Any] = {"parameters": arm.ranges}
     if "mass" in names:
-        asked["mass"] = mass_of(arm)
+        asked["mass"] = arm.mass_terms
     return replace(stated, **asked)  # type: ignore[type-var]
 
 
@@ -277,11 +264,13 @@ def _of_motors(
         least = bounds.viscous_min or Fraction(0)
         return (), ((least, least),) * n, bounds.torque or (None,) * n
     own = tuple(None if limit is None else limit.bounds[0] for limit in arm.torque_limit)
-    parameters = tuple(number.bounds for number in arm.parameters.values())
+    parameters = arm.ranges
     return parameters, viscous_of(arm, bounds.viscous_min), bounds.torque or own
 
 
-def viscous_of(arm: Plant, viscous_min: Fraction | None = None, *, nominal: bool = False) -> tuple[Ends, ...]:
+def viscous_of(
+    arm: RobotModel, viscous_min: Fraction | None = None, *, nominal: bool = False
+) -> tuple[Ends, ...]:
     """The range of each viscous friction; all from a λmin(B) on that replaces the arm's, N·m·s/rad."""
     own = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)
     if viscous_min in (None, min(low for low, _ in own)):
@@ -298,7 +287,7 @@ def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
         gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
     except TooManyTerms:
         return AllOf(tuple((f"g{i}", _of_links(f"k_g{i}", arm, k)) for i, k in enumerate(k_g, 1)))
-    ranges = tuple(number.bounds for number in arm.parameters.values())
+    ranges = arm.ranges
     parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
     slope = GravityOfPotential(gravity, tuple(to_terms(arm.potential)), ranges)
     return AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(parts, 1))))
@@ -309,9 +298,9 @@ def definite(arm: RobotModel) -> MassAbove | ChainAbove:
     from lyapcheck.check.kinds.chain import ChainAbove
 
     try:
-        mass = mass_of(arm)
+        mass = arm.mass_terms
     except TooManyTerms:
         if arm.chain is None:
             raise
         return ChainAbove(arm.chain.links, Fraction(0))
-    return MassAbove(mass, tuple(number.bounds for number in arm.parameters.values()), Fraction(0))
+    return MassAbove(mass, arm.ranges, Fraction(0))

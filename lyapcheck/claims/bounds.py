@@ -26,7 +26,7 @@ from lyapcheck.check.kinds.coriolis import (
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, MassBelow
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.check.statement import Ends, Statement
+from lyapcheck.check.statement import Statement
 from lyapcheck.claims.claim import lacking
 from lyapcheck.claims.expressions import (
     Expr,
@@ -45,7 +45,6 @@ from lyapcheck.claims.statements import bounded, for_all, identity, norm_bound
 from lyapcheck.control import limits as arm_limits
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
-from lyapcheck.search.closed_loop import mass_of
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -134,7 +133,7 @@ class ArmBounds:
     @cached_property
     def mass(self) -> Mass:
         """M(q) as statements have it."""
-        return mass_of(self.robot)
+        return self.robot.mass_terms
 
     @cached_property
     def inertia(self) -> Inertia:
@@ -255,29 +254,24 @@ def gravity_bounds(robot: RobotModel) -> list[Fraction]:
 # --- Properties of M(q) and C(q, w) of one robot as statements, for all values of its uncertain numbers.
 
 
-def ranges_of(robot: RobotModel) -> tuple[Ends, ...]:
-    """The range of each uncertain number, in the order in which polynomials have them."""
-    return tuple(number.bounds for number in robot.parameters.values())
-
-
 def mass_symmetric(robot: RobotModel) -> Statement:
     """M(q) = M(q)ᵀ."""
-    return _of_links(robot, "symmetric") or MassSymmetric(mass_of(robot), ranges_of(robot))
+    return _of_links(robot, "symmetric") or MassSymmetric(robot.mass_terms, robot.ranges)
 
 
 def coriolis_at_rest(robot: RobotModel) -> Statement:
     """C(q, 0) = 0, C by Christoffel symbols."""
-    return _of_links(robot, "at rest") or CoriolisAtRest(mass_of(robot), ranges_of(robot), ())
+    return _of_links(robot, "at rest") or CoriolisAtRest(robot.mass_terms, robot.ranges, ())
 
 
 def rate_of_mass(robot: RobotModel) -> Statement:
     """Ṁ(q) = C(q, q̇) + C(q, q̇)ᵀ, and both are symmetric."""
-    return _of_links(robot, "rate") or RateOfMass(mass_of(robot), ranges_of(robot), ())
+    return _of_links(robot, "rate") or RateOfMass(robot.mass_terms, robot.ranges, ())
 
 
 def rate_less_twice_coriolis(robot: RobotModel) -> Statement:
     """½ q̇ᵀ[Ṁ − 2C]q̇ = 0, and Ṁ − 2C is skew-symmetric."""
-    return _of_links(robot, "skew") or RateLessTwiceCoriolis(mass_of(robot), ranges_of(robot), ())
+    return _of_links(robot, "skew") or RateLessTwiceCoriolis(robot.mass_terms, robot.ranges, ())
 
 
 def mass_positive(robot: RobotModel) -> Statement:

@@ -24,7 +24,7 @@ from lyapcheck._types import SEED, Array, Progress, silent
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.numbers.vectors import Algebra
-from lyapcheck.constants.constant import ConstantResult, SupremumTask, from_distances
+from lyapcheck.constants.constant import ConstantResult, SupremumTask
 from lyapcheck.constants.spectrum import (
     ArmHarmonics,
     coriolis_task,
@@ -37,7 +37,7 @@ from lyapcheck.errors import argument_error
 from lyapcheck.lyapunov.scalar import RobotBounds
 from lyapcheck.robots.chain import ChainInMotion
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 GAP = 1e-3
 GAP_OF_MANY = 2e-2
@@ -45,7 +45,7 @@ MAX_BOXES = 60_000
 
 
 def arm_constants(
-    model: Plant,
+    model: RobotModel,
     max_boxes: int = MAX_BOXES,
     on_progress: Progress | None = None,
     names: Sequence[str] | None = None,
@@ -81,7 +81,7 @@ def arm_constants(
             result.append(chain_constant(fixed, name, progress))
         else:
             progress(0.0, "sampling")
-            result.append(makers[name](arm).solve(max_boxes, enough, progress, from_distances(fixed, name)))
+            result.append(makers[name](arm).solve(max_boxes, enough, progress))
     return tuple(result)
 
 
@@ -119,7 +119,7 @@ class RobotConstants:
     lambda_max_at: tuple[float, ...]
 
 
-def robot_bounds(model: Plant, max_boxes: int | None = None) -> RobotBounds:
+def robot_bounds(model: RobotModel, max_boxes: int | None = None) -> RobotBounds:
     """The outside bounds that the scalar forms need; see ``robot_constants``."""
     result = robot_constants(model, max_boxes)
     viscous = [number.value for number in model.viscous]
@@ -129,7 +129,7 @@ def robot_bounds(model: Plant, max_boxes: int | None = None) -> RobotBounds:
 
 
 @lru_cache(maxsize=64)
-def robot_constants(model: Plant, max_boxes: int | None = None) -> RobotConstants:
+def robot_constants(model: RobotModel, max_boxes: int | None = None) -> RobotConstants:
     """Enclose λmin(M), λmax(M) = β_M and k_c of an arm at its nominal parameters.
 
     Args:
@@ -173,7 +173,7 @@ class Extreme:
     value: Fraction
 
 
-def extreme(plant: Plant, name: str) -> Extreme:
+def extreme(plant: RobotModel, name: str) -> Extreme:
     """Where λmin(M), λmax(M), k_c, k_g or a k_gi of a chain is reached: quasi-Newton steps, many starts.
 
     Soundness: the value is taken in balls at the rational posture; that it is the extreme one is not.
@@ -200,7 +200,7 @@ def extreme(plant: Plant, name: str) -> Extreme:
     return Extreme(q_exact, x_exact, _in_balls(chain, name, q_exact, x_exact, sign))
 
 
-def _merit(plant: Plant, name: str) -> tuple[int, Callable[..., tuple[float, Array]]]:
+def _merit(plant: RobotModel, name: str) -> tuple[int, Callable[..., tuple[float, Array]]]:
     """1 for a supremum, −1 for an infimum; what is to be small at (q, x), by a size, and its slopes."""
     import casadi as ca
 
@@ -265,7 +265,7 @@ def _short(values: Array) -> tuple[Fraction, ...]:
     return tuple(Fraction(round(float(x) * DIGITS), DIGITS) for x in values)
 
 
-def chain_constant(plant: Plant, name: str, on_progress: Progress = silent) -> ConstantResult:
+def chain_constant(plant: RobotModel, name: str, on_progress: Progress = silent) -> ConstantResult:
     """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
 
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts.
@@ -273,18 +273,14 @@ def chain_constant(plant: Plant, name: str, on_progress: Progress = silent) -> C
     on_progress(0.0, "posture")
     inner, chain = extreme(plant, name), plant.chain
     assert chain is not None
-    outer = from_distances(plant, name)
     still = name.startswith("k_g") and inner.value == 0
     shown = storage_proof(chain, name, still=True) if still else None
     if shown is None:
         on_progress(0.1, "forms along the links")
         shown = storage_proof(chain, name)
-    if shown is not None:
-        outer = shown.bound if outer is None or name != "k_c" else min(outer, shown.bound)
-    if outer is None:
-        raise argument_error(
-            name, "", "has no bound: no body has the inertia of some link", "correct the inertias"
-        )
-    low, high = sorted((inner.value, outer))
+    if shown is None:
+        rule = "has no bound along the links that the checker accepts"
+        raise argument_error(name, "", rule, "correct the masses and inertias")
+    low, high = sorted((inner.value, shown.bound))
     unit = "N·m" if name.startswith("k_g") else "kg·m²"
     return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import inf, nextafter, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,6 @@ from lyapcheck._types import SEED, Array, Progress
 from lyapcheck.check.numbers.harmonics import Harmonics
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.constants.storage import BoundWithProof
-from lyapcheck.robots.plant import Plant
 
 # --- Trigonometric polynomials over boxes of angles: a linear part around the middle, and what it leaves.
 #
@@ -155,23 +153,6 @@ class Torus:
         return np.asarray(half * (share @ self._frequency))
 
 
-# --- What is known of the constants of an arm for all angles before any box: from its links.
-
-
-def ceiling(bound: Fraction | None, sign: int) -> float:
-    """A double that is not below sign·bound; infinite where there is no bound."""
-    return inf if bound is None else nextafter(float(sign * bound), inf)
-
-
-def from_distances(plant: Plant, name: str) -> Fraction | None:
-    """A lower bound of λmin(M), an upper one of another constant, from masses and distances where known."""
-    known = plant.chain_bounds
-    if known is None or name != "k_g":
-        return None if known is None else known[name]
-    square = sum((x * x for key, x in known.items() if key.startswith("k_g") and x is not None), Fraction(0))
-    return Fraction(sqrt(square)) * (1 + Fraction(1, 10**12))
-
-
 _SAMPLES = 1024
 _BLOCK = 64
 _ROUNDS = 40
@@ -231,32 +212,26 @@ class SupremumTask:
     sign: int = 1
     cost: int = 1
 
-    def solve(
-        self, max_boxes: int, gap: float, on_progress: Progress | None = None, known: Fraction | None = None
-    ) -> ConstantResult:
+    def solve(self, max_boxes: int, gap: float, on_progress: Progress | None = None) -> ConstantResult:
         """The constant between the value at a state and a bound over all of them.
 
         Args:
             max_boxes: budget in boxes of cost 1.
             gap: relative width that is good enough.
-            known: a bound of the constant from outside.
         """
         half = np.zeros(self.torus.n)
         half[list(self.torus.angles)] = PI_ABOVE
         start = climb(lambda states: self.value(self.torus.at(states)), half)
-        most, budget = ceiling(known, self.sign), max_boxes // self.cost
-        inside, outside, coordinates, boxes = self._enclosed(half, start, budget, gap, most, on_progress)
-        bound = Fraction(self.sign * outside)
-        if known is not None:
-            bound = self.sign * min(self.sign * known, self.sign * bound)
-        ends = sorted((Fraction(self.sign * inside), bound))
+        budget = max_boxes // self.cost
+        inside, outside, coordinates, boxes = self._enclosed(half, start, budget, gap, on_progress)
+        ends = sorted((Fraction(self.sign * inside), Fraction(self.sign * outside)))
         # a norm is never negative, however much its bound from below is rounded
         low, high = (max(x, Fraction(0)) for x in ends) if self.sign > 0 else ends
         shown = self.shown or (lambda p: tuple(self.torus.angles_at(p).tolist()))
         return ConstantResult(self.name, self.unit, Enclosure(low, high), shown(coordinates), boxes)
 
     def _enclosed(
-        self, half: Array, state: Array, max_boxes: int, gap: float, most: float, on_progress: Progress | None
+        self, half: Array, state: Array, max_boxes: int, gap: float, on_progress: Progress | None
     ) -> tuple[float, float, Array, int]:
         """The supremum over [−half, half] from both sides, the state of the inner end, and the boxes it took.
 
@@ -266,7 +241,7 @@ class SupremumTask:
         """
         inside = float(self.value(self.torus.at(state[None]))[0])
         middle, width = np.zeros((1, len(half))), half[None]
-        top = np.fmin(self.most(self.torus.on(middle, width)), most)
+        top = np.fmin(self.most(self.torus.on(middle, width)), np.inf)
         seen = 1
         while len(top) and top.max() > inside + gap * abs(inside) and seen + 2 <= max_boxes:
             chosen = np.argsort(-top, kind="stable")[: min(_BATCH, (max_boxes - seen) // 2)]

@@ -19,7 +19,7 @@ from lyapcheck._types import SEED, Array
 from lyapcheck.check.numbers.harmonics import Harmonics, christoffel, derivative, harmonics
 from lyapcheck.constants.constant import AffineForms, SupremumTask, Torus
 from lyapcheck.robots import trig
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 ROUNDING = 1e-13
 """Times n², above the rounding of sums of n products of doubles relative to the norms of the factors."""
@@ -92,7 +92,7 @@ def _norm(a: Array) -> Array:
 class ArmHarmonics:
     """The polynomials of an arm, its parameters at nominal values, ready for boxes."""
 
-    def __init__(self, model: Plant) -> None:
+    def __init__(self, model: RobotModel) -> None:
         self.n = n = model.n
         fixed = model.fixed()
         self.places = [(i, j) for i in range(n) for j in range(i + 1)]

@@ -67,7 +67,7 @@ def computed_bounds(model: RobotModel) -> tuple[Fraction, ...]:
 
     Soundness: of each the checker has a rule, ``HarmonicSizes`` and ``Levers``.
     """
-    ranges = tuple(number.bounds for number in model.parameters.values())
+    ranges = model.ranges
     known = None if (proofs := levers(model)) is None else [proof.bound(ranges) for proof in proofs]
     try:
         sizes = [size_of(torque_of(model, i), ranges) for i in range(model.n)]
@@ -166,7 +166,7 @@ def _judged(model: RobotModel, i: int, bound: Fraction, own: RobotModel) -> tupl
 def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:
     from lyapcheck.check.kinds.gravity import GravityBelow
 
-    ranges = tuple(number.bounds for number in model.parameters.values())
+    ranges = model.ranges
     return GravityBelow(model.n, (tuple(to_terms(model.gravity[i])),), ranges, bound)
 
 

@@ -19,7 +19,7 @@ from typing import Any
 
 import sympy as sp
 
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 EPS0, EPS, R, NEAR, INVERSE, SHARE = sp.symbols("epsilon_0 epsilon r s i c", positive=True)
 """ε₀, ε, ‖e‖, and letters for 1/(1 + r), 1/r and 1/(2m)."""
@@ -269,7 +269,7 @@ class WrittenArm:
         return Derivation(x, turning | rates_of_functions(x), circles)
 
 
-def written_arm(model: Plant) -> WrittenArm:
+def written_arm(model: RobotModel) -> WrittenArm:
     """The arm as polynomials.
 
     Raises:

@@ -21,7 +21,7 @@ from lyapcheck.export.functions import FLAT, Kernel, Saturation, angle_error, si
 from lyapcheck.export.steps import BITS, Program, Rounded, constant
 from lyapcheck.family import Family, named
 from lyapcheck.files.decimals import significant_up
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 ANGLES = (2**12, 2**30)
 """rad: |q| and |q_d| for which a bound is given; beyond the last the C text refuses."""
@@ -51,7 +51,7 @@ class Controller:
     """
 
     gains: GainSet
-    model: Plant
+    model: RobotModel
     limits: tuple[Fraction | None, ...]
     loop: LoopRecord
     name: str
@@ -71,7 +71,7 @@ class Controller:
         """g(q) from the sines and cosines ``s[i]``, ``c[i]``, (n,), N·m."""
         program, n = Program(), self.model.n
         sines, cosines = ([program.read(f"{letter}[{i}]") for i in range(n)] for letter in "sc")
-        torques = self.model.gravity_at(sines, cosines, program.number)
+        torques = self.model.at(sines, cosines, program.number).gravity()
         return Kernel(program, {f"g[{i}]": torque for i, torque in enumerate(torques)})
 
     @cached_property

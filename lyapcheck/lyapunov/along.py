@@ -30,7 +30,7 @@ from lyapcheck.derive.lyapunov import (
 from lyapcheck.family.base import Arithmetic
 from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.dynamics import ArmAtAngles
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 Vector = Sequence[Any]
 FormsAt = Callable[[Any], Any]
@@ -53,7 +53,7 @@ class AtState:
         uncertain: parameters of the arm by name; nominal where missing.
     """
 
-    model: Plant
+    model: RobotModel
     of: Arithmetic
     forms: FormsAt
     q: Vector

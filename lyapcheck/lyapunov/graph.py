@@ -17,7 +17,7 @@ import casadi as ca
 from lyapcheck.family import Family
 from lyapcheck.family.base import Arithmetic, graphs
 from lyapcheck.lyapunov.along import AtState
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class LyapunovGraph:
     rate_15: ca.Function
 
 
-def lyapunov_graph(model: Plant, family: Family) -> LyapunovGraph:
+def lyapunov_graph(model: RobotModel, family: Family) -> LyapunovGraph:
     """Build the functions for an arm, at nominal values of its uncertain parameters, and a family."""
     q, e, w, kp, kv = (ca.SX.sym(name, model.n) for name in ("q", "e", "w", "kp", "kv"))
     eps0, at = ca.SX.sym("eps0"), at_symbols(model, q, e, w, kp, kv, family.casadi)
@@ -54,7 +54,14 @@ def lyapunov_graph(model: Plant, family: Family) -> LyapunovGraph:
 
 
 def at_symbols(
-    model: Plant, q: Any, e: Any, w: Any, kp: Any, kv: Any, forms: Callable[[Any], Any], kink: float = 0.0
+    model: RobotModel,
+    q: Any,
+    e: Any,
+    w: Any,
+    kp: Any,
+    kv: Any,
+    forms: Callable[[Any], Any],
+    kink: float = 0.0,
 ) -> AtState:
     """A state in CasADi symbols.
 

@@ -16,7 +16,7 @@ from lyapcheck.family import Family
 from lyapcheck.family.base import Arithmetic, arrays
 from lyapcheck.lyapunov.along import AtState, FormsAt
 from lyapcheck.lyapunov.loop import Loop, loop
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 BLOCK = 8192
 """States evaluated together by NumPy: all intermediate columns of a small arm then stay in the cache."""
@@ -53,7 +53,7 @@ class LyapunovNumeric:
     """
 
     def __init__(
-        self, model: Plant, family: Family, kp: Sequence[float], kv: Sequence[float], eps0: float = 0.0
+        self, model: RobotModel, family: Family, kp: Sequence[float], kv: Sequence[float], eps0: float = 0.0
     ) -> None:
         self.model = model.fixed()
         self.family = family
@@ -106,20 +106,20 @@ class LyapunovNumeric:
         return values.reshape(-1, *shape)
 
 
-def _compiled(model: Plant, family: Family, name: str) -> Loop | None:
+def _compiled(model: RobotModel, family: Family, name: str) -> Loop | None:
     """The loop over states; gains, B and ε₀ are its parameters."""
     n, write = model.n, partial(formula, model, family, name)
     return loop(question(name, model, family), (n, n, n, 3 * n + 1), OUTPUTS[name][0], write)
 
 
-def formula(model: Plant, family: Family, name: str, writer: Any, inputs: Sequence[Any]) -> list[Any]:
+def formula(model: RobotModel, family: Family, name: str, writer: Any, inputs: Sequence[Any]) -> list[Any]:
     """What the loop does with (q, e, w, parameters)."""
     (q, e, w, p), of, n = inputs, writer.arithmetic, model.n
     at = AtState(model, of, forms_in(family, of), q, e, w, p[:n], p[n : 2 * n], p[2 * n : 3 * n])
     return OUTPUTS[name][1](at, p[3 * n])
 
 
-def question(name: str, model: Plant, family: Family) -> tuple[str, ...]:
+def question(name: str, model: RobotModel, family: Family) -> tuple[str, ...]:
     """What the loops of an arm and a family depend on, a family of a user's own with its source."""
     return name, arm_digest(model), repr(family), _source_of(type(family))
 
@@ -130,7 +130,7 @@ def _source_of(kind: type) -> str:
 
 
 @lru_cache(maxsize=256)
-def arm_digest(model: Plant) -> str:
+def arm_digest(model: RobotModel) -> str:
     """Of all that M, C, g of an arm depend on."""
     known = model.dynamics
     state = known.__getstate__() if hasattr(type(known), "__setstate__") else known

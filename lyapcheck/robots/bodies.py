@@ -14,7 +14,6 @@ from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import Notes
-from lyapcheck.robots.chain_bounds import bodily
 from lyapcheck.robots.fields import ArmFields, Number, Sign
 from lyapcheck.robots.plant import RobotModel
 
@@ -113,6 +112,15 @@ def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
     return tensor
 
 
+def bodily(tensor: Sequence[Sequence[Fraction]]) -> bool:
+    """Whether some body has this inertia: the second moments ½tr(I) − I are positive semidefinite.
+
+    They are so exactly when no principal moment is above the sum of the others.
+    """
+    half = (tensor[0][0] + tensor[1][1] + tensor[2][2]) / 2
+    return is_positive_semidefinite([[half * (i == k) - tensor[i][k] for k in range(3)] for i in range(3)])
+
+
 def _broken_rule(tensor: dict[str, Number]) -> str:
     """Why no body has this inertia for some values in range; empty when there is one.
 
@@ -168,7 +176,7 @@ def impossible_state(model: RobotModel) -> str:
         sin = [2 * t / (1 + t * t) for t in tangents]
         cos = [(1 - t * t) / (1 + t * t) for t in tangents]
         parameters = {name: rational(value) for name, value in corner.items()}
-        if not _positive_definite(model.mass_at(sin, cos, rational, parameters)):
+        if not _positive_definite(model.at(sin, cos, rational, parameters).mass()):
             where = [f"cos q{i + 1} = {value}" for i, value in enumerate(cos)]
             where += [f"{name} = {decimal_text(value)}" for name, value in corner.items()]
             return f"makes M not positive definite, e.g. at {', '.join(where)}"

@@ -8,33 +8,35 @@ from fractions import Fraction
 import casadi as ca
 
 from lyapcheck.robots.chain import solve_definite
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 Parameters = Mapping[str, ca.SX] | None
 
 
-def mass(model: Plant, q: ca.SX, parameters: Parameters = None) -> ca.SX:
+def mass(model: RobotModel, q: ca.SX, parameters: Parameters = None) -> ca.SX:
     """M(q), (n, n) in kg·m², for a column q of joint angles in rad."""
-    return matrix(model.mass_at(*_circle(model, q), _lift, parameters))
+    return matrix(model.at(*_circle(model, q), _lift, parameters).mass())
 
 
-def coriolis(model: Plant, q: ca.SX, x: ca.SX, parameters: Parameters = None) -> ca.SX:
+def coriolis(model: RobotModel, q: ca.SX, x: ca.SX, parameters: Parameters = None) -> ca.SX:
     """C(q, x) of the Christoffel symbols, (n, n) in kg·m²/s, for columns q in rad and x in rad/s."""
     rates = [x[i] for i in range(model.n)]
-    return matrix(model.coriolis_at(*_circle(model, q), rates, _lift, parameters))
+    return matrix(model.at(*_circle(model, q), _lift, parameters).coriolis(rates))
 
 
-def gravity(model: Plant, q: ca.SX, parameters: Parameters = None) -> ca.SX:
+def gravity(model: RobotModel, q: ca.SX, parameters: Parameters = None) -> ca.SX:
     """g(q), (n, 1) in N·m."""
-    return ca.vertcat(*model.gravity_at(*_circle(model, q), _lift, parameters))
+    result: ca.SX = ca.vertcat(*model.at(*_circle(model, q), _lift, parameters).gravity())
+    return result
 
 
-def potential(model: Plant, q: ca.SX, parameters: Parameters = None) -> ca.SX:
+def potential(model: RobotModel, q: ca.SX, parameters: Parameters = None) -> ca.SX:
     """The potential energy, J."""
-    return model.potential_at(*_circle(model, q), _lift, parameters)
+    result: ca.SX = model.at(*_circle(model, q), _lift, parameters).potential()
+    return result
 
 
-def viscous(model: Plant) -> ca.DM:
+def viscous(model: RobotModel) -> ca.DM:
     """B, (n, n) in N·m·s/rad, at nominal values."""
     return ca.diag(ca.DM([float(number.value) for number in model.viscous]))
 
@@ -46,7 +48,7 @@ def solve(matrix: ca.SX, right: ca.SX) -> ca.SX:
     return result
 
 
-def _circle(model: Plant, q: ca.SX) -> tuple[list[ca.SX], list[ca.SX]]:
+def _circle(model: RobotModel, q: ca.SX) -> tuple[list[ca.SX], list[ca.SX]]:
     joints = range(model.n)
     return [ca.sin(q[i]) for i in joints], [ca.cos(q[i]) for i in joints]
 

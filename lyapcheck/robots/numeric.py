@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 _BLOCK = 4096
 """States evaluated together: what they need then stays in the cache."""
@@ -26,20 +26,20 @@ class NumericModel:
     Soundness: rounded to nearest without bounds. Good for search and simulation, never for a verdict.
     """
 
-    def __init__(self, model: Plant, parameters: Mapping[str, Fraction] | None = None) -> None:
+    def __init__(self, model: RobotModel, parameters: Mapping[str, Fraction] | None = None) -> None:
         self._model = model.fixed(**dict(parameters or {}))
         self.n = model.n
         self.viscous: Array = np.array([float(number.value) for number in model.viscous])
 
     def mass(self, q: Array) -> Array:
         """M(q), kg·m²: (..., n) angles in rad to (..., n, n)."""
-        return self._filled(lambda sin, cos: self._model.mass_at(sin, cos, float), (self.n, self.n), q)
+        return self._filled(lambda sin, cos: self._model.at(sin, cos, float).mass(), (self.n, self.n), q)
 
     def coriolis(self, q: Array, x: Array) -> Array:
         """C(q, x), kg·m²/s: (..., n) angles in rad and rates in rad/s to (..., n, n)."""
 
-        def rows(sin: list[Array], cos: list[Array], *rates: Array) -> Rows:
-            return self._model.coriolis_at(sin, cos, rates, float)
+        def rows(sin: list[Any], cos: list[Any], *rates: Any) -> Rows:
+            return self._model.at(sin, cos, float).coriolis(rates)
 
         return self._filled(rows, (self.n, self.n), *np.broadcast_arrays(q, x))
 
@@ -49,11 +49,11 @@ class NumericModel:
 
     def gravity(self, q: Array) -> Array:
         """g(q), N·m: (..., n) to (..., n)."""
-        return self._filled(lambda sin, cos: self._model.gravity_at(sin, cos, float), (self.n,), q)
+        return self._filled(lambda sin, cos: self._model.at(sin, cos, float).gravity(), (self.n,), q)
 
     def potential(self, q: Array) -> Array:
         """The potential energy, J: (..., n) to (...)."""
-        return self._filled(lambda sin, cos: self._model.potential_at(sin, cos, float), (), q)
+        return self._filled(lambda sin, cos: self._model.at(sin, cos, float).potential(), (), q)
 
     def _filled(self, rows: Callable[..., Any], shape: tuple[int, ...], q: Array, *more: Array) -> Array:
         """What the rows give at all states, block by block."""

@@ -14,22 +14,21 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.errors import argument_error
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.robots.chain_bounds import chain_bounds
 from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift, Tidy
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.printed import PrintedTorques
+from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
-    from lyapcheck.robots.fields import Number
+    from lyapcheck.check.statement import Monomials
 
 
-P = TypeVar("P", bound="Plant")
 T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Plant:
-    """n revolute joints that obey M(q)q̈ + C(q,q̇)q̇ + g(q) + Bq̇ = τ, with exact numbers.
+class RobotModel:
+    """n revolute joints that obey M(q)q̈ + C(q,q̇)q̇ + g(q) + Bq̇ = τ, every number with its source.
 
     C_ij = Σ_k c_ijk q̇_k with the Christoffel symbols of M, and g = ∂potential/∂q, so that Ṁ = C + Cᵀ.
 
@@ -39,6 +38,20 @@ class Plant:
         dynamics: M, C, g and the potential energy.
         viscous: diagonal of B, (n,), N·m·s/rad.
         parameters: the numbers with a range that enter M or the potential, in the order of ``dynamics``.
+        title: one line for reports.
+        coulomb: Coulomb friction torques, N·m. None if unknown.
+        torque_limit: largest torque of each motor, N·m. None if unknown.
+        encoder: counts per turn. None if unknown.
+        gravity_bound: k_gi that the source prints, N·m.
+        numbers: every number of the arm with its provenance.
+        remarks: further assumptions, in sentences.
+        printed: C and g that the source prints. Nothing is derived from them.
+        loop: the sampled loop in the file.
+
+    Soundness: M belongs to the physical arm only if ``numbers`` do. ``assumptions`` lists the numbers that no
+    source prints.
+
+    References: (1) and properties 2.1–2.8 of reyes2019family.
     """
 
     name: str
@@ -46,6 +59,15 @@ class Plant:
     dynamics: Dynamics
     viscous: tuple[Number, ...]
     parameters: dict[str, Number] = field(default_factory=dict)
+    title: str = ""
+    coulomb: tuple[Number | None, ...] = ()
+    torque_limit: tuple[Number | None, ...] = ()
+    encoder: tuple[int | None, ...] = ()
+    gravity_bound: tuple[Number | None, ...] = ()
+    numbers: dict[str, Number] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+    printed: PrintedTorques | None = None
+    loop: LoopEntry = NOTHING
 
     @property
     def n(self) -> int:
@@ -55,6 +77,11 @@ class Plant:
     def mass(self) -> tuple[tuple[fmpq_mpoly, ...], ...]:
         """M(q), rows of polynomials in normal form, kg·m²; raises `TooLong` where those are not worth it."""
         return self.dynamics.polynomials.mass
+
+    @property
+    def mass_terms(self) -> tuple[tuple[Monomials, ...], ...]:
+        """M(q) as statements have it."""
+        return tuple(tuple(tuple(to_terms(entry)) for entry in row) for row in self.mass)
 
     @property
     def potential(self) -> fmpq_mpoly:
@@ -76,6 +103,21 @@ class Plant:
         return self.potential.context()
 
     @property
+    def ranges(self) -> tuple[tuple[Fraction, Fraction], ...]:
+        """The range of each parameter, in their order."""
+        return tuple(number.bounds for number in self.parameters.values())
+
+    @property
+    def ranges_of_mass(self) -> tuple[tuple[Fraction, Fraction], ...]:
+        """The same; a parameter that M does not depend on, such as one of gravity, is held at its value."""
+        terms = (powers for row in self.mass_terms for entry in row for powers, _ in entry)
+        used = {place for powers in terms for place, power in enumerate(powers[2 * self.n :]) if power}
+        return tuple(
+            number.bounds if place in used else (number.value, number.value)
+            for place, number in enumerate(self.parameters.values())
+        )
+
+    @property
     def chain(self) -> Chain | None:
         """The links where they are known and exact."""
         return self.dynamics if isinstance(self.dynamics, Chain) and not self.parameters else None
@@ -95,11 +137,6 @@ class Plant:
         )
         return heavy if masses_alone else None
 
-    @cached_property
-    def chain_bounds(self) -> dict[str, Fraction | None] | None:
-        """What masses and distances of exact links say for all angles."""
-        return None if self.chain is None else chain_bounds(self.chain)
-
     def at(
         self,
         sin: Sequence[T],
@@ -116,34 +153,7 @@ class Plant:
         }
         return self.dynamics.at(sin, cos, values, lift, tidy)
 
-    def mass_at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> list[list[T]]:
-        return self.at(sin, cos, lift, parameters).mass()
-
-    def coriolis_at(
-        self,
-        sin: Sequence[T],
-        cos: Sequence[T],
-        x: Sequence[T],
-        lift: Lift[T],
-        parameters: Mapping[str, T] | None = None,
-    ) -> list[list[T]]:
-        """C(q, x) of the Christoffel symbols, (n, n), kg·m²/s, in any arithmetic; x is (n,), rad/s."""
-        return self.at(sin, cos, lift, parameters).coriolis(x)
-
-    def gravity_at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> list[T]:
-        return self.at(sin, cos, lift, parameters).gravity()
-
-    def potential_at(
-        self, sin: Sequence[T], cos: Sequence[T], lift: Lift[T], parameters: Mapping[str, T] | None = None
-    ) -> T:
-        result: T = self.at(sin, cos, lift, parameters).potential()
-        return result
-
-    def fixed(self: P, **parameters: Fraction | int) -> P:
+    def fixed(self, **parameters: Fraction | int) -> RobotModel:
         """The same arm with every uncertain parameter of M and the potential at one exact value.
 
         Args:
@@ -161,50 +171,15 @@ class Plant:
         return self._at(parameters) if parameters else self._nominal
 
     @cached_property
-    def _nominal(self: P) -> P:
+    def _nominal(self) -> RobotModel:
         """Each question about the arm asks for it."""
         return self._at({}) if self.parameters else self
 
-    def _at(self: P, parameters: Mapping[str, Fraction | int]) -> P:
+    def _at(self, parameters: Mapping[str, Fraction | int]) -> RobotModel:
         values = {
             name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
         }
         return replace(self, dynamics=self.dynamics.fixed(values), parameters={})
-
-
-# --- The robot model: exact dynamics, and what is known of every number.
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class RobotModel(Plant):
-    """An arm from a file: its links and every number with its source.
-
-    Args:
-        title: one line for reports.
-        coulomb: Coulomb friction torques, N·m. None if unknown.
-        torque_limit: largest torque of each motor, N·m. None if unknown.
-        encoder: counts per turn. None if unknown.
-        gravity_bound: k_gi that the source prints, N·m.
-        numbers: every number of the arm with its provenance.
-        remarks: further assumptions, in sentences.
-        printed: C and g that the source prints. Nothing is derived from them.
-        loop: the sampled loop in the file.
-
-    Soundness: M belongs to the physical arm only if ``numbers`` do. ``assumptions`` lists the numbers that no
-    source prints.
-
-    References: (1) and properties 2.1–2.8 of reyes2019family.
-    """
-
-    title: str
-    coulomb: tuple[Number | None, ...]
-    torque_limit: tuple[Number | None, ...]
-    encoder: tuple[int | None, ...]
-    gravity_bound: tuple[Number | None, ...]
-    numbers: dict[str, Number]
-    remarks: tuple[str, ...] = ()
-    printed: PrintedTorques | None = None
-    loop: LoopEntry = NOTHING
 
     def __repr__(self) -> str:
         assumed = sum(number.assumed for number in self.numbers.values())

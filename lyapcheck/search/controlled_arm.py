@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
-from lyapcheck.check.kinds.inertia import Bisection, Links, MassAbove, MassAtCorners, PostureWitness
+from lyapcheck.check.kinds.inertia import Bisection, Links, Mass, MassAbove, MassAtCorners, PostureWitness
 from lyapcheck.check.loop.closed_loop import ClosedLoop, corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
@@ -20,8 +21,7 @@ from lyapcheck.errors import argument_error, installed
 from lyapcheck.family import Family, named
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
-from lyapcheck.robots.plant import Plant
-from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
+from lyapcheck.robots.plant import RobotModel
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
     RateData = BoxTree | LinkBounds
     """What may show dV/dt < 0."""
+    from lyapcheck.robots.plant import RobotModel
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ class ControlledArm:
     """
 
     gains: GainSet
-    model: Plant
+    model: RobotModel
     ranges: bool = False
 
     def __post_init__(self) -> None:
@@ -159,7 +160,7 @@ class ControlledArm:
         return LyapunovNumeric(self.model, self.family, list(self.kp), list(self.kv))
 
     @cached_property
-    def fixed(self) -> Plant:
+    def fixed(self) -> RobotModel:
         """The arm without parameters."""
         return self.model.fixed()
 
@@ -176,7 +177,7 @@ class ControlledArm:
     @cached_property
     def arm(self) -> Arm:
         """M and B, exactly."""
-        return Arm(mass_of(self.fixed), tuple(number.value for number in self.fixed.viscous))
+        return Arm(self.fixed.mass_terms, tuple(number.value for number in self.fixed.viscous))
 
     @cached_property
     def controller(self) -> Controller:
@@ -185,7 +186,7 @@ class ControlledArm:
         return Controller(functions, tuple(self.gains.kp), tuple(self.gains.kv), self.per_degree)
 
     @cached_property
-    def ranged(self) -> Plant:
+    def ranged(self) -> RobotModel:
         """The arm that certificates are about: with its parameters if they are to range."""
         return self.model if self.ranges else self.fixed
 
@@ -193,7 +194,7 @@ class ControlledArm:
     def too_long(self) -> bool:
         """Whether M(q) has too many terms to be written out."""
         try:
-            return not mass_of(self.ranged)
+            return not self.ranged.mass_terms
         except TooManyTerms:
             return True
 
@@ -217,7 +218,7 @@ class ControlledArm:
                 return known[0]
             return MassAtCorners(known) if known else Bisection()
         remember(self.fixed)
-        return mass_proof(mass_of(self.fixed))
+        return mass_proof(self.fixed.mass_terms)
 
     def loop(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> ClosedLoop:
         """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given.
@@ -300,3 +301,56 @@ def _against(
         return None
     angles, x = (tuple(Fraction(repr(float(v))) for v in row) for row in (q[worst], vectors[worst][:, 0]))
     return PostureWitness(angles, tuple(nominal), x)
+
+
+# --- The closed loop of a gain set on an arm as exact data for the checker, and what shows M(q) ≻ 0 there.
+
+
+def closed_loop_of(
+    gains: GainSet,
+    model: RobotModel,
+    eps0: Fraction,
+    *,
+    ranges: bool = False,
+    coupling: tuple[Fraction, ...] = (),
+) -> ClosedLoop:
+    """(11) with V of (13), or of y = w − εΛh where a diagonal of Λ is given, at one ε₀.
+
+    Args:
+        model: the arm; its parameters range where it has some.
+        eps0: ε₀.
+        ranges: whether the friction of joints ranges.
+        coupling: diagonal of Λ.
+    """
+    return ClosedLoop(
+        arm=Arm(model.mass_terms, tuple(number.value for number in model.viscous)),
+        family=gains.family,
+        m=gains.m,
+        kp=tuple(gains.kp),
+        kv=tuple(gains.kv),
+        eps0=eps0,
+        parameters=model.ranges_of_mass,  # what M does not depend on is no side of the boxes
+        viscous=tuple(number.bounds for number in model.viscous) if ranges else (),
+        coupling=coupling,
+    )
+
+
+# --- What shows that M(q) is positive definite: the links of an arm where they are known, else boxes.
+
+
+_LINKS: dict[Mass, Links] = {}
+"""The links of arms that were looked at, by the M(q) that they make."""
+
+
+def remember(robot: RobotModel) -> None:
+    """Keep the links of an arm for statements that have only its M(q)."""
+    fixed = robot.fixed()
+    if fixed.chain is not None:
+        # a mass matrix that is too long to be written out is in no statement
+        with suppress(TooManyTerms):
+            _LINKS[fixed.mass_terms] = Links(fixed.chain.links)
+
+
+def mass_proof(mass: Mass) -> Bisection | Links:
+    """How M ≻ 0 is to be shown."""
+    return _LINKS.get(mass, Bisection())

@@ -18,7 +18,7 @@ from lyapcheck.check.loop.states import State, confirms_positive, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.files.decimals import significant_up
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import (
     States,
@@ -207,7 +207,7 @@ def falsify_corners(
     return best, witness
 
 
-def worst_corner(model: Plant, at: ControlledArm, witness: RisingState) -> Plant:
+def worst_corner(model: RobotModel, at: ControlledArm, witness: RisingState) -> RobotModel:
     """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
     states = _states(witness)
     corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
@@ -221,7 +221,7 @@ def worst_corner(model: Plant, at: ControlledArm, witness: RisingState) -> Plant
     return chosen
 
 
-def at_corner(model: Plant, near: Plant, moved: Corner) -> Plant:
+def at_corner(model: RobotModel, near: RobotModel, moved: Corner) -> RobotModel:
     """``near`` with some numbers moved; nominal values of ``near`` are those of its numbers."""
     parameters = {
         name: replace(number, value=moved.get(name, near.parameters[name].value))
@@ -234,7 +234,7 @@ def at_corner(model: Plant, near: Plant, moved: Corner) -> Plant:
     return replace(near, parameters=parameters, viscous=viscous)
 
 
-def _moves(model: Plant, corner: Corner) -> Iterator[Corner]:
+def _moves(model: RobotModel, corner: Corner) -> Iterator[Corner]:
     """Each end of each range, on its own."""
     for name, number in model.parameters.items():
         for end in number.bounds:

@@ -30,7 +30,7 @@ from lyapcheck.robots import trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, Dynamics, Polynomials
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.plant import Plant
+from lyapcheck.robots.plant import RobotModel
 
 POSTURES, SLOPES, LIGHT, STEEP = 3000, 300, 12, 4
 """At so many goals M is looked at, at so many ∂g/∂q; of so many of each then the eigenvalues."""
@@ -190,7 +190,7 @@ def growth(step: Array, n: int, share: float) -> Data | None:
     return mu, half, tuple(Fraction(repr(float(x))) for x in v)
 
 
-def loops(statement: SampledStable, arm: Plant | None = None) -> Iterator[LinearLoop]:
+def loops(statement: SampledStable, arm: RobotModel | None = None) -> Iterator[LinearLoop]:
     """The loop of each arm that is looked at: at the corners of the ranges, or at both ends of all."""
     steep = float(member(statement.family, statement.m).dh(arb(0)))
     plant = arm or plant_of(statement)
@@ -213,7 +213,7 @@ def loops(statement: SampledStable, arm: Plant | None = None) -> Iterator[Linear
         )
 
 
-def plant_of(statement: SampledStable | SampledFromRest) -> Plant:
+def plant_of(statement: SampledStable | SampledFromRest) -> RobotModel:
     """The arm of a statement, with its ranges."""
     names = [f"p{k}" for k, _ in enumerate(statement.parameters, 1)]
     numbers = {
@@ -226,10 +226,10 @@ def plant_of(statement: SampledStable | SampledFromRest) -> Plant:
         ring = trig.trig_ring(len(statement.mass), names)
         mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
         dynamics = Polynomials(mass, trig.from_terms(ring, statement.potential), tuple(names))
-    return Plant(name="arm", joints=(), dynamics=dynamics, viscous=(), parameters=numbers)
+    return RobotModel(name="arm", joints=(), dynamics=dynamics, viscous=(), parameters=numbers)
 
 
-def corners(plant: Plant) -> Iterator[tuple[Fraction, ...]]:
+def corners(plant: RobotModel) -> Iterator[tuple[Fraction, ...]]:
     """The corners of the ranges of an arm, or both ends of all of them."""
     ranges = [number.bounds for number in plant.parameters.values()]
     if sum(low < high for low, high in ranges) <= MOST_RANGING:
@@ -238,7 +238,9 @@ def corners(plant: Plant) -> Iterator[tuple[Fraction, ...]]:
         yield from (tuple(pair[end] for pair in ranges) for end in (0, 1))
 
 
-def refuted_at(statement: SampledStable, period: Fraction, arm: Plant | None = None) -> GrowingMotion | None:
+def refuted_at(
+    statement: SampledStable, period: Fraction, arm: RobotModel | None = None
+) -> GrowingMotion | None:
     """What refutes stability at intervals of exactly this period; ``None`` where nothing is found.
 
     Args:
@@ -255,7 +257,7 @@ def refuted_at(statement: SampledStable, period: Fraction, arm: Plant | None = N
 
 
 def smallest_refuted(
-    statement: SampledStable, above: Fraction, arm: Plant | None = None
+    statement: SampledStable, above: Fraction, arm: RobotModel | None = None
 ) -> GrowingMotion | None:
     """What refutes about the smallest period up to that of the statement; ``None`` where none is found.
 

@@ -149,9 +149,9 @@ def torques(controlled: ControlledArm, at: Sample) -> list[arb]:
     sines, cosines = _turns(at)
     w, speed, acceleration = _balls(at.w), _moving(at.speed, at), _moving(at.acceleration, at)
     rates = [a + b for a, b in zip(w, speed, strict=True)]
-    mass = model.mass_at(sines, cosines, to_arb)
-    coriolis = model.coriolis_at(sines, cosines, rates, to_arb)
-    gravity = model.gravity_at(sines, cosines, to_arb)
+    mass = model.at(sines, cosines, to_arb).mass()
+    coriolis = model.at(sines, cosines, to_arb).coriolis(rates)
+    gravity = model.at(sines, cosines, to_arb).gravity()
     unit = 180 / arb.pi() if controlled.per_degree else arb(1)
     result = []
     for i, (e, x) in enumerate(zip(_balls(at.e), w, strict=True)):
@@ -170,7 +170,7 @@ def reference_term(controlled: ControlledArm, eps0: float, at: Sample) -> arb:
     h = [controlled.controller.functions.h(x) for x in e]
     eps = to_arb(Fraction(eps0)) / (1 + dot(e, e).sqrt())
     y = [a - eps * b for a, b in zip(w, h, strict=True)]
-    coriolis = controlled.fixed.coriolis_at(*_turns(at), _balls(at.speed), to_arb)
+    coriolis = controlled.fixed.at(*_turns(at), to_arb).coriolis(_balls(at.speed))
     return -eps * dot(y, [dot(row, h) for row in coriolis])
 
 

@@ -9,7 +9,7 @@ from lyapcheck.check.kinds.inertia import Links, MassAbove
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.robots import load
-from lyapcheck.search.closed_loop import mass_of, mass_proof, remember
+from lyapcheck.search.controlled_arm import mass_proof, remember
 from lyapcheck.verdicts import Verdict
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
@@ -21,14 +21,14 @@ ARMS = ("pelican2", UR5)
 def links_of(arm):
     """The links as a proof."""
     remember(arm)
-    proof = mass_proof(mass_of(arm.fixed()))
+    proof = mass_proof(arm.fixed().mass_terms)
     assert isinstance(proof, Links)
     return proof
 
 
 def positive(arm):
     """M(q) ≻ 0."""
-    return MassAbove(mass_of(arm.fixed()), (), Fraction(0))
+    return MassAbove(arm.fixed().mass_terms, (), Fraction(0))
 
 
 @pytest.mark.parametrize("name", ARMS)

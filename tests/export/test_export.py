@@ -215,7 +215,7 @@ def test_it_is_the_torque_of_the_simulation_and_of_the_arm(
         assert np.all(np.abs(np.array([tau, again]) - found) <= most)
         with precision(BITS):
             sines, cosines = ([getattr(arb(x), name)() for x in q] for name in ("sin", "cos"))
-            pull = model.fixed().gravity_at(sines, cosines, to_arb)
+            pull = model.fixed().at(sines, cosines, to_arb).gravity()
             still = controlled.torque(q, [0.0] * one.n, list(q))
             assert all(a.overlaps(b) for a, b in zip(pull, still, strict=True))
 

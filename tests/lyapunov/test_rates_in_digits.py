@@ -28,11 +28,11 @@ class Flow:
         return mp.sinh(x) ** (2 * self.m - 1) * mp.cosh(x) / (1 + mp.sinh(x) ** (2 * self.m))
 
     def mass(self, q):
-        return self.kept.model.mass_at([mp.sin(x) for x in q], [mp.cos(x) for x in q], exact)
+        return self.kept.model.at([mp.sin(x) for x in q], [mp.cos(x) for x in q], exact).mass()
 
     def force(self):
         turns = [mp.sin(x) for x in self.q], [mp.cos(x) for x in self.q]
-        C = self.kept.model.coriolis_at(*turns, self.w, exact)
+        C = self.kept.model.at(*turns, exact).coriolis(self.w)
         return [
             KP[i] * self.h(self.e[i])
             - KV[i] * self.h(self.w[i])

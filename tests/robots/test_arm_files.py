@@ -78,8 +78,8 @@ def test_a_chain_is_read_exactly(tmp_path):
     assert arm.numbers["arm_mass"].source == "a test"
     assert arm.torque_limit[0] is None
     sin, cos = [Fraction(0)] * 2, [Fraction(1)] * 2
-    assert arm.mass_at(sin, cos, Fraction)[1][1] == Fraction("0.1") + Fraction("1.5") * Fraction("0.09")
-    assert arm.gravity_at(sin, cos, Fraction) == [0, -Fraction("1.5") * Fraction("9.81") * Fraction("0.3")]
+    assert arm.at(sin, cos, Fraction).mass()[1][1] == Fraction("0.1") + Fraction("1.5") * Fraction("0.09")
+    assert arm.at(sin, cos, Fraction).gravity() == [0, -Fraction("1.5") * Fraction("9.81") * Fraction("0.3")]
 
 
 def test_a_printed_model_is_read_exactly(tmp_path):
@@ -103,7 +103,7 @@ def test_ranges_become_parameters(tmp_path):
     arm = load(tmp_path, CHAIN.replace("mass = 1.5", "mass = { value = 1.5, low = 1, high = 2 }"))
     assert list(arm.parameters) == ["arm_mass"]
     sin, cos = [Fraction(0)] * 2, [Fraction(1)] * 2
-    heavy = arm.mass_at(sin, cos, Fraction, {"arm_mass": Fraction(2)})
+    heavy = arm.at(sin, cos, Fraction, {"arm_mass": Fraction(2)}).mass()
     assert heavy[1][1] == Fraction("0.1") + 2 * Fraction("0.09")
 
 

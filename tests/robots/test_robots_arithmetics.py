@@ -30,11 +30,11 @@ def test_numpy_agrees_with_the_polynomials(arm):
         q, x, fast.mass(q), fast.coriolis(q, x), fast.gravity(q), strict=True
     ):
         sin, cos = list(np.sin(state)), list(np.cos(state))
-        np.testing.assert_allclose(mass, arm.mass_at(sin, cos, float), rtol=1e-13, atol=1e-14)
+        np.testing.assert_allclose(mass, arm.at(sin, cos, float).mass(), rtol=1e-13, atol=1e-14)
         np.testing.assert_allclose(
-            coriolis, arm.coriolis_at(sin, cos, list(rate), float), rtol=1e-12, atol=1e-13
+            coriolis, arm.at(sin, cos, float).coriolis(list(rate)), rtol=1e-12, atol=1e-13
         )
-        np.testing.assert_allclose(gravity, arm.gravity_at(sin, cos, float), rtol=1e-13, atol=1e-13)
+        np.testing.assert_allclose(gravity, arm.at(sin, cos, float).gravity(), rtol=1e-13, atol=1e-13)
 
 
 def test_numpy_batches_any_leading_axes(arm):

@@ -49,7 +49,7 @@ def test_the_built_in_arms_can_be():
 def test_small_arm_gravity_is_the_print():
     """g = (0, 14.28 sin q2 + 1.14 sin(q2+q3), 1.14 sin(q2+q3)), limits 15, 50, 4 N·m."""
     arm = robots.load("buap3-small")
-    assert arm.gravity_at([F(0), F(1), F(0)], [F(1), F(0), F(1)], Fraction) == [0, F("15.42"), F("1.14")]
+    assert arm.at([F(0), F(1), F(0)], [F(1), F(0), F(1)], Fraction).gravity() == [0, F("15.42"), F("1.14")]
     assert [limit.value for limit in arm.torque_limit] == [15, 50, 4]
     assert all(key.split("_", 1)[1] == "inertia" for key in arm.parameters)
 
@@ -90,14 +90,14 @@ def test_paper_arm_gravity_reaches_the_printed_bounds():
     sin, cos = [F(0), F(1), F(0)], [F(1), F(0), F(1)]
     printed = [bound.value for bound in arm.gravity_bound]
     assert printed == [0, F("40.28"), F("1.81")]
-    assert arm.gravity_at(sin, cos, Fraction) == printed
+    assert arm.at(sin, cos, Fraction).gravity() == printed
 
 
 def test_paper_arm_hangs_down_at_home():
     arm = robots.load("buap3")
-    assert arm.gravity_at(*at_rest(3), Fraction) == [0, 0, 0]
+    assert arm.at(*at_rest(3), Fraction).gravity() == [0, 0, 0]
     upside_down = [F(1), F(-1), F(1)]
-    assert arm.potential_at(*at_rest(3), Fraction) < arm.potential_at([F(0)] * 3, upside_down, Fraction)
+    assert arm.at(*at_rest(3), Fraction).potential() < arm.at([F(0)] * 3, upside_down, Fraction).potential()
 
 
 def test_paper_arm_friction_is_at_least_the_printed_minimum():
@@ -112,12 +112,12 @@ def test_two_joint_arm_is_the_print():
     sin, cos, w = [F(3, 5), F(5, 13)], [F(4, 5), F(12, 13)], [F(2), F(-3)]
     c2, s2, s1, s12 = F(12, 13), F(5, 13), F(3, 5), F(3, 5) * F(12, 13) + F(4, 5) * F(5, 13)
     m12 = F("0.102") + F("0.084") * c2
-    assert arm.mass_at(sin, cos, Fraction) == [[F("2.351") + F("0.168") * c2, m12], [m12, F("0.102")]]
-    torque = [sum(row[k] * w[k] for k in range(2)) for row in arm.coriolis_at(sin, cos, w, Fraction)]
+    assert arm.at(sin, cos, Fraction).mass() == [[F("2.351") + F("0.168") * c2, m12], [m12, F("0.102")]]
+    torque = [sum(row[k] * w[k] for k in range(2)) for row in arm.at(sin, cos, Fraction).coriolis(w)]
     a = F("0.084") * s2
     assert torque == [-2 * a * w[1] * w[0] - a * w[1] * w[1], a * w[0] * w[0]]
     g1, g2 = F("9.81") * F("3.921"), F("9.81") * F("0.186")
-    assert arm.gravity_at(sin, cos, Fraction) == [g1 * s1 + g2 * s12, g2 * s12]
+    assert arm.at(sin, cos, Fraction).gravity() == [g1 * s1 + g2 * s12, g2 * s12]
 
 
 def test_two_joint_print_agrees_with_its_links(tmp_path):
@@ -141,9 +141,9 @@ def test_pelican_is_the_print():
     second = F("0.0116") + m2 * lc2**2
     across = second + m2 * l1 * lc2 * c2
     first = F("0.1213") + m1 * lc1**2 + m2 * l1**2 + across + m2 * l1 * lc2 * c2
-    assert arm.mass_at([s1, s2], [c1, c2], Fraction) == [[first, across], [across, second]]
+    assert arm.at([s1, s2], [c1, c2], Fraction).mass() == [[first, across], [across, second]]
     g2 = F("9.81") * m2 * lc2 * (s1 * c2 + c1 * s2)
-    assert arm.gravity_at([s1, s2], [c1, c2], Fraction) == [F("9.81") * (m1 * lc1 + m2 * l1) * s1 + g2, g2]
+    assert arm.at([s1, s2], [c1, c2], Fraction).gravity() == [F("9.81") * (m1 * lc1 + m2 * l1) * s1 + g2, g2]
 
 
 def test_paper_arm_inertia_is_a_chain_of_slender_links(tmp_path):
@@ -185,8 +185,8 @@ viscous = 1
 
 def test_pendulum_swings_at_the_textbook_period():
     arm = robots.load("pendulum1")
-    stiffness = arm.gravity_at([F(1)], [F(0)], Fraction)[0]
-    omega = math.sqrt(stiffness / arm.mass_at([F(1)], [F(0)], Fraction)[0][0])
+    stiffness = arm.at([F(1)], [F(0)], Fraction).gravity()[0]
+    omega = math.sqrt(stiffness / arm.at([F(1)], [F(0)], Fraction).mass()[0][0])
     assert 2 * math.pi / omega == pytest.approx(2 * math.pi * math.sqrt(0.5 / 9.81), rel=1e-12)
 
 

@@ -59,7 +59,7 @@ def test_identities_of_random_chains(model):
 def test_mass_is_positive_definite(data):
     model = data.draw(models)
     sin, cos = zip(*data.draw(angles(model.n)), strict=True)
-    mass = model.mass_at(sin, cos, Fraction)
+    mass = model.at(sin, cos, Fraction).mass()
     w = data.draw(rates(model.n).filter(any))
     assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
 
@@ -97,16 +97,16 @@ def test_pickle_brings_the_same_model_back(arm):
 
 def test_any_arithmetic_gives_the_same_mass(arm):
     sin, cos = [Fraction(3, 5)] * arm.n, [Fraction(4, 5)] * arm.n
-    fractions = arm.mass_at(sin, cos, Fraction)
-    flints = arm.mass_at([exact(x) for x in sin], [exact(x) for x in cos], exact)
+    fractions = arm.at(sin, cos, Fraction).mass()
+    flints = arm.at([exact(x) for x in sin], [exact(x) for x in cos], exact).mass()
     assert [[exact(x) for x in row] for row in fractions] == flints
 
 
 def test_parameters_default_to_nominal_and_can_be_given():
     arm = robots.load("buap3")
     sin, cos = [Fraction(0)] * 3, [Fraction(1)] * 3
-    assert arm.mass_at(sin, cos, Fraction)[0][0] == Fraction(1, 2)
-    assert arm.mass_at(sin, cos, Fraction, {"base_inertia": Fraction(2)})[0][0] == 2
+    assert arm.at(sin, cos, Fraction).mass()[0][0] == Fraction(1, 2)
+    assert arm.at(sin, cos, Fraction, {"base_inertia": Fraction(2)}).mass()[0][0] == 2
 
 
 def test_fixed_removes_the_parameters():
@@ -114,8 +114,8 @@ def test_fixed_removes_the_parameters():
     fixed = arm.fixed(base_inertia=Fraction(3, 4))
     sin, cos = [Fraction(0)] * 3, [Fraction(1)] * 3
     assert not fixed.parameters
-    assert fixed.mass_at(sin, cos, Fraction)[0][0] == Fraction(3, 4)
-    assert arm.fixed().mass_at(sin, cos, Fraction) == arm.mass_at(sin, cos, Fraction)
+    assert fixed.at(sin, cos, Fraction).mass()[0][0] == Fraction(3, 4)
+    assert arm.fixed().at(sin, cos, Fraction).mass() == arm.at(sin, cos, Fraction).mass()
 
 
 def test_fixing_an_unknown_parameter_is_refused():

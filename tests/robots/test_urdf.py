@@ -31,7 +31,7 @@ def load(folder: Path, text: str, tip: str | None = None, name: str = "arm.urdf"
 
 def at_zero(arm: robots.RobotModel) -> tuple[list[list[Fraction]], list[Fraction]]:
     sin, cos = [Fraction(0)] * arm.n, [Fraction(1)] * arm.n
-    return arm.mass_at(sin, cos, Fraction), arm.gravity_at(sin, cos, Fraction)
+    return arm.at(sin, cos, Fraction).mass(), arm.at(sin, cos, Fraction).gravity()
 
 
 def test_decimals_are_read_exactly(tmp_path: Path) -> None:

@@ -16,7 +16,6 @@ from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import to_terms
-from lyapcheck.search.closed_loop import mass_of
 from lyapcheck.search.sampled import loops
 from lyapcheck.search.sampled_energy import falling_energy
 
@@ -36,7 +35,7 @@ def question(name: str, period="0.001", within=90, delay=1) -> SampledFromRest:
     kp, kv = (tuple(map(F, row.split())) for row in GAINS[name])
     friction = tuple((number.value, number.value) for number in arm.viscous)
     return SampledFromRest(
-        *("hyperbolic", 1, kp, kv, friction, mass_of(arm), tuple(to_terms(arm.potential)), ()),
+        *("hyperbolic", 1, kp, kv, friction, arm.mass_terms, tuple(to_terms(arm.potential)), ()),
         *(F(period), delay, F(within)),
     )
 

@@ -34,7 +34,7 @@ from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.claims.statements import Missing, remarks
 from lyapcheck.control.gains import GainFile, GainSet, gain_file_of, paper_gain_file
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.search.closed_loop import remember
+from lyapcheck.search.controlled_arm import remember
 from lyapcheck.store import KeptCertificates, remembered
 from lyapcheck.verdicts import Grade, Verdict
 

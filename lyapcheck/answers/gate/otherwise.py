@@ -91,7 +91,7 @@ def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -
 
 def _scalar(gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, ranges: bool) -> Check | None:
     from lyapcheck.family.base import named
-    from lyapcheck.search.closed_loop import closed_loop_of, mass_of, mass_proof, remember
+    from lyapcheck.search.controlled_arm import closed_loop_of, mass_proof, remember
     from lyapcheck.search.scalar_program import norm_proof
 
     if not named(gains.family, gains.m).bounded:
@@ -101,7 +101,7 @@ def _scalar(gains: GainSet, arm: RobotModel, viscous_min: Fraction | None, range
     friction = friction_of(arm, viscous_min, ranges)
     if friction is not None:
         loop = replace(loop, viscous=friction)
-    proof, _ = norm_proof(loop, mass_proof(mass_of(arm)))
+    proof, _ = norm_proof(loop, mass_proof(arm.mass_terms))
     if proof is None:
         return None
     judged = judged_statement(proof.statement, [proof.certificate])
@@ -144,14 +144,14 @@ def positive(arm: RobotModel) -> JudgedStatement:
     from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
     from lyapcheck.check.kinds.inertia import MassAbove
     from lyapcheck.robots.dynamics import TooManyTerms
-    from lyapcheck.search.closed_loop import mass_of, mass_proof, remember
+    from lyapcheck.search.controlled_arm import mass_proof, remember
 
     try:
-        mass = mass_of(arm)
+        mass = arm.mass_terms
     except TooManyTerms:
         if arm.chain is None:
             raise
         return judged_statement(ChainAbove(arm.chain.links, Fraction(0)), [OwnMoments()])
     remember(arm)
-    ranges = tuple(number.bounds for number in arm.parameters.values())
+    ranges = arm.ranges
     return judged_statement(MassAbove(mass, ranges, Fraction(0)), [mass_proof(mass)])

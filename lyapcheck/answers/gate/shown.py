@@ -43,7 +43,7 @@ def numbers_of(limits: Limits, viscous_min: Fraction | None) -> Numbers:
     model = limits.model
     if model is not None:
         friction = friction_of(model, viscous_min, True) or tuple(b.bounds for b in model.viscous)
-    parameters = () if model is None else tuple(number.bounds for number in model.parameters.values())
+    parameters = () if model is None else model.ranges
     return parameters, friction, limits.torque
 
 
@@ -92,7 +92,7 @@ def shown_gravity(model: RobotModel, k_g: tuple[Fraction, ...]) -> ShownGravity 
         potential = tuple(to_terms(model.potential))
     except TooManyTerms:
         return _along_links(model.chain, k_g, known)
-    ranges = tuple(number.bounds for number in model.parameters.values())
+    ranges = model.ranges
     bounds = [GravityBelow(model.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
     proofs: list[Proof] = []
     for i, bound in enumerate(bounds):

@@ -11,7 +11,6 @@ from lyapcheck.answers.assumed import arm_words, assumed_line
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
-from lyapcheck.claims.bounds import ranges_of
 from lyapcheck.constants import SEED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Annotation, Answer, Level
@@ -21,7 +20,6 @@ from lyapcheck.output.fields import Field, data, records, table
 from lyapcheck.promise import Promise, all_say, told
 from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.robots.fields import with_unit
-from lyapcheck.search.closed_loop import mass_of
 from lyapcheck.verdicts import Exit, Verdict, exit_code
 
 if TYPE_CHECKING:
@@ -421,7 +419,7 @@ def inertia_sections(model: RobotModel) -> list[Section]:
     for robot in (model, model.fixed()):
         if robot.chain is not None and robot.n > FEW_JOINTS:
             continue
-        mass, ranges = mass_of(robot), ranges_of(robot)
+        mass, ranges = robot.mass_terms, robot.ranges
         entries, title = mass_entries(mass, ranges), mass_text(mass, ranges).removeprefix("the ")
         if entries[0] not in title and sum(map(len, entries)) <= READABLE:
             names = (f"p{k + 1} is {name}" for k, name in enumerate(robot.parameters))

@@ -16,7 +16,6 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
-from lyapcheck.claims.bounds import ranges_of
 from lyapcheck.claims.decision import Decision, Judged, decided, judge_afresh, undecided
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.procedures import propose
@@ -25,7 +24,6 @@ from lyapcheck.claims.statements import Missing
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots import Number, RobotModel, trig
-from lyapcheck.search.closed_loop import mass_of
 from lyapcheck.verdicts import Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
@@ -198,7 +196,7 @@ def print_questions(model: RobotModel) -> list[PropertyQuestion]:
 
 
 def _statements(model: RobotModel) -> dict[str, Statement]:
-    printed, ranges = model.printed, ranges_of(model)
+    printed, ranges = model.printed, model.ranges
     result: dict[str, Statement] = {}
     if printed is None:
         return result
@@ -207,8 +205,8 @@ def _statements(model: RobotModel) -> dict[str, Statement]:
         symbols = printed.symbols(model.ring, numbers, model.n)
         # each printed term has exactly one rate, so that nothing is left without
         C = tuple(tuple((*map(_terms, entry), ()) for entry in row) for row in symbols)
-        result["C torque"] = CoriolisTorque(mass_of(model), ranges, C)
-        result["C rates"] = RateOfMass(mass_of(model), ranges, C)
+        result["C torque"] = CoriolisTorque(model.mass_terms, ranges, C)
+        result["C rates"] = RateOfMass(model.mass_terms, ranges, C)
     if printed.gravity:
         weights = tuple(map(_terms, printed.weights(model.ring, numbers)))
         result["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)

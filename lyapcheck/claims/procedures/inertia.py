@@ -41,8 +41,8 @@ from lyapcheck.constants.storage import storage_proof
 from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import Number
-from lyapcheck.robots.plant import Plant
-from lyapcheck.search.closed_loop import mass_proof
+from lyapcheck.robots.plant import RobotModel
+from lyapcheck.search.controlled_arm import mass_proof
 
 METHOD = "inertia"
 SAMPLES = 400
@@ -189,7 +189,8 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
             name = f"k_g{statement.joints[0]}"
     joints = tuple(f"joint {i + 1}" for i in range(chain.n))
     reached = extreme(
-        Plant(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * chain.n), name
+        RobotModel(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * chain.n),
+        name,
     )
     if reached.value > statement.high:
         witness = failing(entries(q=reached.q, x=reached.x), reached.value, "<=", statement.high)

@@ -37,8 +37,8 @@ from lyapcheck.claims.search_result import (
 )
 from lyapcheck.robots import Number, trig
 from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
-from lyapcheck.robots.plant import Plant
-from lyapcheck.search.closed_loop import mass_proof
+from lyapcheck.robots.plant import RobotModel
+from lyapcheck.search.controlled_arm import mass_proof
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ def controlled_arm_of(statement: Decreasing) -> ControlledArm:
     names = tuple(f"p{k + 1}" for k in range(len(parameters)))
     ring = trig.trig_ring(n, names)
     mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
-    plant = Plant(
+    plant = RobotModel(
         name="the arm",
         joints=tuple(f"joint {i + 1}" for i in range(n)),
         dynamics=Polynomials(mass, trig.constant(ring, 0), names),

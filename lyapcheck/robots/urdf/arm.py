@@ -10,8 +10,7 @@ from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.errors import InputError
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.escapes import printable
-from lyapcheck.robots.bodies import impossible_state
-from lyapcheck.robots.chain_bounds import bodily
+from lyapcheck.robots.bodies import bodily, impossible_state
 from lyapcheck.robots.choice import Choice
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import JointEntry, Number, of_joints
