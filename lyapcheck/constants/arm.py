@@ -278,9 +278,10 @@ def chain_constant(plant: RobotModel, name: str, on_progress: Progress = silent)
     if shown is None:
         on_progress(0.1, "forms along the links")
         shown = storage_proof(chain, name)
-    if shown is None:
+    if shown is None and name != "lambda_min":
         rule = "has no bound along the links that the checker accepts"
         raise argument_error(name, "", rule, "correct the masses and inertias")
-    low, high = sorted((inner.value, shown.bound))
+    # bodies without mass may leave nothing to show, but that M(q) of links is never negative
+    low, high = sorted((inner.value, shown.bound if shown else Fraction(0)))
     unit = "N·m" if name.startswith("k_g") else "kg·m²"
     return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)
