@@ -103,6 +103,28 @@ def test_the_force_of_a_tracking_scheme_is_that_of_21():
     assert equal(frictionless, pd.pd - C @ pd.w + goal.B @ goal.velocity) == "proved"
 
 
+def test_m_cancels_only_where_all_of_the_force_has_it():
+    """M ẇ = M b gives ẇ = b; not where a part has no M, another matrix, or M in a number."""
+    for change, free in (
+        (lambda pd, goal: 0 * pd.e, True),
+        (lambda pd, goal: pd.M @ (pd.K @ pd.w), True),
+        (lambda pd, goal: pd.e, False),
+        (lambda pd, goal: goal.C @ pd.w, False),
+        (lambda pd, goal: any_matrix("dM") @ pd.e, False),
+        (lambda pd, goal: (pd.w @ pd.M @ pd.w) * pd.M @ pd.e, False),
+        (lambda pd, goal: pd.K @ (pd.M @ pd.e), False),
+    ):
+        goal = moving_goal()
+        pd = PD(goal)
+        velocity = goal.velocity + pd.w
+        more = goal.C @ velocity + goal.gravity + goal.B @ velocity + change(pd, goal)
+        system = goal.under(pd.M @ (goal.acceleration + pd.pd) + more)
+        assert (system.acceleration != ("vec", "dw")) is free
+        assert system.rates()["vec", "w"] == system.acceleration
+    arm = PD(moving_goal()).goal.under(any_matrix("M") @ any_vector("ddqd"))
+    assert arm.acceleration == ("vec", "dw")
+
+
 def test_the_slopes_of_gravity_are_those_of_the_robot():
     robot = load("pelican2").fixed()
     entries = hessian(tuple(to_terms(robot.potential)), 2)

@@ -27,6 +27,7 @@ REFUSED = {
     "bounded_filter": dict.fromkeys(("leak", "order", "at once"), "undecided"),
     "kelly_filter": {"soft": "undecided", "turned": "refuted", "leak": "undecided"},
     "flexible_joints": dict.fromkeys(("soft", "undamped", "still"), "undecided"),
+    "computed_torque": dict.fromkeys(("any a", "turned", "twice"), "undecided"),
     "adaptive_pd": dict.fromkeys(("any a", "turned", "learned", "asymptotic"), "undecided"),
     "slotine_li_adaptive": dict.fromkeys(
         ("printed", "turned", "unbounded", "learned", "exponential"), "undecided"
@@ -126,6 +127,12 @@ FAULTS = {
         ("K.max**2 < (K.min - k_g) * (K.min + K_p.min)", "k_g < K_p.min"),
         ("K @ (e - f) + goal.gravity_at_goal", "K @ (e + f) + goal.gravity_at_goal"),
         ("e=-w), step", "f=-w), step"),
+    ],
+    "computed_torque": [
+        ("e - K_v @ w\n", "e + K_v @ w\n"),
+        ("share * goal.M @ wanted", "share * goal.M_at_goal @ wanted"),
+        ("[a < K_v.min] if", "[K_v.min < a] if"),
+        ("goal.C @ velocity + goal.gravity", "goal.gravity"),
     ],
     "adaptive_pd": [
         ("(w - ε * e)", "(w + ε * e)"),

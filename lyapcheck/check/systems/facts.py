@@ -38,6 +38,7 @@ from lyapcheck.check.systems.system import (
     S,
     System,
     U,
+    vector_of,
 )
 
 Norm = tuple[tuple[Tree, ...], Tree]
@@ -131,12 +132,7 @@ def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None
 
 def _number(word: Word) -> Tree:
     """A word as an expression."""
-    (_, first), *middle, last = word
-    value: Tree = last
-    for kind, name in reversed(middle):
-        matrix: Tree = ("transpose", ("mat", name)) if kind == "transposed" else (kind, name)
-        value = ("apply", matrix, value)
-    return ("dot", ("vec", first), value)
+    return ("dot", word[0], vector_of(word[1:]))
 
 
 def written_out(number: Tree, words: Words) -> Tree:

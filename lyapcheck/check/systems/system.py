@@ -17,9 +17,11 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.expression import Tree, variables
+from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.kinds.every_n import Given
 from lyapcheck.check.letters.grammar import letters, require_sort
+from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.refusal import require
 
 E, W, DW, G, GD, DG, U = (("vec", name) for name in ("e", "w", "dw", "g", "gd", "dg", "u"))
@@ -231,12 +233,23 @@ class System:
         """M ẇ = force."""
         return Given("M", "dw", self.force)
 
+    @property
+    def acceleration(self) -> Tree:
+        """ẇ: b if its force is M b, as M is invertible; else a letter of its own."""
+        words, parts = Words(("M",), {}, {}), list[Tree]()
+        for word, factor in words.expand(self.force).items():
+            if terms_of(factor):
+                if word[0] != M or variables(factor) & words.seen.keys():
+                    return DW
+                parts.append(("scale", factor, vector_of(word[1:])))
+        return ("sum", *parts)
+
     def rates(self) -> dict[Tree, Tree]:
         """The derivative of each letter that may stand in V.
 
         s = 1/(1 + ‖e‖) has ṡ = s² uᵀw; where e = 0 it has none, see ``theorems`` on why that does no harm.
         """
-        moved: dict[str, Tree] = {"e": minus(W), "w": DW} | {state.name: state.rate for state in self.states}
+        moved = {"e": minus(W), "w": self.acceleration} | {state.name: state.rate for state in self.states}
         result = {("vec", name): rate for name, rate in moved.items()}
         result |= {("vec", name): NOTHING for name in self.diagonal}
         result |= {("var", name): ("num", "0") for name in (*self.constants, "eps0")}
@@ -254,6 +267,16 @@ class System:
         gone |= {("vec", n) for f in self.functions if f.of in states for n in (f.name, f"U{f.name}")}
         gone |= ({C} if "w" in states else set()) | ({DG, DM, DD} if "e" in states else set())
         return replaced(tree, dict.fromkeys(gone, NOTHING))
+
+
+def vector_of(word: Word) -> Tree:
+    """A word that ends in a vector, as an expression."""
+    *middle, last = word
+    value: Tree = last
+    for kind, name in reversed(middle):
+        matrix: Tree = ("transpose", ("mat", name)) if kind == "transposed" else (kind, name)
+        value = ("apply", matrix, value)
+    return value
 
 
 def minus(x: Tree) -> Tree:
