@@ -19,7 +19,7 @@ from lyapcheck.claims.decision import decided, judge_afresh
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
 from lyapcheck.files.fields import file_stem
-from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.model import ClaimRow
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult

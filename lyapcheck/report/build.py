@@ -24,8 +24,7 @@ from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
-from lyapcheck.report.model import Report, Subject
-from lyapcheck.report.notes import published_notes
+from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import redirect
 from lyapcheck.report.page import render as page
 from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
@@ -33,7 +32,7 @@ from lyapcheck.report.tiles import drawn_motion, tiles
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
-    from lyapcheck.report.notes import Notes
+    from lyapcheck.report.model import Notes
     from lyapcheck.report.plots import Files
 
 Job = Future[Done]

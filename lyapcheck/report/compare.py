@@ -11,13 +11,14 @@ from typing import Any
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.reader import REPORT, read_text
 from lyapcheck.output.answer import Annotation, Answer, Level
-from lyapcheck.output.document import Block, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Document, Paragraph, Section, Table
+from lyapcheck.report.model import KINDS
 from lyapcheck.verdicts import Exit
 
-SCHEMAS = ("lyapcheck/report/2",)
+SCHEMA = "lyapcheck/report/2"
 ORDER = ("error", "refuted", "rejected", "undecided", "absent", "accepted", "proved")
 """From bad to good; ``absent`` where one of the reports does not have it."""
-NUMBERS = ("published", "scalar", "certified", "falsified")
+NONE, ABSENT = "none", "absent"
 
 
 @dataclass(frozen=True)
@@ -59,19 +60,24 @@ class ReportComparison(Answer):
 
     def document(self) -> Document:
         """What got worse, then everything else that changed."""
-        worse = [change for change in self.changes if change.worse]
-        rest = [change for change in self.changes if not change.worse]
-        blocks: list[Block] = [Section(f"Worse ({len(worse)})", (_table(worse),))] if worse else []
-        blocks += [Section(f"Changed ({len(rest)})", (_table(rest),))] if rest else []
-        if not blocks:
-            blocks.append(Paragraph("No verdict, margin or ε₀ has changed."))
-        sign = "✗" if worse else "✓"
-        title = f"{sign} {len(worse)} worse, {len(rest)} other changes since {self.old}"
-        return Document(title, tuple(blocks))
+        groups = {
+            title: [(one.what, one.subject, one.old, one.new) for one in self.changes if one.worse is worse]
+            for title, worse in (("Worse", True), ("Changed", False))
+        }
+        blocks = tuple(
+            Section(
+                f"{title} ({len(rows)})", (Table(("what", "of", "was", "is"), tuple(rows), "", "llll", 2),)
+            )
+            for title, rows in groups.items()
+            if rows
+        )
+        sign, count = "✗" if groups["Worse"] else "✓", {title: len(rows) for title, rows in groups.items()}
+        title = f"{sign} {count['Worse']} worse, {count['Changed']} other changes since {self.old}"
+        return Document(title, blocks or (Paragraph("No verdict, margin or ε₀ has changed."),))
 
     def data(self) -> dict[str, Any]:
         """``changes: [{what, subject, old, new, worse}]``."""
-        return {"old": self.old, "changes": [vars(change) for change in self.changes]}
+        return {"old": self.old, "changes": self.records()}
 
     def records(self) -> list[dict[str, Any]]:
         """A row a change."""
@@ -81,14 +87,14 @@ class ReportComparison(Answer):
         """A case a change."""
         return [
             Annotation(
-                Level.FAILED if change.worse else Level.REMARK,
-                change.what,
+                Level.FAILED if one.worse else Level.REMARK,
+                one.what,
                 "no verdict gets worse",
-                change.subject,
+                one.subject,
                 "",
-                f"was {change.old}, is {change.new}",
+                f"was {one.old}, is {one.new}",
             )
-            for change in self.changes
+            for one in self.changes
         ]
 
 
@@ -99,8 +105,35 @@ def compare(old: Mapping[str, Any], new: Mapping[str, Any], name: str) -> Report
         old, new: as ``report.json`` holds them.
         name: how the older is called.
     """
-    changes = [*_verdicts(old, new), *_gates(old, new), *_epsilons(old, new)]
+    # a report of an older version has no gain sets in its rows
+    named = all("gains" in row for report in (old, new) for row in report["claims"])
+    before, after = (dict(_facts(report, named)) for report in (old, new))
+    changes = []
+    for what, subject, group in dict.fromkeys([*before, *after]):
+        was, now = (facts.get((what, subject, group), ABSENT) for facts in (before, after))
+        # of a gain set that one of them has not, its verdict says enough
+        if was != now and not (what == "margin" and ABSENT in (was, now)):
+            ranks = [ORDER.index(word.split()[0]) if word.split()[0] in ORDER else 0 for word in (was, now)]
+            worse = what in ("claim", "gate") and ranks[1] < ranks[0]
+            lost = group == "certified" and was not in (NONE, ABSENT) and now in (NONE, ABSENT)
+            changes.append(ReportChange(what, subject, was, now, worse or lost))
     return ReportComparison(tuple(sorted(changes, key=lambda change: not change.worse)), name)
+
+
+def _facts(report: Mapping[str, Any], named: bool) -> Iterator[tuple[tuple[str, str, str], str]]:
+    """All that may change: what it is, what it is about and, of ε₀, which; then the fact in words."""
+    for row in (*report["claims"], *report["others"]):
+        gains = row["gains"] if named else None
+        member = f", {gains}" if gains else "" if row["m"] is None else f", m = {row['m']}"
+        yield ("claim", f"{row['proof']}: {row['id']}{member}", ""), f"{row['verdict']} [{row['grade']}]"
+    for row in report["gate"]:
+        yield ("gate", row["name"], ""), row["verdict"]
+        for one in row["checks"]:
+            subject = f"{row['name']}: ({one['id']}) {one['joint'] or 'all'}"
+            yield ("margin", subject, ""), one["margin"] or NONE
+    for row in report["epsilon"]:
+        for kind in KINDS:
+            yield ("ε₀", f"{row['name']}: {kind}", kind), row[kind] or NONE
 
 
 def read_report(path: Path) -> dict[str, Any]:
@@ -110,83 +143,22 @@ def read_report(path: Path) -> dict[str, Any]:
         InputError: it cannot be read, or is no report of a known schema.
     """
     file = path / "report.json" if path.is_dir() else path
-    text = read_text(file, REPORT)
+
+    def refused(rule: str, repair: str) -> InputError:
+        return InputError(Problem(str(file), None, "--compare", "", rule, repair))
+
     try:
-        result = json.loads(text)
+        result = json.loads(read_text(file, REPORT))
         schema = result["schema"] if isinstance(result, dict) else None
     except (ValueError, KeyError, RecursionError) as error:
-        rule = f"cannot be read as a report ({error})"
         repair = "name a report.json, or the folder that holds it"
-        raise InputError(Problem(str(file), None, "--compare", "", rule, repair)) from error
-    if schema not in SCHEMAS:
-        rule = f"has the schema {schema!r}, known is {SCHEMAS[0]!r}"
-        repair = "write the old report again with this version"
-        raise InputError(Problem(str(file), None, "--compare", "", rule, repair))
+        raise refused(f"cannot be read as a report ({error})", repair) from error
+    if schema != SCHEMA:
+        rule = f"has the schema {schema!r}, known is {SCHEMA!r}"
+        raise refused(rule, "write the old report again with this version")
     try:
         compare(result, result, str(file))
     except (LookupError, TypeError, AttributeError, ValueError) as error:
         rule = f"has other rows than a report ({type(error).__name__}: {error})"
-        repair = "name a report.json as lyapcheck report writes it"
-        raise InputError(Problem(str(file), None, "--compare", "", rule, repair)) from error
+        raise refused(rule, "name a report.json as lyapcheck report writes it") from error
     return dict(result)
-
-
-def _table(changes: list[ReportChange]) -> Table:
-    rows = tuple((change.what, change.subject, change.old, change.new) for change in changes)
-    return Table(("what", "of", "was", "is"), rows, align="llll", keys=2)
-
-
-def _pairs(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> Iterator[tuple[Any, Any, Any]]:
-    for key in dict.fromkeys([*old, *new]):
-        yield key, old.get(key), new.get(key)
-
-
-def _verdicts(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
-    # a report of an older version has no gain sets in its rows
-    named = all("gains" in row for report in (old, new) for row in report["claims"])
-
-    def rows(report: Mapping[str, Any]) -> dict[tuple[Any, ...], str]:
-        every = (*report["claims"], *report["others"])
-        return {
-            (row["proof"], row["id"], row["gains"] if named else None, row["m"]): (
-                f"{row['verdict']} [{row['grade']}]"
-            )
-            for row in every
-        }
-
-    for (proof, claim, gains, m), was, now in _pairs(rows(old), rows(new)):
-        if was != now:
-            member = f", {gains}" if gains else "" if m is None else f", m = {m}"
-            yield _change("claim", f"{proof}: {claim}{member}", was, now)
-
-
-def _gates(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
-    def rows(report: Mapping[str, Any]) -> dict[str, Any]:
-        return {row["name"]: row for row in report["gate"]}
-
-    for name, was, now in _pairs(rows(old), rows(new)):
-        verdicts = [one["verdict"] if one else None for one in (was, now)]
-        if verdicts[0] != verdicts[1]:
-            yield _change("gate", name, *verdicts)
-        if was and now:
-            margins = [{(c["id"], c["joint"]): c["margin"] for c in one["checks"]} for one in (was, now)]
-            for (check, joint), before, after in _pairs(*margins):
-                if before != after:
-                    subject = f"{name}: ({check}) {joint or 'all'}"
-                    yield ReportChange("margin", subject, before or "none", after or "none", False)
-
-
-def _epsilons(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[ReportChange]:
-    def rows(report: Mapping[str, Any]) -> dict[tuple[str, str], str]:
-        return {(row["name"], kind): row[kind] or "none" for row in report["epsilon"] for kind in NUMBERS}
-
-    for (name, kind), was, now in _pairs(rows(old), rows(new)):
-        if was != now:
-            lost = kind == "certified" and was not in (None, "none") and now in (None, "none")
-            yield ReportChange("ε₀", f"{name}: {kind}", was or "absent", now or "absent", lost)
-
-
-def _change(what: str, subject: str, was: str | None, now: str | None) -> ReportChange:
-    before, after = was or "absent", now or "absent"
-    ranks = [ORDER.index(word.split()[0]) if word.split()[0] in ORDER else 0 for word in (before, after)]
-    return ReportChange(what, subject, before, after, ranks[1] < ranks[0])

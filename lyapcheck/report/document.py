@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.answers.tune.answer import Effect, effect_section
 from lyapcheck.errors import argument_error
+from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.fields import Field, table
 from lyapcheck.output.typst import markup
 from lyapcheck.process_tree import temporary_folder
-from lyapcheck.report.evidence import evidence, figure, four_epsilons, known, rests
-from lyapcheck.report.model import SIGNS, WEIGHTS, Finding, Report
-from lyapcheck.report.text import SYMBOLS, and_list, member_words, witness_place, witness_sides
+from lyapcheck.report.model import KINDS, SIGNS, WEIGHTS, EpsilonRow, Finding, Report, RunRow
+from lyapcheck.report.plots_of_runs import file_stem
+from lyapcheck.report.text import SYMBOLS, and_list, fixed, joined, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.robots import RobotModel
 
@@ -59,27 +63,21 @@ class ReportAnswer(Answer):
             "own": report.own,
             "paper": None if report.own else report.notes.paper.citation,
             "robot": _robot(report.robot),
-            "verdict": [{"subject": b.subject, "word": b.word, "tone": b.tone} for b in badges(report)],
+            "verdict": [vars(one) for one in badges(report)],
             "sentences": list(sentences(report)),
             "counts": report.counts(),
             "errors": report.errors(),
             "by_n": [row.data() for row in report.by_size],
-            "findings": [_found(finding) for finding in report.findings],
+            "findings": [finding.data() for finding in report.findings],
             "table": report.table.data()["rows"],
             "derive": report.derived.data(),
             "tiles": [
-                {
-                    "gains": name,
-                    "subject": one.subject,
-                    "number": one.number,
-                    "text": one.text,
-                    "tone": one.tone,
-                }
+                {"gains": name} | {key: getattr(one, key) for key in ("subject", "number", "text", "tone")}
                 for name, known in report.tiles.items()
                 for one in known
             ],
             "gate": report.gate.data()["results"],
-            "epsilon": [plain(row) for row in report.epsilon],
+            "epsilon": [_epsilon(row) for row in report.epsilon],
             "claims": [row.data() for row in report.claims],
             "others": [row.data() for row in report.others],
             "runs": [vars(row) for row in report.runs],
@@ -93,40 +91,24 @@ class ReportAnswer(Answer):
     def records(self) -> Sequence[dict[str, Any]]:
         """A row a claim."""
         keys = ("proof", "id", "m", "n", "stands", "verdict", "grade", "comment")
-        rows = [{key: getattr(row, key) for key in keys} for row in self.report.every_claim]
         return [
-            data | {"verdict": row.decision.word}
-            for data, row in zip(rows, self.report.every_claim, strict=True)
+            {key: getattr(row, key) for key in keys} | {"verdict": row.decision.word}
+            for row in self.report.every_claim
         ]
 
 
-def plain(row: Any) -> dict[str, Any]:
+def _epsilon(row: EpsilonRow) -> dict[str, Any]:
     """The fields of a row by their names; a promise is in words, not in data."""
-    if not hasattr(row, "promise"):
-        return asdict(row)
-    data = asdict(replace(row, promise=None))
-    del data["promise"]
-    return data
-
-
-def _found(finding: Finding) -> dict[str, Any]:
-    """A finding with the keys that it had when witnesses were searched for as small as they are."""
-    data = plain(finding)
-    witness = data["witness"] and data["witness"] | {"small": False, "figure": ""}
-    return data | {"witness": witness}
+    return {key: value for key, value in vars(row).items() if key != "promise"}
 
 
 def _robot(model: RobotModel) -> dict[str, Any]:
-    return {
-        "name": model.name,
-        "title": model.title,
-        "joints": list(model.joints),
-        "numbers": [
-            {"name": name, "value": str(number.value), "unit": number.unit, "source": number.source}
-            for name, number in model.numbers.items()
-        ],
-        "assumptions": list(model.assumptions),
-    }
+    numbers = [
+        {"name": name, "value": str(one.value), "unit": one.unit, "source": one.source}
+        for name, one in model.numbers.items()
+    ]
+    own = {"name": model.name, "title": model.title, "joints": list(model.joints), "numbers": numbers}
+    return own | {"assumptions": list(model.assumptions)}
 
 
 def _front(report: Report) -> Iterator[Block]:
@@ -137,32 +119,21 @@ def _front(report: Report) -> Iterator[Block]:
     for name, some in report.tiles.items():
         rows = tuple((one.subject, f"{SIGNS[one.tone]} {one.number}", one.text) for one in some)
         yield Table(("question", "answer", "who says so"), rows, name, align="lll")
-    if not report.own:
-        yield Table(
-            ("step", "what it says", "became"),
-            tuple((step.box.label, step.box.title, step.word) for step in chain(report)),
-            "The printed proof, from left to right",
-            align="lll",
-        )
-        if around := route(report):
-            rows = tuple((step.box.label, step.box.title, step.word) for step in around)
-            yield Table(("step", "what it says", "became"), rows, "The way round", align="lll")
+    pictures = {"The printed proof, from left to right": chain(report), "The way round": route(report)}
+    for caption, steps in pictures.items():
+        if steps and not report.own:
+            rows = tuple((step.box.label, step.box.title, step.word) for step in steps)
+            yield Table(("step", "what it says", "became"), rows, caption, align="lll")
 
 
 def _findings(report: Report) -> Iterator[Section]:
     drawn: set[str] = set()
     for weight, words in WEIGHTS.items():
-        result = report.weighing(weight)
-        if not result:
-            continue
-        if weight in "ABE":
-            blocks: tuple[Block, ...] = tuple(
-                Section(one.title, tuple(_card(report, one, drawn))) for one in result
-            )
-        else:
-            blocks = (Bullets(tuple(_line(one) for one in result)),)
-        title = "What to mend" if report.own else f"{weight}: {words} ({len(result)})"
-        yield Section(title, blocks)
+        if result := report.weighing(weight):
+            cards = (Section(one.title, tuple(_card(report, one, drawn))) for one in result)
+            blocks = tuple(cards) if weight in "ABE" else (Bullets(tuple(map(_line, result))),)
+            title = "What to mend" if report.own else f"{weight}: {words} ({len(result)})"
+            yield Section(title, blocks)
 
 
 def by_size(report: Report) -> Iterator[Section]:
@@ -178,11 +149,12 @@ def by_size(report: Report) -> Iterator[Section]:
             )
             for row in report.by_size
         )
-        words = f"Verdicts that change with the number of joints, asked for n = {ns[0]} to {ns[-1]}. "
-        words += "All other claims between norms have one verdict for these n."
-        yield Section(
-            "With the number of joints", (Paragraph(words), Table(heads, rows, align="l" * len(heads)))
+        words = (
+            f"Verdicts that change with the number of joints, asked for n = {ns[0]} to {ns[-1]}. "
+            "All other claims between norms have one verdict for these n."
         )
+        table = Table(heads, rows, align="l" * len(heads))
+        yield Section("With the number of joints", (Paragraph(words), table))
 
 
 def _line(finding: Finding) -> str:
@@ -200,14 +172,12 @@ def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
             f"{and_list([f'claim {name}' for name in finding.claims])}, {member_words(finding.ms)}{says}"
         )
     items = [f"{term}: {text}" for term, text in finding.about.items()]
-    if witness := finding.witness:
-        items.append(f"Witness: {', '.join(witness_place(witness))}: {witness_sides(witness)}")
-    else:
-        items.append(finding.text)
-    yield Bullets(tuple(items))
-    if finding.figure not in drawn:
-        yield from figure(report, finding.figure, finding.title)
-        drawn.add(finding.figure)
+    witness, drawing = finding.witness, finding.note.figure
+    shown = f"Witness: {witness_place(witness)}: {witness_sides(witness)}" if witness else finding.text
+    yield Bullets((*items, shown))
+    if drawing not in drawn:
+        yield from figure(report, drawing, finding.title)
+        drawn.add(drawing)
 
 
 def _claims(report: Report) -> Iterator[Section]:
@@ -215,19 +185,157 @@ def _claims(report: Report) -> Iterator[Section]:
         lines = []
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
-            shown = ", ".join(
-                f"{SYMBOLS[row.verdict]} {row.decision.word}" + (f" ({row.about})" if row.about else "")
-                for row in result
-            )
-            if len({row.verdict for row in result}) == 1:
-                ms = [str(row.m) for row in result if row.m is not None]
-                about = [f"m = {', '.join(ms)}"] if ms else []
-                about += [f"n = {result[0].n}"] if result[0].n is not None else []
-                shown = f"{SYMBOLS[result[0].verdict]} {result[0].decision.word}"
-                shown += f" ({', '.join(about)})" if about else ""
+            words = [f"{SYMBOLS[row.verdict]} {row.decision.word}" for row in result]
+            about = [row.about for row in result]
+            if len({row.verdict for row in result}) == 1:  # once for all members
+                ms = ", ".join(str(row.m) for row in result if row.m is not None)
+                letters = (
+                    f"{letter} = {value}" for letter, value in (("m", ms), ("n", result[0].n)) if value
+                )
+                words, about = words[:1], [", ".join(letters)]
+            shown = [f"{word} ({what})" if what else word for word, what in zip(words, about, strict=True)]
             grades = ", ".join(sorted({row.grade for row in result}))
-            lines.append((claim, shown, grades, result[0].comment))
+            lines.append((claim, ", ".join(shown), grades, result[0].comment))
         yield Section(name, (Table(("claim", "verdict", "grade", "statement"), tuple(lines), align="llll"),))
+
+
+# --- What supports a report: ε₀, constants, gate, runs, and what all of it rests on.
+
+
+FOUR = ("published (18)", "scalar", "certified", "falsified")
+DIGITS = 12
+"""Of constants: more than anybody compares by eye; report.json has all."""
+
+
+def figure(report: Report, name: str, caption: str) -> Iterator[Figure]:
+    """A drawing by its name, where the report has it."""
+    if f"{name}.svg" in report.figures:
+        yield Figure(f"figures/{name}.svg", caption)
+
+
+def four_epsilons(report: Report) -> Iterator[Block]:
+    """The four ε₀ of each gain set, why one is missing, and their drawing."""
+    yield table(
+        EPSILON,
+        [(row,) for row in report.epsilon],
+        "Published: the end of (18). Scalar: from two norms. The next has a certificate for this arm; of the "
+        "last a state with dV/dt > 0 is known. ε₀Λ: with weights, y = w − εΛh, the largest product with a "
+        "certificate. Rounded to the safe side, at nominal numbers.",
+    )
+    missing = [(row.name, kind, text) for row in report.epsilon for kind, text in row.reasons.items()]
+    if missing:
+        what = {"weighted": "larger ε₀Λ"}
+        said = (f"{name}, no {what.get(kind, f'{kind} ε₀')}: {text}" for name, kind, text in missing)
+        yield Bullets(tuple(said))
+    yield from figure(report, "epsilon", "The four ε₀ of each gain set")
+
+
+def _weighted(row: EpsilonRow) -> str:
+    """ε₀Λ of a gain set in a cell; a dash where no weights were sought."""
+    weights = f"diag({', '.join(row.weighted)})" if "weighted" in row.certificates else "Λ = I"
+    return weights if row.weighted else "–"
+
+
+EPSILON = (
+    Field("", "name", "gains", align="l"),
+    *(Field("", kind, head, lambda x: x or "–") for kind, head in zip(KINDS, FOUR, strict=True)),
+    Field("", "ratio", "certified/falsified", lambda x: x or "–"),
+    Field("", _weighted, "ε₀Λ"),
+)
+"""What is said of the ε₀ of a gain set."""
+
+
+def evidence(report: Report) -> Iterator[Section]:
+    """Constants, gate and runs."""
+    constants = _told(replace(report.table, digits=DIGITS).document())
+    drawn = figure(report, "family", "The bounded functions and their derivatives")
+    yield Section("The family and its constants", (*constants, *drawn))
+    yield Section("The gate", tuple(_told(report.gate.document())))
+    yield Section("The closed loop", tuple(_runs(report)))
+    # what m does in these runs, where each member has one gain set
+    members = {row.m: row for row in report.runs if row.m is not None and row.complete}
+    if len(members) > 1 and len(members) == sum(row.m is not None and row.complete for row in report.runs):
+        first = members[min(members)]
+        effects = [_effect(m, row) for m, row in sorted(members.items())]
+        section = effect_section(effects, first.target, first.time)
+        yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
+
+
+def _told(document: Document) -> Iterator[Block]:
+    """An answer in its own words."""
+    yield from (*document.blocks, *document.details)
+    if document.notes:
+        yield Bullets(document.notes)
+
+
+RUN = (
+    Field("", "name", "gains", align="l"),
+    Field("", "L2", "L2 [°]", lambda x: fixed(x, 3)),
+    Field("", lambda row: (row.printed or {}).get("L2"), "measured L2 [°]", lambda x: fixed(x, 3)),
+    Field("", "settling", "settling [s]", joined),
+    Field("", "overshoot", "overshoot [%]", lambda x: joined(x, 1)),
+    Field("", "peak_torque", "peak torque [N·m]", lambda x: joined(x, 1)),
+    Field("", "V_decreases", "V", lambda falls: "never rose" if falls else "rose"),
+)
+"""What is said of a run."""
+
+
+def _runs(report: Report) -> Iterator[Block]:
+    yield table(RUN, [(row,) for row in report.runs], "Reference simulation of (11), in floating point")
+    yield from figure(report, "indices", "The L2 index (20), simulated and measured")
+    for row in report.runs:
+        yield from figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
+
+
+OWN_GAINS = (
+    "Each m has the gains of its own gain set. Floating point, one motion; lyapcheck tune --m compares "
+    "members at the largest gains of each."
+)
+
+
+def _effect(m: int, row: RunRow) -> Effect:
+    known = [peak / most for peak, most in zip(row.peak_torque, row.torque_limit, strict=True) if most]
+    return Effect(
+        m,
+        math.nan if row.L2 is None else row.L2,
+        max(abs(error) for error in row.final_error if error is not None),
+        max(known, default=math.nan),
+        row.top_speed,
+        math.inf if row.rest is None else row.rest,
+    )
+
+
+def rests(report: Report) -> Iterator[Section]:
+    """What is assumed, certificates, versions and seed."""
+    versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
+    assumed = tuple(report.robot.assumptions)
+    blocks: list[Block] = [Bullets(assumed)] if assumed else [Paragraph("Nothing is assumed about the arm.")]
+    if report.certificates:
+        words = f"{len(report.certificates)} certificates; the small checker judges them again with"
+        blocks += [Paragraph(words), Code("lyapcheck recheck certificates/*/"), *_kernel(report)]
+    boxes = {row.boxes for row in report.epsilon}
+    budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
+    blocks.append(Paragraph(f"Computed with {versions}. Seed {report.seed}.{budget}"))
+    yield Section(f"What this rests on: {report.robot.title}", tuple(blocks))
+
+
+def known(report: Report) -> Iterator[Section]:
+    """What was known before the paper, and what is new."""
+    if not report.own:
+        yield Section("What was known, and what is new", (Bullets(report.notes.known[1:]),))
+
+
+def _kernel(report: Report) -> Iterator[Block]:
+    """What the grade ``kernel`` means, and which verdicts have it."""
+    rows = [row for row in report.every_claim if row.decided]
+    kernel = [row for row in rows if row.grade == GRADE]
+    if kernel:
+        yield Paragraph(
+            "Grade kernel: a theorem of Coq's kernel too, printed from the claim's own data, "
+            "on golden axioms; what its words mean stands on one page, formal/Definitions.v. So it is for "
+            f"{len(kernel)} of {len(rows)} verdicts. With Coq installed, it judges them anew by"
+        )
+        yield Code("lyapcheck recheck --kernel certificates/*/")
 
 
 # --- The report on paper: typeset by Typst, which needs no browser.

@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.words import advice
 from lyapcheck.control.conditions import REJECTED
-from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import Finding, WitnessRow, applies, behind
-from lyapcheck.report.notes import Note
+from lyapcheck.report.model import ClaimRow, Finding, Note, applies, behind
 from lyapcheck.report.text import witness_words
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.report.model import EpsilonRow
-    from lyapcheck.report.notes import Notes
+    from lyapcheck.report.model import EpsilonRow, Notes
 
 LIGHTER = {"Section 4": "C", "Section 5": "D"}
 """What a refuted claim weighs in parts of the paper on which the proof does not rest; elsewhere ``B``.
@@ -71,6 +68,10 @@ def _refuted(notes: Notes, claims: Sequence[ClaimRow]) -> Iterator[Finding]:
 
 
 def _finding(weight: str, names: tuple[str, ...], rows: Sequence[ClaimRow], note: Note) -> Finding:
+    # the roundest numbers are the shortest
+    shortest = min(
+        rows, key=lambda row: sum(map(len, (row.decision.witness or {}).get("point", {}).values()))
+    )
     return Finding(
         weight=weight,
         subject=f"claim {names[0]}",
@@ -78,14 +79,8 @@ def _finding(weight: str, names: tuple[str, ...], rows: Sequence[ClaimRow], note
         ms=_ms(rows),
         title=note.title,
         text=witness_words(rows[0]),
-        printed=note.printed,
-        argument=note.argument,
-        fails=note.fails,
-        consequence=note.consequence,
-        repair=note.repair,
-        mended=note.mended,
-        witness=_ordinary(min(rows, key=_length)),
-        figure=note.figure,
+        note=note,
+        witness=shortest if "point" in (shortest.decision.witness or {}) else None,
     )
 
 
@@ -98,19 +93,6 @@ def _lighter(rows: Sequence[ClaimRow]) -> str:
 
 def _ms(rows: Sequence[ClaimRow]) -> tuple[int, ...]:
     return tuple(sorted({row.m for row in rows if row.m is not None}))
-
-
-def _length(row: ClaimRow) -> int:
-    """Of the numbers of a witness, written out: the roundest is the shortest."""
-    return sum(map(len, (row.decision.witness or {}).get("point", {}).values()))
-
-
-def _ordinary(row: ClaimRow) -> WitnessRow | None:
-    data = row.decision.witness
-    if data is None or "point" not in data:
-        return None
-    sides = tuple(data["left"]), data["operator"], tuple(data["right"])
-    return WitnessRow(row.m, row.n, data["point"], *sides, row.certificate)
 
 
 def _rejected(gate: Sequence[GateResult], stable: Collection[str]) -> Iterator[Finding]:

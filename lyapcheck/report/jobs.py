@@ -13,15 +13,14 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.errors import InputError
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.digits import at_least, at_most
-from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import KINDS, LINKED, BySize, EpsilonRow, RunRow
+from lyapcheck.report.model import KINDS, LINKED, BySize, ClaimRow, EpsilonRow, RunRow
 from lyapcheck.store import BEHIND
 
 if TYPE_CHECKING:
     from lyapcheck.answers.check import ClaimResult
     from lyapcheck.answers.derive import Derivation
     from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.report.notes import Notes
+    from lyapcheck.report.model import Notes
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.run import Run
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.check.proof import refuted_by_source
+from lyapcheck.answers.check.proof import ClaimResult, refuted_by_source
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
-from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.control.gains import proofs_folder
+from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive import Derivation
@@ -19,7 +21,6 @@ if TYPE_CHECKING:
     from lyapcheck.claims.decision import Decision
     from lyapcheck.control.gains import GainFile
     from lyapcheck.promise import Promise
-    from lyapcheck.report.notes import Notes
     from lyapcheck.robots import RobotModel
 
 WEIGHTS = {
@@ -32,24 +33,156 @@ WEIGHTS = {
 
 
 @dataclass(frozen=True)
-class WitnessRow:
-    """Where a relation fails.
+class Paper:
+    """The text that a proof script is about."""
 
-    Args:
-        m, n: for which member and how many joints; none where it does not matter.
-        point: exact values by letter.
-        left, right: both sides, each between two decimals.
-        operator: of the relation that fails.
-        certificate: its path in the report.
+    authors: str
+    title: str
+    source: str
+    theorem: str
+    controller: str
+
+    @property
+    def citation(self) -> str:
+        """In one line."""
+        return f"{self.authors}, {self.title}, {self.source}"
+
+
+@dataclass(frozen=True)
+class Box:
+    """A step of the proof, or of the way round: as good as the worst of its claims."""
+
+    label: str
+    title: str
+    claims: tuple[str, ...]
+    proof: str = "published"
+    after: str = ""
+
+
+@dataclass(frozen=True)
+class Note:
+    """What the text argues where claims fail, why that is wrong, and what mends it; formulas in LaTeX.
+
+    ``mended`` are the claims that show that the repair does.
     """
 
-    m: int | None
-    n: int | None
-    point: Mapping[str, str]
-    left: tuple[str, str]
-    operator: str
-    right: tuple[str, str]
+    claims: tuple[str, ...]
+    title: str
+    printed: str = ""
+    argument: str = ""
+    fails: str = ""
+    consequence: str = ""
+    repair: str = ""
+    mended: tuple[str, ...] = ()
+    figure: str = ""
+
+
+@dataclass(frozen=True)
+class Notes:
+    """All that the file says.
+
+    Args:
+        paper: the text.
+        chain: its proof from left to right.
+        route: the way round what is broken.
+        findings: notes on claims that may fail; one whose claims hold is not shown.
+        equations: LaTeX of the numbered formulas.
+        titles: of claims, in a few letters, for the graph.
+        known: what was known before the paper, and what is new: a sentence, then paragraphs.
+        own: by proof the claims about an arm and gains, for reports on others than the paper's.
+    """
+
+    paper: Paper
+    chain: tuple[Box, ...]
+    route: tuple[Box, ...]
+    findings: tuple[Note, ...]
+    equations: Mapping[str, str]
+    titles: Mapping[str, str]
+    known: tuple[str, ...]
+    own: Mapping[str, tuple[str, ...]]
+
+
+def published_notes() -> Notes:
+    """Those on the paper."""
+    result = tomllib.loads((proofs_folder() / "published.toml").read_text(encoding="utf-8"))
+    chain, route = (
+        tuple(Box(**one | {"claims": tuple(one["claims"])}) for one in result[name])
+        for name in ("chain", "route")
+    )
+    findings = (
+        Note(**one | {name: tuple(one.get(name, ())) for name in ("claims", "mended")})
+        for one in result["findings"]
+    )
+    return Notes(
+        paper=Paper(**result["paper"]),
+        chain=chain,
+        route=route,
+        findings=tuple(findings),
+        equations=result["equations"],
+        titles=result["titles"],
+        known=(result["known"]["short"], *result["known"]["text"]),
+        own={proof: tuple(ids) for proof, ids in result["own"].items()},
+    )
+
+
+# --- Claims and findings.
+
+
+@dataclass(frozen=True)
+class ClaimRow(ClaimResult):
+    """As `ClaimResult` has it.
+
+    Args:
+        proof, title: of the script.
+        certificate, digest: its path in the report, and its digest; none where nothing was decided.
+        gains: the gain set that it is about, where it is about one.
+    """
+
+    proof: str
+    title: str
     certificate: str | None
+    digest: str | None
+    gains: str | None = None
+
+    @classmethod
+    def of(cls, claim: ClaimResult, *own: str | None) -> ClaimRow:
+        """A claim of a proof, with what a row has beside it."""
+        return cls(*(getattr(claim, each.name) for each in fields(claim)), *own)
+
+    @property
+    def details(self) -> list[str]:
+        """The author's words, then what supports the verdict."""
+        return [*filter(None, [self.words]), *map(self.decision.says, self.support)]
+
+    def data(self, timings: bool = False) -> dict[str, Any]:
+        """All of it as plain data."""
+        return super().data(timings) | {
+            "proof": self.proof,
+            "title": self.title,
+            "details": self.details,
+            "gains": self.gains,
+            "certificate": self.certificate,
+            "digest": self.digest,
+            "rules": list(self.decision.rules),
+            "granted": list(self.decision.granted),
+        }
+
+    @property
+    def about(self) -> str:
+        """``tau_m1, m = 1, n = 3``; the gain set, the member and the number of joints, where there is one."""
+        letters = (f"{name} = {value}" for name, value in (("m", self.m), ("n", self.n)) if value is not None)
+        return ", ".join([*filter(None, [self.gains]), *letters])
+
+    @property
+    def heading(self) -> str:
+        """The part of the text, or of which other proof, it is listed under."""
+        section = self.section or "Claims"
+        return section if self.proof == "published" else f"{self.proof}.py: {section}"
+
+    @property
+    def decided(self) -> bool:
+        """Whether a certificate stands behind the verdict."""
+        return self.verdict in (Verdict.PROVED, Verdict.REFUTED)
 
 
 @dataclass(frozen=True)
@@ -63,11 +196,8 @@ class Finding:
         ms: the members of the family it concerns; empty where it concerns all.
         title: what is wrong, in one sentence.
         text: numbers, in one or two sentences.
-        printed: the statement in LaTeX, as printed.
-        argument, fails, consequence, repair: the text's, why it is wrong, what follows, what helps.
-        mended: the claims that show that the repair does.
-        witness: where it fails.
-        figure: name of a drawing that shows it.
+        note: what the text argues, why it is wrong, what follows, what helps.
+        witness: the claim whose relation fails at a point.
     """
 
     weight: str
@@ -76,29 +206,34 @@ class Finding:
     ms: tuple[int, ...]
     title: str
     text: str
-    printed: str = ""
-    argument: str = ""
-    fails: str = ""
-    consequence: str = ""
-    repair: str = ""
-    mended: tuple[str, ...] = ()
-    witness: WitnessRow | None = None
-    figure: str = ""
+    note: Note = Note((), "")
+    witness: ClaimRow | None = None
 
     @property
     def about(self) -> dict[str, str]:
         """What is said beside the witness, by what it is."""
+        note = self.note
+        shown = f"(Claim {', '.join(note.mended)}.)" if note.mended else ""
         said = {
-            "The paper argues": self.argument,
-            "What fails": self.fails,
-            "Consequence": self.consequence,
-            "Repair": " ".join(filter(None, [self.repair, self._shown])),
+            "The paper argues": note.argument,
+            "What fails": note.fails,
+            "Consequence": note.consequence,
+            "Repair": " ".join(filter(None, [note.repair, shown])),
         }
         return {term: text for term, text in said.items() if text}
 
-    @property
-    def _shown(self) -> str:
-        return f"(Claim {', '.join(self.mended)}.)" if self.mended else ""
+    def data(self) -> dict[str, Any]:
+        """All of it as plain data."""
+        own = {name: getattr(self, name) for name in ("weight", "subject", "claims", "ms", "title", "text")}
+        told = ("printed", "argument", "fails", "consequence", "repair", "mended")
+        own |= {name: getattr(self.note, name) for name in told} | {"witness": None}
+        if (row := self.witness) is not None:
+            witness = row.decision.witness or {}
+            point = {name: witness[name] for name in ("point", "left", "operator", "right")}
+            # the keys of when witnesses were searched for as small as they are
+            own["witness"] = {"m": row.m, "n": row.n, **point, "certificate": row.certificate}
+            own["witness"] |= {"small": False, "figure": ""}
+        return own | {"figure": self.note.figure}
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from io import BytesIO, StringIO
 from typing import Any
@@ -44,29 +44,18 @@ def panels(rows: int, columns: int, width: float = 7.2, height: float = 3.0) -> 
     return figure, figure.subplots(rows, columns, squeeze=False)
 
 
-def settle(figure: Any) -> None:
-    """Put everything into its place for good; without this each form would compute the layout twice."""
-    with styled():
-        figure.draw_without_rendering()
-        figure.set_layout_engine(None)
-
-
 def svg(figure: Any) -> str:
     """The figure as SVG text: no date, no random ids, so that equal data give equal bytes."""
-    import matplotlib as mpl
-
     text = StringIO()
-    with mpl.rc_context(SETTINGS):
+    with styled():
         figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
     return "\n".join(line.rstrip() for line in text.getvalue().splitlines()) + "\n"
 
 
 def png(figure: Any) -> bytes:
     """The figure as PNG for print, 200 dots an inch, without the version of what drew it."""
-    import matplotlib as mpl
-
     data = BytesIO()
-    with mpl.rc_context(SETTINGS):
+    with styled():
         figure.savefig(data, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
     return _with_palette(data)
 
@@ -116,7 +105,9 @@ class Plot:
 
     def files(self, stem: str) -> Files:
         """``stem.svg``, ``stem.png`` and ``stem.csv``; equal data give equal bytes."""
-        settle(self.figure)
+        with styled():  # everything in its place: without this each form would compute the layout twice
+            self.figure.draw_without_rendering()
+            self.figure.set_layout_engine(None)
         return {f"{stem}.svg": svg(self.figure), f"{stem}.png": png(self.figure), f"{stem}.csv": self.csv()}
 
     def csv(self) -> str:
@@ -136,70 +127,3 @@ def _cell(value: Any) -> str:
     if isinstance(value, (bool, int)):
         return str(value)
     return f"{float(value) + 0.0:.{DIGITS}g}"
-
-
-# --- Maps over m and k_v.
-
-
-SHADES = "cividis"
-"""Even steps, for colour-blind readers and grey prints too."""
-LEGIBLE = 14
-"""Columns up to which every cell has its number."""
-TICKS = 20
-
-
-def heat_plot(
-    rows: Sequence[str],
-    columns: Sequence[str],
-    cells: Mapping[tuple[str, str], float | None],
-    title: str,
-    text: Callable[[float | None], str],
-) -> Plot:
-    """A value for each m (rows) and k_v (columns, N·m), by colour; a cell without one stays empty.
-
-    Args:
-        rows: the m, from above.
-        columns: the k_v.
-        cells: the values.
-        title: what they are, with their unit.
-        text: of a value, as it is to be read.
-    """
-    import numpy as np
-
-    values = np.array([[_number(cells.get((m, kv))) for kv in columns] for m in rows])
-    with styled():
-        figure, axes = panels(1, 1, height=1.6 + 0.32 * len(rows))
-        axis = axes[0, 0]
-        image = axis.pcolormesh(values, cmap=SHADES)
-        axis.invert_yaxis()
-        every = max(1, -(-len(columns) // TICKS))
-        places = range(0, len(columns), every)
-        axis.set_xticks(
-            [k + 0.5 for k in places],
-            [columns[k] for k in places],
-            rotation=90 if len(columns) > LEGIBLE else 0,
-        )
-        axis.set_yticks([k + 0.5 for k in range(len(rows))], rows)
-        axis.set(xlabel="k_v [N·m]", ylabel="m", title=title)
-        axis.grid(visible=False)
-        if len(columns) <= LEGIBLE:
-            dark = (np.nanmin(values) + np.nanmax(values)) / 2
-            for (i, j), value in np.ndenumerate(values):
-                if not np.isnan(value):
-                    colour = "white" if value < dark else "black"
-                    axis.text(
-                        j + 0.5,
-                        i + 0.5,
-                        text(float(value)),
-                        ha="center",
-                        va="center",
-                        color=colour,
-                        fontsize=7,
-                    )
-        figure.colorbar(image, ax=axis)
-    data = [[m, kv, cells.get((m, kv))] for m in rows for kv in columns]
-    return Plot(figure, ["m", "k_v [N·m]", title], data)
-
-
-def _number(value: float | None) -> float:
-    return float("nan") if value is None else value

@@ -1,4 +1,4 @@
-"""Position errors and torques of one simulated run, as in Figs. 3 to 10 of the paper."""
+"""The figures: the family, one simulated run as in Figs. 3 to 10 of the paper, gain sets compared."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def _positive(values: Array) -> Array:
     return np.where(values > 0.0, values, np.nan)
 
 
-# --- Comparisons between gain sets: performance indices and the four ε₀.
+# --- Comparisons between gain sets: performance indices, condition (19) and the four ε₀.
 
 
 TICK = 24
@@ -132,60 +132,37 @@ TICK = 24
 MARKERS = ("o", "s", "D", "X")
 HATCHES = ("", "///", "\\\\\\")
 """One for each source, for grey prints."""
+Values = Mapping[str, Sequence[float | None]]
+"""By where they are from, one of each gain set; ``None`` where there is none."""
 
 
-def indices_plot(names: Sequence[str], bars: Mapping[str, Sequence[float | None]]) -> Plot:
+def indices_plot(names: Sequence[str], bars: Values) -> Plot:
     """The L2 index in degrees of each gain set, one bar a source (simulated, printed).
 
     References: (20) and Fig. 11 of reyes2019family.
     """
     with styled():
-        figure, axes = panels(1, 1, height=2.9)
-        axis, width = axes[0, 0], 0.8 / len(bars)
-        for index, (source, values) in enumerate(bars.items()):
-            places = [i + (index - (len(bars) - 1) / 2) * width for i in range(len(names))]
-            drawn = axis.bar(
-                places,
-                [value or 0.0 for value in values],
-                width,
-                label=source,
-                color=COLOURS[index],
-                hatch=HATCHES[index % len(HATCHES)],
-                edgecolor="white",
-            )
-            texts = ["" if value is None else f"{value:.1f}" for value in values]
-            axis.bar_label(drawn, texts, fontsize=8, padding=2)
-        axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
+        figure, axis = _bars(names, bars, ".1f", width=7.2, height=2.9)
         axis.set(ylabel="L2 index [°]", title="Performance index (20), T = 5 s")
-        axis.grid(axis="x", visible=False)
         axis.margins(y=0.15)
         figure.legend(ncols=len(bars), loc="outside lower center")
-    rows = ([name, *(bars[source][i] for source in bars)] for i, name in enumerate(names))
-    return Plot(figure, ["gains", *(f"{source} [deg]" for source in bars)], list(rows))
+    return _compared(figure, names, bars, "deg")
 
 
-def damping_plot(names: Sequence[str], values: Sequence[float], limits: Sequence[float]) -> Plot:
+def damping_plot(names: Sequence[str], bars: Values) -> Plot:
     """The largest k_v of each gain set beside the largest that (19) admits, both in N·m.
 
     References: (19) of reyes2019family.
     """
     with styled():
-        figure, axes = panels(1, 1, width=4.6, height=2.4)
-        axis = axes[0, 0]
-        for index, (label, numbers) in enumerate((("λmax(K_v)", values), ("λmin(B)/(√n γ)", limits))):
-            places = [i + (index - 0.5) * 0.38 for i in range(len(names))]
-            colour = COLOURS[1 - index]
-            drawn = axis.bar(places, numbers, 0.38, label=label, color=colour, hatch=HATCHES[index])
-            axis.bar_label(drawn, [f"{number:.4g}" for number in numbers], fontsize=8, padding=2)
-        axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
-        axis.set(ylabel="N·m", ylim=(0, 1.25 * max([*values, *limits])))
-        axis.grid(axis="x", visible=False)
+        figure, axis = _bars(names, bars, ".4g", width=4.6, height=2.4)
+        most = max(value or 0.0 for values in bars.values() for value in values)
+        axis.set(ylabel="N·m", ylim=(0, 1.25 * most))
         axis.legend(loc="upper right", ncols=2, fontsize=8)
-    rows = list(zip(names, values, limits, strict=True))
-    return Plot(figure, ["gains", "largest k_v [N·m]", "limit of (19) [N·m]"], rows)
+    return _compared(figure, names, bars, "N·m")
 
 
-def epsilon_plot(names: Sequence[str], epsilons: Mapping[str, Sequence[float | None]]) -> Plot:
+def epsilon_plot(names: Sequence[str], epsilons: Values) -> Plot:
     """The four ε₀ of each gain set on one logarithmic axis; an ε₀ that does not exist has no mark."""
     with styled():
         figure, axes = panels(1, 1, height=0.8 + 0.45 * len(names))
@@ -194,96 +171,125 @@ def epsilon_plot(names: Sequence[str], epsilons: Mapping[str, Sequence[float | N
             known = [(value, place) for place, value in enumerate(values) if value is not None]
             if known:
                 across, up = zip(*known, strict=True)
-                axis.scatter(
-                    across, up, label=kind, color=COLOURS[index], marker=MARKERS[index], s=42, zorder=3
-                )
+                look = {"color": COLOURS[index], "marker": MARKERS[index]}
+                axis.scatter(across, up, label=kind, s=42, zorder=3, **look)
         axis.set_xscale("log")
         axis.set_yticks(range(len(names)), [plot_text(name, TICK) for name in names])
         axis.invert_yaxis()
         axis.margins(y=0.3)
         axis.set(xlabel="ε₀ [1/s]", title="ε₀: what is published, proved and refuted")
         figure.legend(ncols=4, loc="outside lower center")
-    rows = ([name, *(epsilons[kind][i] for kind in epsilons)] for i, name in enumerate(names))
-    return Plot(figure, ["gains", *(f"{kind} [1/s]" for kind in epsilons)], list(rows))
+    return _compared(figure, names, epsilons, "1/s")
+
+
+def _bars(names: Sequence[str], bars: Values, form: str, **size: float) -> tuple[Any, Any]:
+    """Bars side by side for each gain set, each with its number."""
+    figure, axes = panels(1, 1, **size)
+    axis, width = axes[0, 0], 0.8 / len(bars)
+    for index, (source, values) in enumerate(bars.items()):
+        places = [i + (index - (len(bars) - 1) / 2) * width for i in range(len(names))]
+        look = {"color": COLOURS[index], "hatch": HATCHES[index % len(HATCHES)], "edgecolor": "white"}
+        drawn = axis.bar(places, [value or 0.0 for value in values], width, label=source, **look)
+        texts = ["" if value is None else format(value, form) for value in values]
+        axis.bar_label(drawn, texts, fontsize=8, padding=2)
+    axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
+    axis.grid(axis="x", visible=False)
+    return figure, axis
+
+
+def _compared(figure: Any, names: Sequence[str], values: Values, unit: str) -> Plot:
+    rows = [[name, *(values[kind][i] for kind in values)] for i, name in enumerate(names)]
+    return Plot(figure, ["gains", *(f"{kind} [{unit}]" for kind in values)], rows)
 
 
 # --- All figures of a report, by file name: each as SVG and PNG, with its data as CSV.
 
 
 def draw_family(ms: Sequence[int]) -> Files:
-    """The functions h of the members and their derivatives."""
-    from lyapcheck.family import hyperbolic
-    from lyapcheck.report.plots_of_constants import family_plot
+    """h and h' of each member over x ∈ [−4, 4] rad, with γ as a thin line.
 
-    return family_plot([(f"m = {m}", hyperbolic(m)) for m in ms]).files("family")
+    References: Fig. 1 of reyes2019family.
+    """
+    from lyapcheck.family import hyperbolic
+
+    x = np.linspace(-4.0, 4.0, 801)
+    header, columns = ["x [rad]"], [x]
+    with styled():
+        figure, axes = panels(1, 2)
+        for index, m in enumerate(ms):
+            look = {"color": COLOURS[index % len(COLOURS)], "linestyle": DASHES[index % len(DASHES)]}
+            family, label = hyperbolic(m), f"m = {m}"
+            h, dh = family.h(x), family.dh(x)
+            axes[0, 0].plot(x, h, label=label, **look)
+            axes[0, 1].plot(x, dh, label=label, **look)
+            header, columns = [*header, f"h ({label})", f"h' ({label})"], [*columns, h, dh]
+            if (gamma := family.constants().gamma) is not None:
+                axes[0, 0].axhline(float(gamma.mid), color=look["color"], linewidth=0.6)
+        axes[0, 0].set(xlabel="x [rad]", ylabel="h(x)", title="The family; thin lines: γ")
+        axes[0, 1].set(xlabel="x [rad]", ylabel="h′(x)", title="Its derivative")
+        axes[0, 0].legend()
+    return Plot(figure, header, np.column_stack(columns)).files("family")
 
 
 def draw_set(data: GainData) -> Files:
     """Errors, torques, V and dV/dt of the simulated run of a gain set."""
-    import numpy as np
-
-    from lyapcheck.report.plots import Plot
-    from lyapcheck.report.plots_of_runs import draw_errors, draw_lyapunov, draw_torques
-
     run, row = data.run, data.row
     name, joints = file_stem(row.name), row.joints
     label = row.name if row.m is None else f"{row.name} (m = {row.m})"
-    errors = draw_errors(label, run.t, run.e, joints)
-    torques = draw_torques(label, run.t, run.tau, joints, row.torque_limit)
-    falling = draw_lyapunov(label, run.t, run.V, run.dV)
     e, tau = (["t [s]", *(f"{joint} [{unit}]" for joint in joints)] for unit in ("deg", "N·m"))
-    return {
-        **Plot(errors, e, np.column_stack([run.t, np.degrees(run.e)])).files(f"{name}_errors"),
-        **Plot(torques, tau, np.column_stack([run.t, run.tau])).files(f"{name}_torques"),
-        **Plot(falling, ["t [s]", "V [J]", "dV/dt [W]"], np.column_stack([run.t, run.V, run.dV])).files(
-            f"{name}_lyapunov"
+    plots = {
+        "errors": Plot(draw_errors(label, run.t, run.e, joints), e, _columns(run.t, np.degrees(run.e))),
+        "torques": Plot(
+            draw_torques(label, run.t, run.tau, joints, row.torque_limit), tau, _columns(run.t, run.tau)
+        ),
+        "lyapunov": Plot(
+            draw_lyapunov(label, run.t, run.V, run.dV),
+            ["t [s]", "V [J]", "dV/dt [W]"],
+            _columns(run.t, run.V, run.dV),
         ),
     }
+    return {file: text for what, plot in plots.items() for file, text in plot.files(f"{name}_{what}").items()}
+
+
+def _columns(*parts: Array) -> Array:
+    return np.column_stack(parts)
 
 
 def draw_comparisons(epsilon: Sequence[EpsilonRow], runs: Sequence[RunRow]) -> Files:
     """Gain sets side by side; a comparison that has nothing to compare is left out."""
-    from lyapcheck.report.plots_of_runs import epsilon_plot, indices_plot
-
     figures: Files = {}
     if runs:
-        figures |= indices_plot([run.name for run in runs], _indices(runs)).files("indices")
-    known = [row for row in epsilon if any(row.eps0(kind) is not None for kind in KINDS)]
-    if known:
-        values = {kind: [_float(row.eps0(kind)) for row in known] for kind in KINDS}
-        figures |= epsilon_plot([row.name for row in known], values).files("epsilon")
+        bars = {
+            "simulation of (11)": [run.L2 for run in runs],
+            "measured in the paper": [run.printed["L2"] if run.printed else None for run in runs],
+        }
+        known = {source: values for source, values in bars.items() if any(x is not None for x in values)}
+        figures |= indices_plot([run.name for run in runs], known).files("indices")
+    rows = [row for row in epsilon if any(row.eps0(kind) is not None for kind in KINDS)]
+    if rows:
+        values = {
+            kind: [None if (text := row.eps0(kind)) is None else float(text) for row in rows]
+            for kind in KINDS
+        }
+        figures |= epsilon_plot([row.name for row in rows], values).files("epsilon")
     return figures
 
 
 def draw_damping(gate: Sequence[GateResult]) -> Files:
     """Condition (19) of each gain set to which it applies; nothing where it applies to none."""
-    from lyapcheck.report.plots_of_runs import damping_plot
-
-    rows = {}
+    bars: dict[str, list[float | None]] = {"λmax(K_v)": [], "λmin(B)/(√n γ)": []}
+    names = []
     for result in gate:
         checks = [check for check in result.checks if check.id == "19"]
         admitted = [float(check.limit.lower) for check in checks if check.limit is not None]
         if admitted:
-            rows[result.name] = max(float(check.value or 0) for check in checks), admitted[0]
-    if not rows:
-        return {}
-    values, limits = zip(*rows.values(), strict=True)
-    return damping_plot(list(rows), values, limits).files("damping")
-
-
-def _indices(runs: Sequence[RunRow]) -> dict[str, list[float | None]]:
-    """The L2 index of each run by where it is from; a source without any number is left out."""
-    bars = {
-        "simulation of (11)": [run.L2 for run in runs],
-        "measured in the paper": [run.printed["L2"] if run.printed else None for run in runs],
-    }
-    return {source: values for source, values in bars.items() if any(value is not None for value in values)}
+            names.append(result.name)
+            largest = max(float(check.value or 0) for check in checks)
+            for values, value in zip(bars.values(), (largest, admitted[0]), strict=True):
+                values.append(value)
+    return damping_plot(names, bars).files("damping") if names else {}
 
 
 def file_stem(name: str) -> str:
     """A gain set's name as part of a file name: letters, digits, dash and underscore; never a path."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in name)
-
-
-def _float(text: str | None) -> float | None:
-    return None if text is None else float(text)

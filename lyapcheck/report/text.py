@@ -8,8 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from lyapcheck.output.digits import shown
-from lyapcheck.report.claim_row import ClaimRow
-from lyapcheck.report.model import WitnessRow
+from lyapcheck.report.model import ClaimRow
 
 SYMBOLS = {"proved": "✓", "refuted": "✗", "undecided": "?", "error": "!", "accepted": "✓", "rejected": "✗"}
 
@@ -110,15 +109,16 @@ def short_number(value: str) -> str:
     return decimal if "e" not in decimal and Fraction(decimal) == number else value
 
 
-def witness_place(witness: WitnessRow) -> list[str]:
-    """For how many joints, which member and where: letters that are 0 are left out."""
-    where = [f"n = {witness.n}"] if witness.n else []
-    where += [f"m = {witness.m}"] if witness.m else []
-    known = {name: value for name, value in witness.point.items() if value != "0"}
-    return where + [f"{letter(name)} = {short_number(value)}" for name, value in known.items()]
+def witness_place(row: ClaimRow) -> str:
+    """For how many joints, which member and where a claim fails: letters that are 0 are left out."""
+    point = (row.decision.witness or {})["point"]
+    where = [f"{name} = {value}" for name, value in (("n", row.n), ("m", row.m)) if value]
+    where += [f"{letter(name)} = {short_number(value)}" for name, value in point.items() if value != "0"]
+    return ", ".join(where)
 
 
-def witness_sides(witness: WitnessRow) -> str:
+def witness_sides(row: ClaimRow) -> str:
     """Both sides of the relation that fails."""
-    left, right = span_words(witness.left), span_words(witness.right)
-    return f"{left} is not {witness.operator.replace('<=', '≤')} {right}"
+    witness = row.decision.witness or {}
+    left, right = span_words(witness["left"]), span_words(witness["right"])
+    return f"{left} is not {witness['operator'].replace('<=', '≤')} {right}"

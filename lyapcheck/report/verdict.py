@@ -16,10 +16,8 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Bullets, Paragraph, Section, Table
 from lyapcheck.promise import all_say
-from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.jobs import BOUNDS, CLASS, SAMPLED
-from lyapcheck.report.model import Report, applies, behind, keeps_limits
-from lyapcheck.report.notes import Box
+from lyapcheck.report.model import Box, ClaimRow, Report, applies, behind, keeps_limits
 from lyapcheck.report.text import and_list
 from lyapcheck.verdicts import Verdict
 

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -262,18 +261,10 @@ def test_printing_a_table_prints_what_the_command_prints():
     assert f"{build_table((1, 2), 12)}\n" == run("--m", "1,2", "--digits", "12").stdout
 
 
-def test_the_plot_shows_every_member(tmp_path):
-    run("--m", "2:9", "--digits", "8", "--plot", str(tmp_path))
-    text = (tmp_path / "constants.svg").read_text(encoding="utf-8")
-    assert (
-        len(re.findall(r'<use xlink:href="#m\w+" x="[\d.]+" y="[\d.]+" style="fill: #0072b2', text)) >= 3 * 8
-    )
-
-
 def test_a_folder_that_cannot_be_is_refused(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
-    with pytest.raises(InputError, match="--plot"):
-        raise run("--plot", str(tmp_path / "file")).exception
+    with pytest.raises(InputError, match="--certificates"):
+        raise run("--certificates", str(tmp_path / "file")).exception
 
 
 def test_certificates_bound_gamma_and_rho_as_they_are_shown(tmp_path):

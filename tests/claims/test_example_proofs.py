@@ -8,7 +8,7 @@ import pytest
 from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
-from lyapcheck.report.claim_row import ClaimRow
+from lyapcheck.report.model import ClaimRow
 from lyapcheck.report.text import witness_words
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.command import invoke

@@ -25,7 +25,7 @@ OURS = {
     ("kernel/coq.py", "_definitions"): "the library of the package",
     ("rechecking/trusted.py", "_imported"): "source of the package",
     ("report/plots.py", "_with_palette"): "a picture in memory",
-    ("report/notes.py", "published_notes"): "a proof of the package",
+    ("report/model.py", "published_notes"): "a proof of the package",
     ("report/page/__init__.py", "raw"): "style and script of the package",
     ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",
     ("store.py", "source_digest"): "the source of the package",

@@ -12,7 +12,7 @@ from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
 from lyapcheck.cli.commands.init import ARM_TEXT
 from lyapcheck.family import hyperbolic
-from lyapcheck.report.notes import published_notes
+from lyapcheck.report.model import published_notes
 from lyapcheck.robots import Number, load
 from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import one_in

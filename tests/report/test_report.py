@@ -33,12 +33,10 @@ from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
 from lyapcheck.report.build import build, render, write
-from lyapcheck.report.claim_row import ClaimRow
 from lyapcheck.report.document import evidence
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import done
-from lyapcheck.report.model import EpsilonRow, RunRow, Subject, anchor, applies
-from lyapcheck.report.notes import published_notes
+from lyapcheck.report.model import ClaimRow, EpsilonRow, RunRow, Subject, anchor, applies, published_notes
 from lyapcheck.report.page import LETTERS, graph, layout, tied
 from lyapcheck.report.plots import Plot
 from lyapcheck.report.plots_of_runs import draw_errors, draw_torques, epsilon_plot, file_stem, indices_plot

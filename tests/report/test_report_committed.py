@@ -16,7 +16,7 @@ from lyapcheck.claims.script import ask, find_script
 from lyapcheck.cli.commands.report import _subject
 from lyapcheck.report.build import _gate
 from lyapcheck.report.jobs import BOXES, OTHERS, PROOF
-from lyapcheck.report.notes import published_notes
+from lyapcheck.report.model import published_notes
 from lyapcheck.report.page import raw
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm

@@ -6,7 +6,7 @@ from copy import deepcopy
 import pytest
 
 from lyapcheck.errors import InputError
-from lyapcheck.report.compare import SCHEMAS, compare, read_report
+from lyapcheck.report.compare import SCHEMA, compare, read_report
 
 CHECK = {"id": "19", "joint": "base", "margin": "0.1"}
 OLD = {
@@ -80,10 +80,10 @@ def test_what_is_no_report_is_refused(text, tmp_path):
 @pytest.mark.parametrize("key", ["claims", "others", "gate", "epsilon"])
 def test_a_report_with_other_rows_is_refused(key, rows, tmp_path):
     path = tmp_path / "report.json"
-    whole = {"claims": [], "others": [], "gate": [], "epsilon": [], "schema": SCHEMAS[0]}
+    whole = {"claims": [], "others": [], "gate": [], "epsilon": [], "schema": SCHEMA}
     path.write_text(json.dumps({**whole, key: json.loads(rows)}))
     if rows == "{}":  # no rows at all
-        assert read_report(path)["schema"] == SCHEMAS[0]
+        assert read_report(path)["schema"] == SCHEMA
         return
     with pytest.raises(InputError, match="has other rows than a report"):
         read_report(path)

@@ -11,8 +11,7 @@ from lyapcheck.output.typst import markup
 from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.jobs import derive_job
-from lyapcheck.report.model import Report
-from lyapcheck.report.notes import published_notes
+from lyapcheck.report.model import Report, published_notes
 from lyapcheck.robots import load
 
 TITLE = "What SymPy derives, and what the checker says of it"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck import InputError, read_plan
-from lyapcheck.answers.sweep.workers import TOGETHER, batches
+from lyapcheck.answers.sweep.workers import MANY, batches
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep_plan.toml"
 HEAD = 'robots = ["reyes-kelly2"]\nquestions = ["gate"]\n'
@@ -61,7 +61,7 @@ def test_the_example_is_a_plan():
         (HEAD, "gains: is missing"),
         (HEAD + GRID.replace("[1]", "[0]"), "grid.m"),
         (HEAD + GRID.replace("[20]", "[-1]"), "grid.kp"),
-        (HEAD + GRID.replace("[20]", "[[1, 2, 3]]"), "has gains for 3 joints"),
+        (HEAD + GRID.replace("[20]", "[[1, 2, 3]]"), "has 3 gains, but"),
         (HEAD + GRID.replace("[0.1]", "{from = 1, to = 0.5, step = 0.1}"), "from ≤ to"),
         (HEAD + GRID.replace("[0.1]", "{from = 1, to = 5}"), "from ≤ to"),
         (HEAD + GRID.replace("[0.1]", "[0.1, 0.1]"), "has a value twice"),
@@ -90,9 +90,9 @@ def test_a_long_plan_is_never_in_memory(plan):
     assert read.count > 100_000
     tracemalloc.start()
     rest = batches(read.questions())
-    assert all(len(batch) == TOGETHER for batch in islice(rest, 20))
+    assert all(len(batch) == MANY for batch in islice(rest, 20))
     before, _ = tracemalloc.get_traced_memory()
-    assert sum(len(batch) for batch in islice(rest, 180)) == 180 * TOGETHER
+    assert sum(len(batch) for batch in islice(rest, 180)) == 180 * MANY
     after, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert after - before < 2_000_000

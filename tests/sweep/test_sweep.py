@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -15,12 +16,13 @@ import lyapcheck
 from lyapcheck import InputError, store
 from lyapcheck.answers.epsilon import kept
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.sweep import asks, read_plan
 from lyapcheck.answers.sweep import folder as folders
-from lyapcheck.answers.sweep import read_plan
 from lyapcheck.answers.sweep.question import COLUMNS
 from lyapcheck.answers.sweep.result import SweepAnswer, Tally
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import varied_limits
+from lyapcheck.family.members import tanh
 from lyapcheck.robots.vary import Vary
 from tests.helpers.command import lyapcheck as command
 
@@ -104,8 +106,8 @@ def test_the_command_leaves_rows_maps_and_a_page(plan, tmp_path):
     assert "16 questions" in done.stdout
     left = contents(out)
     page = left["index.html"].decode()
-    assert page.count("<svg") == 2
-    assert "figures/map1_margin.csv" in left
+    assert page.count('<table class="map"') == 2
+    assert page.count("color-mix") == 16
     maps = json.loads(left["sweep.json"])["maps"]
     cells = {
         (row["variation"][0] if row["variation"] else "", row["m"], row["kv"][0]): row["margin"]
@@ -147,15 +149,13 @@ def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(plan, tmp_path
 
 
 def test_what_cannot_be_asked_is_a_row_and_not_the_end(plan, monkeypatch):
-    from lyapcheck.answers.sweep.asks import gate as asks
-
-    def fragile(question, result, data):
+    def fragile(question, *rest, **cells):
         if question.index == 3:
             raise ValueError("a fault in lyapcheck")
-        return own(question, result, data)
+        return own(question, *rest, **cells)
 
-    own = asks._answered
-    monkeypatch.setattr(asks, "_answered", fragile)
+    own = asks.answered
+    monkeypatch.setattr(asks, "answered", fragile)
     rows = list(lyapcheck.sweep(plan, workers=1))
     assert [row["index"] for row in rows if row["verdict"] == "error"] == [3]
     assert rows[3]["reason"] == "ValueError: a fault in lyapcheck"
@@ -234,37 +234,29 @@ def test_every_question_is_answered_as_by_its_command(tmp_path):
 
 
 KILLER = """
-import os, signal
-from lyapcheck.answers.sweep.question import answered
-OPTIONS = {}
-def ask(question, known, options):
-    if question.gains.m == 2:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return answered(question, "observed", None)
+import multiprocessing, os, signal
+if multiprocessing.parent_process() is not None:
+    os.kill(os.getpid(), signal.SIGKILL)
 """
+SETS = "".join(
+    f'[[gains]]\nname = "{name}"\nfamily = "{name}"\nkp = [20, 5]\nkv = [0.05, 0.05]\n'
+    for name in ("tanh", "killer", "arctan")
+)
 
 
 @pytest.mark.slow
 def test_a_question_that_kills_its_worker_takes_no_other_with_it(tmp_path):
-    (tmp_path / "answers" / "sweep" / "asks").mkdir(parents=True)
-    (tmp_path / "answers" / "sweep" / "asks" / "killer.py").write_text(KILLER, encoding="utf-8")
+    members = tmp_path / "family" / "members"
+    members.mkdir(parents=True)
+    own = Path(tanh.__file__).read_text(encoding="utf-8")
+    (members / "killer.py").write_text(f"{own}{KILLER}", encoding="utf-8")
     path = tmp_path / "plan.toml"
-    path.write_text(
-        PLAN.replace("gate", "killer")
-        .replace("m = [1, 2]", "m = [1, 2, 3]")
-        .replace(", step = 0.05", ", step = 0.2"),
-        encoding="utf-8",
-    )
-    rows = rows_after(
-        ["sweep", path, "--out", tmp_path / "out", "--jobs", 2],
-        tmp_path / "out",
-        LYAPCHECK_PATH=str(tmp_path),
-    )
-    assert [(row["m"], row["verdict"]) for row in rows] == [
-        (1, "observed"),
-        (2, "error"),
-        (3, "observed"),
-    ] * 2
+    head = 'robots = ["reyes-kelly2"]\nvariations = [[], ["viscous=-30%..+0%"]]\nquestions = ["gate"]\n'
+    path.write_text(head + SETS, encoding="utf-8")
+    words = ["sweep", path, "--out", tmp_path / "out", "--jobs", 2]
+    rows = rows_after(words, tmp_path / "out", LYAPCHECK_PATH=str(tmp_path))
+    assert [row["name"] for row in rows if row["verdict"] == "error"] == ["killer"] * 2
+    assert len(rows) == 6
     assert "was killed" in rows[1]["reason"]
 
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from importlib import import_module
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
+from lyapcheck.answers.sweep.asks import OPTIONS, WITHOUT_GAINS
 from lyapcheck.answers.sweep.question import Question, arm
-from lyapcheck.answers.sweep.workers import PACKAGE, names
 from lyapcheck.control.gains import GainSet, beside, gain_set_of
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text, exact_decimal
@@ -23,8 +22,6 @@ from lyapcheck.files.toml import PLAN, open_document, require_kind
 Gain = Fraction | tuple[Fraction, ...]
 """The same in every joint, or one a joint; N·m."""
 LONGEST_NAME = 120
-WITHOUT_GAINS = ("robot",)
-"""What is asked of an arm alone."""
 TEXTS = ("condition", "only", "loop")
 """Options that are lists of texts; the others are lists of angles."""
 MOST = 100_000
@@ -80,25 +77,13 @@ class Plan:
 
     def questions(self) -> Iterator[Question]:
         """One after the other: none is kept, however many there are."""
-        number = 0
+        places = iter(range(self.count))
         for (robot, n), variation in product(zip(self.robots, self.joints, strict=True), self.variations):
-            for question in self._of_arm(robot, n, variation):
-                yield question.numbered(number)
-                number += 1
-
-    def _of_arm(self, robot: str, n: int, variation: tuple[str, ...]) -> Iterator[Question]:
-        for name, options in self.asks:
-            if name in WITHOUT_GAINS:
-                yield Question(0, robot, variation, None, name, options)
-        for gains in self._gains(n):
-            for name, options in self.asks:
-                if name not in WITHOUT_GAINS:
-                    yield Question(0, robot, variation, gains, name, options)
-
-    def _gains(self, n: int) -> Iterator[GainSet]:
-        yield from self.listed
-        if self.grid is not None:
-            yield from self.grid.gains(n)
+            grid = () if self.grid is None else self.grid.gains(n)
+            for gains in chain((None,), self.listed, grid):
+                for name, options in self.asks:
+                    if (gains is None) == (name in WITHOUT_GAINS):
+                        yield Question(next(places), robot, variation, gains, name, options)
 
 
 def _of_joints(gain: Gain, n: int) -> tuple[Fraction, ...]:
@@ -128,7 +113,7 @@ def read_plan(path: str | Path) -> Plan:
     top = Fields(document.data, (), notes)
     robots = tuple(str(beside(name, Path(path))) for name in _texts(top, "robots", required=True))
     variations = _variations(top)
-    options = {name: _options(top, name) for name in names()}
+    options = {name: _options(top, name) for name in OPTIONS}
     asks = tuple((name, options[name]) for name in _asked(top))
     tables = top.tables("gains")
     listed = [gain_set_of(table, index) for index, table in enumerate(tables)]
@@ -164,9 +149,9 @@ def _texts(table: Fields, key: str, required: bool = False) -> tuple[str, ...]:
 
 def _asked(top: Fields) -> tuple[str, ...]:
     asked = _texts(top, "questions", required=True)
-    unknown = [name for name in asked if name not in names()]
+    unknown = [name for name in asked if name not in OPTIONS]
     if unknown:
-        top.fail("questions", f"there is no question {unknown[0]}", f"use some of: {', '.join(names())}")
+        top.fail("questions", f"there is no question {unknown[0]}", f"use some of: {', '.join(OPTIONS)}")
     if len(set(asked)) < len(asked):
         top.fail("questions", "has one twice", "ask each once")
     return tuple(name for name in dict.fromkeys(asked) if name not in unknown)
@@ -192,14 +177,9 @@ def _options(top: Fields, name: str) -> tuple[tuple[str, Any], ...]:
     table = top.table(name)
     if table is None:
         return ()
-    usual: dict[str, Any] = import_module(f"{PACKAGE}.{name}").OPTIONS
-    result = []
-    for key, default in sorted(usual.items()):
-        value = _option(table, key, default)
-        if value is not None:
-            result.append((key, value))
+    result = {key: _option(table, key, default) for key, default in sorted(OPTIONS[name].items())}
     table.close()
-    return tuple(result)
+    return tuple((key, value) for key, value in result.items() if value is not None)
 
 
 def _option(table: Fields, key: str, default: Any) -> Any:
@@ -219,9 +199,8 @@ def _option(table: Fields, key: str, default: Any) -> Any:
     else:
         good, words = isinstance(value, str), "must be a text"
     if not good:
-        table.fail(
-            key, words, f"write {key} = {str(default).lower() if isinstance(default, bool) else default!r}"
-        )
+        shown = str(default).lower() if isinstance(default, bool) else repr(default)
+        table.fail(key, words, f"write {key} = {shown}")
         return None
     return value
 
@@ -303,16 +282,10 @@ def _joints(plan: Plan, notes: Notes) -> list[int]:
                 notes.problems += [_placed(one, notes, k, number) for one in error.problems]
                 n = 0
         result.append(n)
-        for key, size in _sizes(plan):
+        for key, size, what in _sizes(plan):
             if n and size != n:
-                rule = f"has gains for {size} joints, but the arm {robot} has {n}"
-                notes.fail(
-                    key, None, rule, "give one gain a joint; arms with other joints need a plan of their own"
-                )
-        for key, size in _angles(plan):
-            if n and size != n:
-                rule = f"has {size} angle{'s' if size > 1 else ''}, but the arm {robot} has {n} joints"
-                repair = "give one angle a joint; arms with other joints need a plan of their own"
+                rule = f"has {size} {what}{'s' if size > 1 else ''}, but the arm {robot} has {n} joints"
+                repair = f"give one {what} a joint; arms with other joints need a plan of their own"
                 notes.fail(key, None, rule, repair)
     return result
 
@@ -325,21 +298,15 @@ def _placed(problem: Problem, notes: Notes, robot: int, variation: int) -> Probl
     return replace(problem, file=notes.file, line=notes.line(path), key=str(path[0]))
 
 
-def _sizes(plan: Plan) -> Sequence[tuple[tuple[str | int, ...], int]]:
-    rows: list[tuple[tuple[str | int, ...], int]] = [
-        (("gains", one.index, "kp"), one.n) for one in plan.listed
-    ]
-    if plan.grid is not None:
-        for name in ("kp", "kv"):
-            rows += [(("grid", name), len(x)) for x in getattr(plan.grid, name) if isinstance(x, tuple)]
-    return rows
-
-
-def _angles(plan: Plan) -> list[tuple[tuple[str, str], int]]:
-    """The postures that questions are asked with, and how many angles each has; none where it is usual."""
-    return [
-        ((ask, key), len(value))
-        for ask, options in plan.asks
-        for key, value in options
-        if key in ("target", "start") and value
-    ]
+def _sizes(plan: Plan) -> Iterator[tuple[tuple[str | int, ...], int, str]]:
+    """Where the plan has one number a joint, how many, and of what; none where it is the usual posture."""
+    for one in plan.listed:
+        yield ("gains", one.index, "kp"), one.n, "gain"
+    for name in ("kp", "kv") if plan.grid is not None else ():
+        for gains in getattr(plan.grid, name):
+            if isinstance(gains, tuple):
+                yield ("grid", name), len(gains), "gain"
+    for ask, options in plan.asks:
+        for key, value in options:
+            if key in ("target", "start") and value:
+                yield (ask, key), len(value), "angle"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -96,7 +96,7 @@ class Question:
         robot: name or file of the arm.
         variation: ranges, as ``--vary`` takes them.
         gains: the gain set.
-        ask: which question: a module of ``asks``.
+        ask: which question: a key of ``asks.OPTIONS``.
         options: what else it was asked with.
     """
 
@@ -107,10 +107,6 @@ class Question:
     ask: str
     options: tuple[tuple[str, Any], ...] = ()
 
-    def numbered(self, index: int) -> Question:
-        """The same at another place."""
-        return replace(self, index=index)
-
     @property
     def digest(self) -> str:
         """Of the arm with all its numbers, the gains and the options, whatever the gain set is called."""
@@ -119,21 +115,14 @@ class Question:
     @property
     def data(self) -> Row:
         """Its part of a row."""
-        gains = self.gains
-        return {
-            "robot": self.robot,
-            "variation": list(self.variation),
-            "ask": self.ask,
-            "name": None if gains is None else gains.name,
-            "family": None if gains is None else gains.family,
-            "m": None if gains is None else gains.m,
-            "kp": None if gains is None else [decimal_text(k) for k in gains.kp],
-            "kv": None if gains is None else [decimal_text(k) for k in gains.kv],
-            "condition": None if gains is None else list(gains.condition),
-            "options": {
-                key: list(value) if isinstance(value, tuple) else value for key, value in self.options
-            },
-        }
+        own: Row = {"robot": self.robot, "variation": list(self.variation), "ask": self.ask}
+        own |= dict.fromkeys(("name", "family", "m", "kp", "kv", "condition"))
+        if (gains := self.gains) is not None:
+            own |= {"name": gains.name, "family": gains.family, "m": gains.m}
+            own |= {key: list(map(decimal_text, getattr(gains, key))) for key in ("kp", "kv")}
+            own["condition"] = list(gains.condition)
+        options = {key: list(value) if isinstance(value, tuple) else value for key, value in self.options}
+        return own | {"options": options}
 
 
 @dataclass(frozen=True)
@@ -141,12 +130,10 @@ class Answered:
     """What came of a question.
 
     Args:
-        index: its place in the plan.
         row: its row, without certificates.
         certificates: by digest, as they are written to files.
     """
 
-    index: int
     row: Row
     certificates: Mapping[str, str] = field(default_factory=dict)
 
@@ -169,18 +156,10 @@ def answered(
         reason: why nothing was decided, where that is so.
         cells: of the other columns.
     """
-    own = question.data
-    del own["options"]
-    known = {
-        "index": question.index,
-        "question": question.digest,
-        **own,
-        "verdict": verdict,
-        "reason": reason,
-    }
     texts = {one.digest: one.text() for one in certificates}
-    known |= {**cells, "certificates": sorted(texts), "answer": data}
-    return Answered(question.index, {name: known.get(name) for name in COLUMNS}, texts)
+    known = {"index": question.index, "question": question.digest, **question.data, **cells}
+    known |= {"verdict": verdict, "reason": reason, "certificates": sorted(texts), "answer": data}
+    return Answered({name: known.get(name) for name in COLUMNS}, texts)
 
 
 def line_of(row: Row) -> str:

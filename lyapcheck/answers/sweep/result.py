@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from lyapcheck.answers.sweep.question import Row
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_least, at_most
-from lyapcheck.output.document import Bullets, Document, Figure, Section, Table, command
-from lyapcheck.output.html import blocks
-from lyapcheck.output.mathml import Markup
+from lyapcheck.output.document import Bullets, Document, Section, Table, command
 from lyapcheck.verdicts import Exit
 
 MOST_CELLS = 3_000
@@ -24,15 +22,11 @@ DIGITS = 3
 """Significant digits of a cell."""
 Arm = tuple[str, tuple[str, ...]]
 """A robot, and what varies."""
-ASKED = {
-    "margin": ("gate",),
-    "eps0": ("epsilon",),
-    "settling": ("simulate", "bounds"),
-}
-"""Which questions fill a column."""
-WRONG = ("refuted", "rejected")
-OPEN = ("undecided",)
-ERROR = "error"
+Cells = dict[tuple[str, str], float | None]
+"""Values over m and k_v, in the order of the plan; ``None`` where one of several is missing."""
+ORDER = {"error": 0, "refuted": 1, "rejected": 1, "undecided": 2}
+"""What is wrong is seen first."""
+EXITS = (Exit.INTERNAL, Exit.REFUTED, Exit.UNDECIDED, Exit.PROVED)
 SIGNS = {Exit.PROVED: "✓", Exit.REFUTED: "✗", Exit.UNDECIDED: "?", Exit.INTERNAL: "!"}
 LEGEND = "Of cells that differ in K_p the worst is shown; empty: not every one has a value."
 OBSERVED = "observed: a simulation in floating point that broke no promise; it proves nothing."
@@ -45,11 +39,13 @@ class Measure:
     Args:
         title: in words, with its unit.
         column: of the rows.
+        asks: the questions that fill it.
         worst: which of several values counts, where cells differ in K_p.
     """
 
     title: str
     column: str
+    asks: tuple[str, ...]
     worst: Callable[[float, float], float]
 
     def text(self, value: float | None) -> str:
@@ -60,47 +56,10 @@ class Measure:
 
 
 MEASURES = (
-    Measure("least margin of the gate's conditions, as a share of the limit", "margin", min),
-    Measure("certified ε₀", "eps0", min),
-    Measure("simulated settling time in s", "settling", max),
+    Measure("least margin of the gate's conditions, as a share of the limit", "margin", ("gate",), min),
+    Measure("certified ε₀", "eps0", ("epsilon",), min),
+    Measure("simulated settling time in s", "settling", ("simulate", "bounds"), max),
 )
-
-
-@dataclass
-class Map:
-    """Values over m and k_v, in the order of the plan; ``None`` where one of several is missing."""
-
-    arm: Arm
-    measure: Measure
-    cells: dict[tuple[str, str], float | None] = field(default_factory=dict)
-    whole: bool = True
-
-    def add(self, m: str, kv: str, value: float | None) -> None:
-        """Note a value; the worst of a cell stays, and none is worse than any."""
-        key = m, kv
-        if key not in self.cells and len(self.cells) == MOST_CELLS:
-            self.whole = False
-        elif key not in self.cells:
-            self.cells[key] = value
-        else:
-            known = self.cells[key]
-            self.cells[key] = None if known is None or value is None else self.measure.worst(known, value)
-
-    @property
-    def rows(self) -> list[str]:
-        """The m."""
-        return list(dict.fromkeys(m for m, _ in self.cells))
-
-    @property
-    def columns(self) -> list[str]:
-        """The k_v."""
-        return list(dict.fromkeys(kv for _, kv in self.cells))
-
-    @property
-    def shown(self) -> bool:
-        """Whether there is more than a line of it, and something in it."""
-        known = any(value is not None for value in self.cells.values())
-        return self.whole and known and len(self.cells) > 1
 
 
 class Tally:
@@ -108,36 +67,33 @@ class Tally:
 
     def __init__(self) -> None:
         self.counts: Counter[tuple[Arm, str, str]] = Counter()
-        self.reasons: dict[str, int] = {}
-        self.maps: dict[tuple[Arm, str], Map] = {}
+        self.reasons: Counter[str] = Counter()
+        self._maps: dict[tuple[Arm, Measure], Cells] = {}
 
     def add(self, row: Row) -> None:
-        """Note a row."""
+        """Note a row; the worst of a cell stays, and none is worse than any."""
         arm = row["robot"], tuple(row["variation"])
         self.counts[arm, row["ask"], row["verdict"]] += 1
         if row["reason"] and (row["reason"] in self.reasons or len(self.reasons) < MOST_MAPS):
-            self.reasons[row["reason"]] = self.reasons.get(row["reason"], 0) + 1
-        if row["kv"] is None:
-            return
-        for measure in MEASURES:
-            if row["ask"] in ASKED[measure.column]:
-                self._add(arm, measure, row)
+            self.reasons[row["reason"]] += 1
+        for measure in MEASURES if row["kv"] is not None else ():
+            known = (arm, measure) in self._maps or len(self._maps) < MOST_MAPS
+            if row["ask"] in measure.asks and known:
+                cells = self._maps.setdefault((arm, measure), {})
+                kv = row["kv"][:1] if len(set(row["kv"])) == 1 else row["kv"]
+                key = row["family"] if row["m"] is None else str(row["m"]), ", ".join(kv)
+                value = None if row[measure.column] is None else float(row[measure.column])
+                if key in cells:
+                    old = cells[key]
+                    cells[key] = None if old is None or value is None else measure.worst(old, value)
+                elif len(cells) <= MOST_CELLS:
+                    cells[key] = value
 
-    def _add(self, arm: Arm, measure: Measure, row: dict[str, Any]) -> None:
-        key = arm, measure.column
-        if key not in self.maps and len(self.maps) == MOST_MAPS:
-            return
-        member = row["family"] if row["m"] is None else f"{row['m']}"
-        value = row[measure.column]
-        number = None if value is None else float(value)
-        kv = row["kv"][:1] if len(set(row["kv"])) == 1 else row["kv"]
-        self.maps.setdefault(key, Map(arm, measure)).add(member, ", ".join(kv), number)
-
-
-def arm_text(arm: Arm) -> str:
-    """An arm and what varies, in words."""
-    robot, variation = arm
-    return f"{robot}, {', '.join(variation)}" if variation else robot
+    def maps(self) -> Iterator[tuple[Arm, Measure, Cells]]:
+        """Those that are worth showing: more than a line of it, and something in it."""
+        for (arm, measure), cells in self._maps.items():
+            if 1 < len(cells) <= MOST_CELLS and any(value is not None for value in cells.values()):
+                yield arm, measure, cells
 
 
 @dataclass(frozen=True)
@@ -147,7 +103,6 @@ class SweepAnswer(Answer):
     Args:
         path: of the plan.
         tally: counts and maps.
-        figures: whether the maps are drawn beside the document.
         certificates: the folder that has some; empty where there are none.
     """
 
@@ -155,50 +110,40 @@ class SweepAnswer(Answer):
 
     path: str
     tally: Tally
-    figures: bool = False
     certificates: str = ""
 
     @property
     def exit_code(self) -> Exit:
         """4 if a question failed, else 1 if something is refuted or rejected, else 3 if undecided, else 0."""
-        verdicts = {verdict for _, _, verdict in self.tally.counts}
-        if ERROR in verdicts:
-            return Exit.INTERNAL
-        if verdicts & set(WRONG):
-            return Exit.REFUTED
-        return Exit.UNDECIDED if verdicts & set(OPEN) or not verdicts else Exit.PROVED
+        if not self.tally.counts:
+            return Exit.UNDECIDED
+        return EXITS[min(ORDER.get(verdict, 3) for _, _, verdict in self.tally.counts)]
 
     def document(self) -> Document:
-        """Counts, what failed first; why nothing was decided; a table or a drawing of each map."""
-        maps = tuple(self._map(number, one) for number, one in enumerate(self.maps, start=1))
+        """Counts, what failed first; why nothing was decided; in detail a table of each map."""
+        maps = tuple(_map(*one) for one in self.tally.maps())
         notes = [LEGEND] if maps else []
         notes += [OBSERVED] if any(verdict == "observed" for _, _, verdict in self.tally.counts) else []
-        order = {ERROR: 0, **dict.fromkeys(WRONG, 1), **dict.fromkeys(OPEN, 2)}
         rows = sorted(
             ((arm_text(arm), ask, verdict, str(n)) for (arm, ask, verdict), n in self.tally.counts.items()),
-            key=lambda row: order.get(row[2], 3),
+            key=lambda row: ORDER.get(row[2], 3),
         )
-        reasons = [
-            f"{count} times: {reason}" if count > 1 else reason
-            for reason, count in sorted(self.tally.reasons.items(), key=lambda pair: -pair[1])
-        ]
         more = [f"{len(rows) - MOST_ROWS} further rows: -v"] if len(rows) > MOST_ROWS else []
-        said = (*more, *reasons)
-        whole = [_counts(rows)] if more else []
+        reasons = self.tally.reasons.most_common()
+        said = (*more, *(f"{count} times: {text}" if count > 1 else text for text, count in reasons))
+        plan = command("sweep", self.path, "--out", "sweep")
         return Document(
             self._title(),
             (*([_counts(rows[:MOST_ROWS])] if rows else []), *([Bullets(said[:3])] if said else [])),
             tuple(notes),
             ("maps over m and k_v: -v, or index.html with --out",) if maps else (),
             (
-                *whole,
+                *([_counts(rows)] if more else []),
                 *([Section("Further reasons", (Bullets(said[3:10]),))] if said[3:] else []),
                 *maps,
             ),
             "each arm is assumed to be as its file says: lyapcheck robot ARM --assumptions",
-            command("recheck", self.certificates)
-            if self.certificates
-            else command("sweep", self.path, "--out", "sweep"),
+            command("recheck", self.certificates) if self.certificates else plan,
         )
 
     def data(self) -> dict[str, Any]:
@@ -211,63 +156,59 @@ class SweepAnswer(Answer):
             ],
             "maps": [
                 {
-                    "robot": one.arm[0],
-                    "variation": list(one.arm[1]),
-                    "column": one.measure.column,
-                    "cells": [{"m": m, "kv": kv, "value": value} for (m, kv), value in one.cells.items()],
+                    "robot": robot,
+                    "variation": list(variation),
+                    "column": measure.column,
+                    "cells": [{"m": m, "kv": kv, "value": value} for (m, kv), value in cells.items()],
                 }
-                for one in self.maps
+                for (robot, variation), measure, cells in self.tally.maps()
             ],
         }
 
-    @property
-    def maps(self) -> list[Map]:
-        """Those that are worth showing."""
-        return [one for one in self.tally.maps.values() if one.shown]
-
     def _title(self) -> str:
-        total = sum(self.tally.counts.values())
-        verdicts: dict[str, int] = {}
+        verdicts: Counter[str] = Counter()
         for (_, _, verdict), count in self.tally.counts.items():
-            verdicts[verdict] = verdicts.get(verdict, 0) + count
-        parts = ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
+            verdicts[verdict] += count
+        total, parts = verdicts.total(), ", ".join(f"{count} {word}" for word, count in verdicts.items())
         return f"{SIGNS[self.exit_code]} {total} question{'' if total == 1 else 's'}: {parts or 'none asked'}"
 
-    def _map(self, number: int, one: Map) -> Section:
-        title = f"{one.measure.title}: {arm_text(one.arm)}"
-        if self.figures:
-            return Section(title, (Figure(f"figures/{stem(number, one)}.svg", f"{title}, over m and k_v"),))
-        heads = ("m", *one.columns)
-        rows = tuple((m, *(one.measure.text(one.cells.get((m, kv))) for kv in one.columns)) for m in one.rows)
-        return Section(title, (Table(heads, rows, caption="m down, k_v in N·m across"),))
+
+def arm_text(arm: Arm) -> str:
+    """An arm and what varies, in words."""
+    robot, variation = arm
+    return f"{robot}, {', '.join(variation)}" if variation else robot
 
 
 def _counts(rows: Sequence[tuple[str, ...]]) -> Table:
     return Table(("arm", "question", "verdict", "count"), tuple(rows), align="lllr", keys=3)
 
 
-def stem(number: int, one: Map) -> str:
-    """The name of a map's files."""
-    return f"map{number}_{one.measure.column}"
+def _grid(cells: Cells) -> tuple[list[str], list[str]]:
+    """The m and the k_v."""
+    return list(dict.fromkeys(m for m, _ in cells)), list(dict.fromkeys(kv for _, kv in cells))
+
+
+def _map(arm: Arm, measure: Measure, cells: Cells) -> Section:
+    ms, kvs = _grid(cells)
+    rows = tuple((m, *(measure.text(cells.get((m, kv))) for kv in kvs)) for m in ms)
+    table = Table(("m", *kvs), rows, caption="m down, k_v in N·m across")
+    return Section(f"{measure.title}: {arm_text(arm)}", (table,))
 
 
 def files(answer: SweepAnswer) -> dict[str, str | bytes]:
-    """``index.html`` and ``sweep.json``, and each map as SVG, PNG and CSV, by their names in the folder."""
-    from lyapcheck.report.plots import heat_plot
+    """``index.html`` with the maps in colour, and ``sweep.json``, by their names in the folder."""
+    from lyapcheck.output.html import blocks
+    from lyapcheck.report.page import markup
 
-    drawings: dict[str, str | bytes] = {}
-    for number, one in enumerate(answer.maps, start=1):
-        plot = heat_plot(one.rows, one.columns, one.cells, one.measure.title, one.measure.text)
-        drawings |= {f"figures/{name}": drawing for name, drawing in plot.files(stem(number, one)).items()}
-    return {**drawings, "index.html": _page(answer, drawings), "sweep.json": answer.written("json")}
-
-
-def _page(answer: SweepAnswer, drawings: dict[str, str | bytes]) -> str:
-    from lyapcheck.report.page import drawn, markup
-
-    def shown(figure: Figure) -> Markup | None:
-        name = figure.path.removeprefix("figures/").removesuffix(".svg")
-        return drawn(name, str(drawings[figure.path]), figure.caption)
-
-    document = answer.document()
-    return markup("sheet.html", title=document.title, inner=list(blocks(document.body, 2, shown)))
+    whole, maps = answer.document(), []
+    for arm, measure, cells in answer.tally.maps():
+        known = [value for value in cells.values() if value is not None]
+        low, wide = min(known), (max(known) - min(known)) or 1.0
+        shares = {key: None if value is None else (value - low) / wide for key, value in cells.items()}
+        ms, kvs = _grid(cells)
+        rows = [(m, [(measure.text(cells.get((m, kv))), shares.get((m, kv))) for kv in kvs]) for m in ms]
+        maps.append((f"{measure.title}: {arm_text(arm)}", kvs, rows))
+    titles = {title for title, _, _ in maps}
+    inner = [one for one in whole.body if not isinstance(one, Section) or one.title not in titles]
+    page = markup("sweep.html", title=whole.title, inner=list(blocks(inner, 2)), maps=maps)
+    return {"index.html": page, "sweep.json": answer.written("json")}

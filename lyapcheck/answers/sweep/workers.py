@@ -6,24 +6,20 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from importlib import import_module
 from itertools import groupby
 from multiprocessing import get_context
 from typing import Any
 
 from lyapcheck import store
-from lyapcheck.answers.sweep.question import Answered, Question, answered, arm
+from lyapcheck.answers.sweep.asks import TOGETHER, asked
+from lyapcheck.answers.sweep.question import Answered, Question, answered
 from lyapcheck.computing import main_unnamed
 from lyapcheck.errors import InputError, argument_error, missing
-from lyapcheck.extensions import modules
 from lyapcheck.process_tree import temporary_folder, work_in
 
-PACKAGE = "lyapcheck.answers.sweep.asks"
 ERROR = "error"
-LIGHT = "gate"
-"""A question of which many are asked together."""
-TOGETHER = 100
-"""So many of them: a worker is handed work for a tenth of a second at least."""
+MANY = 100
+"""So many of the gate's questions are asked together: a worker has work for a tenth of a second at least."""
 
 Batch = tuple[Question, ...]
 AHEAD = 16
@@ -35,17 +31,12 @@ RETRIES = 5
 """How often a batch is asked again whose worker was lost."""
 
 
-def names() -> tuple[str, ...]:
-    """The questions that can be asked: a file each."""
-    return modules(import_module(PACKAGE).__path__)
-
-
 def batches(questions: Iterable[Question]) -> Iterator[Batch]:
     """What is handed to a worker at once: a few questions in the order of the plan, one heavy one at most."""
     batch: list[Question] = []
     for question in questions:
         batch.append(question)
-        if question.ask != LIGHT or len(batch) == TOGETHER:
+        if question.ask != TOGETHER or len(batch) == MANY:
             yield tuple(batch)
             batch = []
     if batch:
@@ -60,39 +51,25 @@ def ask(batch: Sequence[Question], jobs: int = 1) -> list[Answered]:
         jobs: processes that may share one of them; they change no answer.
     """
     result: list[Answered] = []
-    for (name, _, _, _), group in groupby(
-        batch, key=lambda one: (one.ask, one.robot, one.variation, one.options)
-    ):
-        asked = list(group)
+    for _, group in groupby(batch, key=lambda one: (one.ask, one.robot, one.variation, one.options)):
+        some = list(group)
         try:
-            result += _asked(name, asked, jobs)
+            result += asked(some, jobs)
         except Exception:
-            result += [_alone(name, one, jobs) for one in asked]
+            result += [_alone(one, jobs) for one in some]
     return result
 
 
-def _asked(name: str, questions: Sequence[Question], jobs: int) -> list[Answered]:
-    """Questions that differ in their gains alone."""
-    module, first = import_module(f"{PACKAGE}.{name}"), questions[0]
-    known = arm(first.robot, first.variation)
-    options = {**module.OPTIONS, **dict(first.options), "jobs": jobs}
-    if name == LIGHT:
-        return list(module.ask(questions, known, options))
-    return [module.ask(one, known, options) for one in questions]
-
-
-def _alone(name: str, question: Question, jobs: int) -> Answered:
+def _alone(question: Question, jobs: int) -> Answered:
     """One question for itself, whatever it raises: the others must not be lost with it."""
     try:
-        return _asked(name, [question], jobs)[0]
-    except ImportError as error:
-        lack = missing(error)  # which all the others lack, too
-        if lack is not None:
-            raise lack from None
-        return failed(question, f"{type(error).__name__}: {error}")
+        return asked([question], jobs)[0]
     except InputError as error:
         return failed(question, "; ".join(map(str, error.problems)))
     except Exception as error:
+        lack = missing(error) if isinstance(error, ImportError) else None
+        if lack is not None:  # all the others lack it, too
+            raise lack from None
         return failed(question, f"{type(error).__name__}: {error}")
 
 

@@ -83,7 +83,7 @@ def run(
     made = out is not None and any((out / "certificates").glob("*.json"))
     answer = SweepAnswer(read.path, tally, certificates=str(out and out / "certificates") if made else "")
     if folder is not None:
-        folder.put(files(SweepAnswer(read.path, tally, figures=True)))
+        folder.put(files(SweepAnswer(read.path, tally)))
     show(answer, format)
     return answer.exit_code
 

@@ -6,14 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
+from lyapcheck.cli.show import open_folder, show, write_certificates
 from lyapcheck.cli.values import add_certificates, add_format, add_members, add_robot, parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.table import Table
     from lyapcheck.cli.parser import Parser
 
 _MOST_DIGITS = 2_000
@@ -28,8 +27,6 @@ def arguments(parser: Parser) -> None:
     add_robot(parser, about)
     about = "Add the leading terms for m → ∞ and the remainders."
     parser.add_argument("--asymptotics", action="store_true", help=about)
-    about = "Draw the constants against m into this folder, as SVG and PNG."
-    parser.add_argument("--plot", metavar="DIR", type=Path, help=about)
     add_certificates(parser, "Write the certificates of γ and ρ to this folder")
     add_format(parser, Format)
 
@@ -39,7 +36,6 @@ def run(
     digits: int,
     robot: str | None,
     asymptotics: bool,
-    plot: Path | None,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -57,7 +53,6 @@ def run(
         raise argument_error("--digits", digits, f"must be from 1 to {_MOST_DIGITS}", "write --digits 30")
     from lyapcheck.answers.table import build_table
 
-    folder = None if plot is None else open_folder("--plot", plot)
     proofs = None if certificates is None else open_folder("--certificates", certificates)
     with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
         table = build_table(members, digits, advance, with_asymptotes=asymptotics)
@@ -67,19 +62,9 @@ def run(
         from lyapcheck.answers.tune.limits import torque_budget
 
         table = replace(table, budget=torque_budget(robot, table))
-    if folder is not None:
-        _draw(table, folder)
     if proofs is not None:
         from lyapcheck.answers.table import certificates as certificates_of
 
         write_certificates(proofs, certificates_of(table))
     show(table, format)
     return Exit.PROVED
-
-
-def _draw(table: Table, folder: Path) -> None:
-    """``constants.svg`` and ``constants.png``."""
-    from lyapcheck.report.plots_of_constants import constants_png, constants_svg
-
-    write_whole(folder / "constants.svg", constants_svg(table))
-    write_whole(folder / "constants.png", constants_png(table))

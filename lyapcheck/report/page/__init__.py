@@ -15,16 +15,14 @@ from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.html import blocks
 from lyapcheck.output.mathml import Markup, element, joined, latex, sentence
 from lyapcheck.report import text
-from lyapcheck.report.evidence import evidence, four_epsilons, known, rests
-from lyapcheck.report.model import SIGNS, WEIGHTS, Motion, Report, Tile, WitnessRow, anchor, behind
+from lyapcheck.report.document import evidence, four_epsilons, known, rests
+from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, Tile, anchor, behind
 from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from jinja2 import Environment
-
-    from lyapcheck.report.claim_row import ClaimRow
 
 NEAR = 0.05
 """Sides that differ by less than this share of each other are told apart by their difference."""
@@ -101,17 +99,14 @@ def _templates() -> Environment:
 
 
 def _figure(report: Report, name: str, caption: str) -> Markup | None:
-    """A figure by its name; nothing where there is none."""
+    """A figure by its name, with links to its forms in ``figures``; nothing where there is none."""
     svg = report.figures.get(f"{name}.svg")
-    return drawn(name, svg, caption) if isinstance(svg, str) else None
+    if not isinstance(svg, str):
+        return None
+    return markup("figure.html", name=name, svg=_inline(svg, caption), caption=caption)
 
 
-def drawn(name: str, svg: str, caption: str) -> Markup:
-    """A figure by its SVG, with a caption and links to its forms in ``figures``."""
-    return markup("figure.html", name=name, svg=inline(svg, caption), caption=caption)
-
-
-def inline(svg: str, words: str) -> Markup:
+def _inline(svg: str, words: str) -> Markup:
     """An SVG of matplotlib as part of a page: its black and white are those of the page.
 
     Equal parts of different figures have equal ids, as these are digests of what they name; all others go.
@@ -164,10 +159,11 @@ def drawn_arm(motion: Motion, wide: float = 320.0, margin: float = 14.0) -> dict
 # --- Findings and claims.
 
 
-def apart(witness: WitnessRow) -> str:
+def apart(row: ClaimRow) -> str:
     """How far the two sides of a relation that fails are from each other."""
-    low, high = float(witness.left[0]), float(witness.right[0])
-    if low * high <= 0 or witness.operator == "=":
+    witness = row.decision.witness or {}
+    low, high = float(witness["left"][0]), float(witness["right"][0])
+    if low * high <= 0 or witness["operator"] == "=":
         return ""
     ratio = low / high
     return f" (ratio {ratio:.3g})" if abs(ratio - 1) > NEAR else f" ({abs(ratio - 1):.2%} apart)"
