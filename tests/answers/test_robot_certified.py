@@ -21,13 +21,6 @@ from tests.robots.test_arm_files import PRINTED
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
 
-# the Christoffel symbols of cos q2 · w1² + w2²
-# the same torque, but all of it in C11
-# a part that does not vanish at rest
-
-
-# The command -----
-
 FALSE_ARM = PRINTED.replace('M11 = [[2.351, ""], [2, "b c2"]]', 'M11 = [[1, ""], [1.05, "c2"]]').replace(
     'M12 = [[0.102, ""], [1, "b c2"]]', "M12 = []"
 )

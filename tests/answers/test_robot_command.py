@@ -38,12 +38,6 @@ def run(*arguments):
     return result.exit_code, result.stdout
 
 
-# Bounds over boxes -----
-
-
-# Constants -----
-
-
 def coriolis(model, q, x):
     size = np.linalg.norm(x, axis=-1)
     return np.linalg.norm(model.coriolis(q, x), 2, axis=(-2, -1)) / size

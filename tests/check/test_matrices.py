@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 
-Rows = list[list[Fraction]]
 numbers = st.fractions(min_value=-4, max_value=4, max_denominator=6)
 HILBERT = [[Fraction(1, i + j + 1) for j in range(8)] for i in range(8)]
 

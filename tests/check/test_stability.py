@@ -11,7 +11,6 @@ import pytest
 from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Span
 from lyapcheck.check.loop.closed_loop import ClosedLoop
@@ -29,11 +28,11 @@ from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import SchurProblem
+from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 
 F = Fraction
 TENTH = F(1, 10)
-Array = NDArray[np.float64]
 GAINS = {
     "buap3": read_gain_file(paper_gain_file("table2")).gains,
     "reyes-kelly2": read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains,
@@ -50,19 +49,6 @@ def loop(robot, index, eps0=TENTH):
 def exact_schur(robot, index, eps0, q, e):
     """P at one state of a built-in arm."""
     return schur_of(load(robot), GAINS[robot][index], eps0, q, e)
-
-
-def schur_of(arm, gains, eps0, q, e):
-    """P at one state, by NumPy from the definition and the numeric model."""
-    model, family = NumericModel(arm), named(gains.family, gains.m)
-    h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
-    M, B = model.mass(q), np.diag(model.viscous)
-    unit = e / r if r else np.zeros_like(e)
-    S = model.coriolis(q, h) + np.outer(M @ h, unit) / (1 + r) - M @ np.diag(dh)
-    eps, L = eps0 / (1 + r), float(family.constants().L.upper)
-    kp, kv = (np.array([float(k) for k in part]) for part in (gains.kp, gains.kv))
-    X = B + eps * S
-    return B + eps * (S + S.T) / 2 - eps / 4 * X.T @ np.diag(1 / (kp - eps0 * L * kv / 4)) @ X
 
 
 @pytest.mark.parametrize(("robot", "index"), one_in(4, CASES))

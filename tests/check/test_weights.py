@@ -16,14 +16,13 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
-from lyapcheck.family import named
 from lyapcheck.robots import load
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.cover import SchurProblem
 from lyapcheck.search.weights import Effort, weighted_epsilon
 from lyapcheck.search.worst_states import resisting_program
+from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -81,33 +80,20 @@ def test_casadi_finds_where_weights_fail_worse_than_samples_do():
 
 
 def least(case, weights, row):
-    """λmin(B^−½ P B^−½) at (q, e), written out once more."""
-    q, e, B = row[:2], row[2:4], np.diag(NumericModel(case.model).viscous)
-    family, model, r = case.family, NumericModel(case.model), float(np.linalg.norm(row[2:4]))
-    h, dh = weights * family.h(e), weights * family.dh(e)
-    S = model.coriolis(q, h) + np.outer(model.mass(q) @ h, e / r) / (1 + r) - model.mass(q) @ np.diag(dh)
-    X, L = B + S / (1 + r), float(family.constants().L.upper)
-    K = np.diag(1 / (case.kp / weights - L * case.kv / 4))
-    P = B + (S + S.T) / 2 / (1 + r) - X.T @ K @ X / 4 / (1 + r)
-    root = np.sqrt(np.diag(B))
+    """λmin(B^−½ P B^−½) at (q, e)."""
+    P, root = schur_of(case.model, case.gains, 1.0, row[:2], row[2:4], weights), np.sqrt(case.numeric.viscous)
     return float(np.linalg.eigvalsh(P / np.outer(root, root))[0])
 
 
 def test_P_over_boxes_holds_P_with_weights():
     case, loop = controlled(0), weighted(0).proof.loop
-    model, family = NumericModel(case.model), named("hyperbolic", 1)
     scale, eps0 = np.array([float(x) for x in loop.Lambda]), float(loop.eps0)
-    random, L = np.random.default_rng(3), float(family.constants().L.upper)
+    random = np.random.default_rng(3)
     with precision(64):
         evaluator = Evaluator(loop, BALLS)
         for _ in range(100):
             q, e = random.uniform(-3, 3, 2), random.uniform(-2, 2, 2)
-            h, dh, r = scale * family.h(e), scale * family.dh(e), float(np.linalg.norm(e))
-            M, B, eps = model.mass(q), np.diag(model.viscous), eps0 / (1 + r)
-            S = model.coriolis(q, h) + np.outer(M @ h, e / r) / (1 + r) - M @ np.diag(dh)
-            X = B + eps * S
-            K = np.diag(1 / (case.kp / scale - eps0 * L * case.kv / 4))
-            exact = B + eps * (S + S.T) / 2 - eps / 4 * X.T @ K @ X
+            exact = schur_of(case.model, case.gains, eps0, q, e, scale)
             box = tuple((float(x) - 1e-4, float(x) + 1e-4) for x in (q[1], *e))
             P = evaluator.schur(box[:1], box[1:], ())
             for i in range(2):

@@ -1,6 +1,5 @@
 """No answer says a word of proof but through a promise: with promises turned into *seen*, none is left."""
 
-import re
 from dataclasses import replace
 from fractions import Fraction as F
 from pathlib import Path
@@ -10,19 +9,13 @@ import pytest
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.answers.gate.otherwise import positive
 from lyapcheck.answers.gate.shown import shown_gravity
-from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Bullets, Code, Figure, Paragraph, Section, Table
-from lyapcheck.promise import GUARDED, promises_as_seen
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.command import invoke
+from tests.helpers.words_of_proof import left_over, words_of_proof
 
 ROOT = Path(__file__).parents[2]
-NEGATED = re.compile(r"\b(no|not|nothing|neither|none|cannot|un)\b[^.;:]*")
-"""A sentence that something is not proved promises nothing."""
-QUOTED = re.compile(r"`[^`]*`|--[\w-]+( [\w-]+)?")
-"""Commands and options, whose names may be words of proof."""
 ARM = """
 title = "One link"
 gravity = [0, -9.81, 0]
@@ -91,65 +84,9 @@ def in_a_folder_with_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-def said(answer):
-    """What an answer says in words: no heads of columns, no keys, no code."""
-    document = answer.document()
-    yield document.title
-    yield from texts(document.body)
-    for one in answer.annotations():
-        yield one.message
-    yield from values(answer.data())
-
-
-def texts(blocks):
-    for block in blocks:
-        if isinstance(block, Paragraph):
-            yield block.text
-        elif isinstance(block, Bullets):
-            yield from block.items
-        elif isinstance(block, Table):
-            yield block.caption
-            for row in block.rows:
-                yield from row
-        elif isinstance(block, Section):
-            yield block.title
-            yield from texts(block.blocks)
-        elif isinstance(block, Figure):
-            yield block.caption
-        else:
-            assert isinstance(block, Code)
-
-
-def values(data):
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, dict):
-        for value in data.values():
-            yield from values(value)
-    elif isinstance(data, (list, tuple)):
-        for value in data:
-            yield from values(value)
-
-
-def words_of_proof(text):
-    """The guarded words of a text that promise something."""
-    return GUARDED.findall(NEGATED.sub("", QUOTED.sub("", text)))
-
-
 @pytest.mark.parametrize("words", ASKED.values(), ids=list(ASKED))
 def test_every_word_of_proof_is_a_promise(words, monkeypatch):
-    answers = []
-    written = Answer.written
-    monkeypatch.setattr(
-        Answer,
-        "written",
-        lambda answer, *args, **kw: (answers.append(answer), written(answer, *args, **kw))[1],
-    )
-    with promises_as_seen():
-        done = invoke(*words)
-        assert answers, done.stderr
-        left = [text for answer in answers for text in said(answer) if words_of_proof(text)]
-    assert not left
+    assert not left_over(words, monkeypatch)
 
 
 def undecided(*words):

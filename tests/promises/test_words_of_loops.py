@@ -65,6 +65,11 @@ ASKED = {
     "simulate many": (*SIMULATE, *TARGET, "--runs", "3"),
     "simulate along a reference": (*SIMULATE, "--reference", "wave.toml"),
     "sweep": ("sweep", "plan.toml", "--jobs", "1", "--out", "sweep"),
+    "robot": ("robot", "pendulum1"),
+    "robot with ranges": ("robot", "buap3"),
+    "table": ("table", "--m", "1:3", "--robot", "buap3", "--asymptotics"),
+    "check": ("check", "scalar.py", "--m", "1"),
+    "derive": ("derive", "--m", "1,2", "--n", "2"),
 }
 COSTLY = ("epsilon with weights", "sweep")
 

@@ -6,32 +6,26 @@ from functools import cache
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.field import leaves
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
-from lyapcheck.family import named
 from lyapcheck.robots import load
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search import certified, cover
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, certify, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome, SchurProblem
 from lyapcheck.search.scalar_program import norm_epsilon
+from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import generic
 
 F = Fraction
-Array = NDArray[np.float64]
 GAINS = {
-    "buap3": read_gain_file(paper_gain_file("table2")).gains,
     "reyes-kelly2": read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains,
-    "pendulum1": tuple(GainSet(f"m{m}", m, (F(20),), (F(1, 5),)) for m in (1, 2, 3)),
 }
-CASES = [(robot, index) for robot in GAINS for index in range(3)]
 FALSIFIED = (F("0.81057"), F("0.92638"), F("0.63621"))
 """For the three gain sets on the two-joint arm, just above ε₀ at which test_falsify.py has states."""
 
@@ -46,64 +40,12 @@ def problem(robot, index, eps0):
     return SchurProblem(case.loop(eps0))
 
 
-class Terms:
-    """X and Y without damping, from NumPy and the definitions alone."""
-
-    def __init__(self, case, eps0, q, e):
-        family, model = named(case.gains.family, case.gains.m), NumericModel(case.model)
-        h, dh, r = family.h(e), family.dh(e), float(np.linalg.norm(e))
-        M, self.B = model.mass(q), np.diag(model.viscous)
-        unit = e / r if r else np.zeros_like(e)
-        C, pushed = model.coriolis(q, h), np.outer(M @ h, unit) / (1 + r)
-        self.eps0, self.eps = eps0, eps0 / (1 + r)
-        self.Kp, self.Kv = np.diag(case.kp), np.diag(case.kv)
-        self.L = float(family.constants().L.upper)
-        self.X = self.B + self.eps * (C + pushed - M @ np.diag(dh))
-        K = np.diag(dh) @ M - pushed.T - C
-        self.Y = self.B - self.eps * (K + K.T) / 2
-
-    def Q(self, D):
-        damped = self.Kv @ np.diag(D)
-        beside = -np.sqrt(self.eps) / 2 * (self.X + damped)
-        return np.block([[self.Kp, beside], [beside.T, self.Y + damped]])
-
-    @property
-    def softened(self):
-        """K̃."""
-        return np.asarray(self.Kp - self.eps0 * self.L / 4 * self.Kv)
-
-    def P(self):
-        return np.asarray(self.Y - self.eps / 4 * self.X.T @ np.linalg.inv(self.softened) @ self.X)
+def exact_schur(case, eps0, q, e):
+    return schur_of(case.model, case.gains, eps0, q, e)
 
 
 def random_state(generator, n):
     return generator.uniform(-np.pi, np.pi, n), generator.normal(size=n) * 10.0 ** generator.uniform(-4, 1)
-
-
-@pytest.mark.parametrize(("robot", "index"), one_in(4, CASES))
-def test_P_is_what_Q_needs_whatever_the_rates(robot, index):
-    """Q(D) ⪰ Q̃ for 0 ≤ D ≤ L, and P is the Schur complement of Q̃: so P ≻ 0 gives Q(D) ≻ 0."""
-    case, generator = controlled(robot, index), np.random.default_rng(index)
-    positive = 0
-    for _ in range(200):
-        eps0 = float(10.0 ** generator.uniform(-3, 0.3))
-        terms = Terms(case, eps0, *random_state(generator, case.n))
-        if np.min(np.diag(terms.softened)) <= 0:
-            continue
-        P, reduced = terms.P(), terms.Q(np.zeros(case.n))
-        reduced[: case.n, : case.n] = terms.softened
-        assert np.linalg.det(reduced) == pytest.approx(
-            np.linalg.det(terms.softened) * np.linalg.det(P), rel=1e-6, abs=1e-9
-        )
-        least = np.linalg.eigvalsh(P)[0]
-        positive += least > 1e-9
-        for _ in range(4):
-            share = np.round(generator.uniform(0, 1, case.n), generator.integers(0, 3))
-            Q = terms.Q(terms.L * share)
-            assert np.linalg.eigvalsh(Q - reduced)[0] > -1e-9
-            # of all vectors (·, w) the reduced form is least at wᵀ P w
-            assert least <= 1e-9 or np.linalg.eigvalsh(Q)[0] > 0
-    assert positive > 20
 
 
 def test_a_wrong_sign_of_coriolis_would_be_noticed():
@@ -111,7 +53,7 @@ def test_a_wrong_sign_of_coriolis_would_be_noticed():
     task, case = problem("reyes-kelly2", 0, F(1, 4)), controlled("reyes-kelly2", 0)
     q, e = np.array([0.0, 1.0]), np.array([0.5, -0.3])
     point = np.concatenate([q[1:], e])
-    exact = Terms(case, 0.25, q, e).P()
+    exact = exact_schur(case, 0.25, q, e)
     sides = task.sides(np.stack([point, point])[None])
     for sign, agrees in ((F(1), True), (F(0), False), (F(-1), False)):
         symbols = {
@@ -134,12 +76,8 @@ def test_proved_below_the_falsified_and_never_above(index):
     assert above.point is not None
     q, e = np.zeros(2), above.point[1:]
     q[1] = above.point[0]
-    assert (
-        np.linalg.eigvalsh(
-            Terms(controlled("reyes-kelly2", index), float(FALSIFIED[index]) * 1.01, q, e).P()
-        )[0]
-        < 1e-6
-    )
+    exact = exact_schur(controlled("reyes-kelly2", index), float(FALSIFIED[index]) * 1.01, q, e)
+    assert np.linalg.eigvalsh(exact)[0] < 1e-6
 
 
 @pytest.mark.parametrize("index", [0, 1, 2])

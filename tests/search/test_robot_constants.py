@@ -6,7 +6,6 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
@@ -16,7 +15,6 @@ from tests.helpers.robot_cases import BUILT_IN
 from tests.helpers.shares import but, one_in
 
 F = Fraction
-Array = NDArray[np.float64]
 
 
 def angles(n, count=20_000):

@@ -6,7 +6,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
@@ -15,7 +14,6 @@ from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.robot_cases import BUILT_IN
 
 F = Fraction
-Array = NDArray[np.float64]
 EXPECTED = {"pendulum1": (0,), "reyes-kelly2": (0,), "pelican2": (0,)}
 """One joint: M is constant. Two joints: M depends on cos q₂ and M₁₂ ≠ 0, so both signs change together."""
 
