@@ -225,24 +225,6 @@ def test_undecided_warns_and_fails_where_the_gate_is_strict(undecided):
     assert {one["level"] for one in sarif(strict)} == {"error"}
 
 
-def test_fingerprints_follow_the_gain_and_not_its_line(tmp_path):
-    path = tmp_path / "g.toml"
-    text = paper_gain_file("table2").read_text()
-
-    def prints(changed):
-        path.write_text(changed)
-        return [
-            r["partialFingerprints"]["case/v1"]
-            for r in sarif(gate(read_gain_file(path)))
-            if r["level"] == "error"
-        ]
-
-    result = prints(text)
-    assert len(set(result)) == 2
-    assert prints("\n\n# moved\n" + text.replace("0.223", "0.229")) == result
-    assert set(prints(text.replace("tau_m2", "other"))) & set(result) == set(result[1:])
-
-
 # --- what to change ----------------------------------------------------------------------------------
 
 

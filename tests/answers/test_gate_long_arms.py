@@ -59,6 +59,7 @@ def test_such_an_arm_is_proved_stable_and_told_how_it_swings(tmp_path: Path) -> 
     assert invoke(*command).exit_code == invoke("recheck", proofs).exit_code == 0
 
 
+@pytest.mark.slow
 def test_such_an_arm_has_a_certified_epsilon_and_v_falls_with_it(tmp_path: Path) -> None:
     import numpy as np
 

@@ -330,7 +330,7 @@ NOT_FROM_REST = [
     pytest.param("buap3", "$^", {}, "no proof from rest within 90° over", marks=pytest.mark.slow),
     ("reyes-kelly2", "$^", {}, "without dry friction"),
     ("reyes-kelly2", r"torque_limit = 1.*\n|" + DRY, {}, "no motor saturates"),
-    ("reyes-kelly2", DRY, {"period": 8 * MS}, "no proof"),
+    pytest.param("reyes-kelly2", DRY, {"period": 8 * MS}, "no proof", marks=pytest.mark.slow),
     ("reyes-kelly2", DRY, {"longest": 2 * MS}, "constant intervals"),
     ("reyes-kelly2", DRY, {"filter": (Fraction(1, 2), Fraction(1, 2))}, "without a filter"),
     ("reyes-kelly2", DRY, {"gravity_error": Fraction(1, 20)}, "knows g(q)"),

@@ -60,6 +60,9 @@ def test_a_fingerprint_tells_gains_apart_and_nothing_else(tmp_path):
     outcome = prints()
     path.write_text("# moved\n" + text.replace("0.223", "0.229"), encoding="utf-8")
     assert prints() == outcome
+    path.write_text(text.replace("tau_m2", "other"), encoding="utf-8")
+    assert [*map(outcome.__contains__, prints())] == [False, True]
+    path.write_text(text, encoding="utf-8")
     both = prints(deciding=("10", "10p", "19"), robot="buap3-small")
     assert len(set(both)) == len(both) == 3
     assert set(outcome) < set(both)

@@ -43,23 +43,6 @@ def coriolis(model, q, x):
     return np.linalg.norm(model.coriolis(q, x), 2, axis=(-2, -1)) / size
 
 
-@pytest.mark.parametrize("name", but(["pelican2"], [*robots.names(), "ur5", "generic4"]))
-def test_no_state_lies_outside_the_constants(tmp_path, name):
-    (tmp_path / "generic4.urdf").write_text(generic(4))
-    path = {"ur5": ARMS / "ur5.urdf", "generic4": tmp_path / "generic4.urdf"}.get(name, name)
-    arm = robots.load(path)
-    result = {constant.name: constant for constant in arm_constants(arm, 200)}
-    model, rng = NumericModel(arm), np.random.default_rng(4)
-    q, x = rng.uniform(-np.pi, np.pi, (2000, arm.n)), rng.normal(size=(2000, arm.n))
-    values, gravity = np.linalg.eigvalsh(model.mass(q)), np.abs(model.gravity(q))
-    assert values[:, 0].min() >= result["lambda_min"].enclosure.lower
-    assert values[:, -1].max() <= result["lambda_max"].enclosure.upper
-    assert coriolis(model, q, x).max() <= result["k_c"].enclosure.upper
-    assert np.linalg.norm(gravity, axis=1).max() <= result["k_g"].enclosure.upper
-    for i in range(arm.n):
-        assert gravity[:, i].max() <= result[f"k_g{i + 1}"].enclosure.upper
-
-
 @pytest.mark.parametrize("name", but(["pelican2"], [*robots.names(), "ur5"]))
 def test_every_constant_is_shown_by_its_state(name):
     arm = robots.load(ARMS / "ur5.urdf" if name == "ur5" else name)
@@ -161,14 +144,6 @@ def test_progress_names_what_is_done_along_a_chain(tmp_path):
     assert steps == sorted(steps)
 
 
-@pytest.mark.slow
-def test_a_larger_budget_is_never_worse():
-    arm = robots.load(ARMS / "ur5.urdf")
-    names = ("lambda_max", "k_c")
-    few, many = (arm_constants(arm, boxes, names=names) for boxes in (30, 100))
-    assert all(b.enclosure.width <= a.enclosure.width for a, b in zip(few, many, strict=True))
-
-
 # The command -----
 
 
@@ -186,16 +161,6 @@ def test_built_in_arms_have_the_properties(name):
     assert all(
         {"value", "unit", "source", "assumed"} <= number.keys() for number in result["numbers"].values()
     )
-
-
-@pytest.mark.slow
-def test_an_arm_without_friction_lacks_a_property():
-    code, out = run(str(ARMS / "ur5.urdf"), "--format", "json", "--max-boxes", "20")
-    rows = {row["id"]: row for row in json.loads(out)["properties"]}
-    assert code == 1
-    assert rows["2.7"]["verdict"] == "refuted"
-    assert "is 0 in the file" in rows["2.7"]["reason"]
-    assert all(rows[name]["verdict"] == "proved" for name in rows if name != "2.7")
 
 
 def test_friction_that_a_file_gives_as_0_is_named(tmp_path):

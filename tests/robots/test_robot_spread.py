@@ -5,14 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.epsilon import epsilon
-from lyapcheck.check.loop.proof import proves
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load, names
-from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import SchurProblem
 from tests.helpers.command import invoke
 
 F = Fraction
@@ -45,31 +41,6 @@ def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes():
     assert dict(zip(model.parameters, free, strict=True)) == {
         name: name.startswith("inertia") for name in model.parameters
     }
-
-
-def test_a_certificate_over_the_spread_is_refused_for_a_wider_one():
-    narrow, wide = (
-        ControlledArm(GAINS[0], load("reyes-kelly2", spread=x), ranges=True) for x in (F(1, 20), F(1, 4))
-    )
-    outcome = certify(SchurProblem(narrow.loop(F(6, 10))), 60_000)
-    assert outcome.proved
-    assert proves(narrow.loop(F(6, 10)), outcome.tree)
-    assert not proves(wide.loop(F(6, 10)), outcome.tree)
-
-
-@pytest.mark.slow
-def test_a_wider_spread_certifies_and_refutes_less():
-    result = [
-        epsilon(GAINS[0], load("reyes-kelly2", spread=x), ranges=True, starts=3, max_boxes=1500)
-        for x in (F(1, 100), F(1, 10))
-    ]
-    assert result[0].certified is not None
-    assert result[1].certified is not None
-    assert result[0].falsified is not None
-    assert result[1].falsified is not None
-    assert result[1].certified < result[0].certified
-    assert result[1].falsified < result[0].falsified < F("0.8106")
-    assert any(number != load("reyes-kelly2").numbers.get(name) for name, number in result[1].corner.items())
 
 
 @pytest.mark.parametrize("percent", ["0", "100", "-5", "nan"])

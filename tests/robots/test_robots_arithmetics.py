@@ -60,22 +60,6 @@ def test_casadi_agrees_with_numpy(arm):
         assert float(potential.item()) == pytest.approx(float(fast.potential(state)), abs=1e-12)
 
 
-def test_casadi_derivative_of_mass_is_the_symmetric_part_of_coriolis(arm):
-    """(3) by automatic differentiation, apart from the polynomial derivative."""
-    q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
-    coriolis = graph.coriolis(arm, q, x)
-    rate = ca.reshape(ca.jtimes(ca.vec(graph.mass(arm, q)), q, x), arm.n, arm.n)
-    function = ca.Function("gap", [q, x], [rate - coriolis - coriolis.T])
-    for state, speed in zip(*states(arm.n, 10), strict=True):
-        np.testing.assert_allclose(np.array(function(state, speed)), 0, atol=1e-12)
-
-
-def test_viscous_friction_is_the_same_everywhere(arm):
-    expected = np.diag([float(number.value) for number in arm.viscous])
-    np.testing.assert_array_equal(np.diag(NumericModel(arm).viscous), expected)
-    np.testing.assert_array_equal(np.array(graph.viscous(arm)), expected)
-
-
 def test_free_motion_conserves_energy(arm):
     """Without friction and torque ½q̇ᵀMq̇ + U stays what it was; a C with a wrong sign would leak."""
     fast, n = NumericModel(arm), arm.n

@@ -12,7 +12,7 @@ from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots import trig
 from tests.helpers.costly import costly
-from tests.helpers.robot_cases import BUILT_IN, angles, exact, model_of, plain_links, rates
+from tests.helpers.robot_cases import BUILT_IN, angles, model_of, plain_links, rates
 
 models = st.one_of(st.sampled_from(BUILT_IN).map(robots.load), plain_links().map(model_of))
 
@@ -93,13 +93,6 @@ def test_pickle_brings_the_same_model_back(arm):
         arm.gravity,
         arm.numbers,
     )
-
-
-def test_any_arithmetic_gives_the_same_mass(arm):
-    sin, cos = [Fraction(3, 5)] * arm.n, [Fraction(4, 5)] * arm.n
-    fractions = arm.at(sin, cos, Fraction).mass()
-    flints = arm.at([exact(x) for x in sin], [exact(x) for x in cos], exact).mass()
-    assert [[exact(x) for x in row] for row in fractions] == flints
 
 
 def test_parameters_default_to_nominal_and_can_be_given():

@@ -89,7 +89,7 @@ def test_extremes_lie_between_samples_and_are_those_of_a_much_finer_sampling():
     np.testing.assert_allclose(many.overshoot[2], single.overshoot, rtol=1e-8, atol=1e-9)
 
 
-@pytest.mark.parametrize("gain_set", one_in(2, TABLE2), ids=lambda g: g.name)
+@pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
 def test_a_tighter_run_changes_nothing_above_the_promised_accuracy(gain_set):
     model, first = robots.load("buap3"), starts(3, 20)
     runs, finer = (
@@ -129,7 +129,7 @@ def test_both_engines_find_the_same_motions(request):
 
 def test_a_run_does_not_depend_on_its_company(monkeypatch):
     """Other controllers and goals beside it, another place in the batch, smaller batches: equal bits."""
-    model, count = robots.load("reyes-kelly2"), 37
+    model, count = robots.load("reyes-kelly2"), 13
     random = np.random.default_rng(2)
     sets = [
         gains(2, int(m), kp=int(k)) for m, k in zip(random.integers(1, 4, count), range(5, 60), strict=False)
