@@ -311,9 +311,9 @@ def test_over_a_variation_the_gate_answers_as_with_vary(plan, tmp_path):
 def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path):
     path = tmp_path / "plan.toml"
     path.write_text(
-        'robots = ["pendulum1"]\nvariations = [[], ["viscous=-5%..+5%"], ["viscous=+5%..+5%"]]\n'
-        'questions = ["robot", "simulate"]\n[[gains]]\nname = "one"\nm = 1\nkp = [3]\nkv = [0.1]\n'
-        "[robot]\nmax_boxes = 20\n[simulate]\ntime = 1\ntarget = [45]\n"
+        'robots = ["reyes-kelly2"]\nvariations = [[], ["viscous=-5%..+5%"], ["viscous=+5%..+5%"]]\n'
+        'questions = ["robot", "simulate"]\n[[gains]]\nname = "one"\nm = 1\nkp = [20, 5]\nkv = [0.1, 0.1]\n'
+        "[robot]\nmax_boxes = 20\n[simulate]\ntime = 0.2\ntarget = [45, 45]\n"
     )
     command("sweep", path, "--out", tmp_path / "out")
     rows = rows_of(tmp_path / "out")
@@ -322,6 +322,6 @@ def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path):
     arms = [row["answer"]["arms"] for row in rows if row["ask"] == "simulate"]
     assert arms == [
         None,
-        "one arm in the ranges and all 2 corners of the ranges",
+        "one arm in the ranges and all 4 corners of the ranges",
         "one arm in the ranges and the corner of the ranges",
     ]
