@@ -11,24 +11,10 @@ import pytest
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.robots import load
+from tests.helpers.arm_texts import ONE_LINK
 from tests.helpers.command import invoke
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
-
-ARM = """
-title = "One link"
-gravity = [0, -9.81, 0]
-[[links]]
-name = "j1"
-axis = [0, 0, 1]
-origin = [0, 0, 0]
-mass = {mass}
-com = [0.5, 0, 0]
-inertia = 0.2
-viscous = {viscous}
-torque_limit = 60
-{more}
-"""
 
 
 def number(value, low, high, unit):
@@ -37,7 +23,7 @@ def number(value, low, high, unit):
 
 
 def files(folder, mass, viscous, more="", gains="kp = [50]\nkv = [1]"):
-    (folder / "arm.toml").write_text(ARM.format(mass=mass, viscous=viscous, more=more))
+    (folder / "arm.toml").write_text(ONE_LINK.format(mass=mass, viscous=viscous, more=more))
     path = folder / "g.toml"
     path.write_text(f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\n{gains}\n')
     return str(path)

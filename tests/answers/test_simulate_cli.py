@@ -4,44 +4,27 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import xml.etree.ElementTree as ET
-from typing import NamedTuple
 
 import pytest
 
-from lyapcheck.cli.main import main
 from lyapcheck.control.gains import paper_gain_file
+from tests.helpers.arm_texts import ONE_JOINT
 from tests.helpers.command import invoke
+from tests.helpers.command import lyapcheck as command
 
 TABLE2 = str(paper_gain_file("table2"))
 PD = str(paper_gain_file("table2_pd"))
 FORMS = ("svg", "png")
 
 
-class Done(NamedTuple):
-    """What a command left behind."""
-
-    returncode: int
-    stdout: str
-    stderr: str
-
-
-@pytest.fixture
-def lyapcheck(monkeypatch, capsys):
-    """Runs the command in this process, which saves a second of imports each time."""
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["lyapcheck", "simulate", *arguments])
-        with pytest.raises(SystemExit) as left:
-            main()
-        return Done(int(left.value.code or 0), *capsys.readouterr())
-
-    return run
+def lyapcheck(*words):
+    """What the command simulate leaves."""
+    return command("simulate", *words)
 
 
 @pytest.mark.slow
-def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
+def test_text_has_a_row_for_each_joint_of_each_set():
     done = lyapcheck(TABLE2)
     assert done.returncode == 0
     every = lyapcheck(TABLE2, "-v").stdout
@@ -55,7 +38,7 @@ def test_text_has_a_row_for_each_joint_of_each_set(lyapcheck):
     assert "simulate:" not in done.stdout
 
 
-def test_json_follows_its_schema(lyapcheck):
+def test_json_follows_its_schema():
     done = lyapcheck(PD, "--format", "json", "--eps0", "0.01")
     data = json.loads(done.stdout)
     assert data["schema"] == "lyapcheck/simulate/1"
@@ -70,12 +53,12 @@ def test_json_follows_its_schema(lyapcheck):
 
 
 @pytest.mark.slow
-def test_joints_that_do_not_settle_have_no_settling_time(lyapcheck):
+def test_joints_that_do_not_settle_have_no_settling_time():
     (_, second, _) = json.loads(lyapcheck(TABLE2, "--format", "json").stdout)["results"]
     assert None in second["settling"]
 
 
-def test_experiment_and_markdown(lyapcheck):
+def test_experiment_and_markdown():
     done = lyapcheck(PD, "--experiment", "--format", "markdown", "--time", "0.5")
     assert done.returncode == 0
     assert done.stdout.startswith("# buap3: 1 gain set\n\n2.5 ms, no delay, velocity by differences, ")
@@ -83,7 +66,7 @@ def test_experiment_and_markdown(lyapcheck):
     assert "| shoulder |" in done.stdout
 
 
-def test_csv_to_a_file_and_to_standard_output(lyapcheck, tmp_path):
+def test_csv_to_a_file_and_to_standard_output(tmp_path):
     place = tmp_path / "run.csv"
     assert lyapcheck(PD, "--csv", str(place), "--time", "1").returncode == 0
     text = place.read_text()
@@ -94,7 +77,7 @@ def test_csv_to_a_file_and_to_standard_output(lyapcheck, tmp_path):
 
 
 @pytest.mark.slow
-def test_figures_are_xml_and_always_the_same(lyapcheck, tmp_path):
+def test_figures_are_xml_and_always_the_same(tmp_path):
     for _ in range(2):
         assert lyapcheck(PD, "--plot", str(tmp_path)).returncode == 0
         figures = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
@@ -110,7 +93,7 @@ def test_figures_are_xml_and_always_the_same(lyapcheck, tmp_path):
 
 
 @pytest.mark.slow
-def test_another_arm_and_another_task(lyapcheck):
+def test_another_arm_and_another_task():
     gains = str(paper_gain_file("table2_shoulder_elbow"))
     done = lyapcheck(gains, "--target", "-30,60", "--start", "10,-20", "--time", "1", "--format", "json")
     result = json.loads(done.stdout)["results"][0]
@@ -119,7 +102,7 @@ def test_another_arm_and_another_task(lyapcheck):
     assert result["target"] == [-30.0, 60.0]
 
 
-def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(lyapcheck, tmp_path):
+def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(tmp_path):
     wild = tmp_path / "wild.toml"
     wild.write_text(
         'robot = "pelican2"\n[[gains]]\nname = "wild"\nfamily = "linear"\nkp = [1, 1]\nkv = [1e6, 1e6]\n'
@@ -133,7 +116,7 @@ def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(l
 
 
 @pytest.mark.slow
-def test_the_printed_numbers_stand_beside_the_same_experiment_only(lyapcheck):
+def test_the_printed_numbers_stand_beside_the_same_experiment_only():
     results = json.loads(lyapcheck(TABLE2, "--format", "json").stdout)["results"]
     assert [r["printed"]["L2"] for r in results] == [25.4006, 24.6892, 23.4006]
     (pd,) = json.loads(lyapcheck(PD, "--format", "json").stdout)["results"]
@@ -142,19 +125,7 @@ def test_the_printed_numbers_stand_beside_the_same_experiment_only(lyapcheck):
     assert other["printed"] is None
 
 
-DRY = """
-title = "One joint"
-gravity = [0, 0, -9.81]
-[[links]]
-name = "joint"
-axis = [0, 1, 0]
-origin = [0, 0, 0]
-mass = 1
-com = [0, 0, -0.1]
-inertia = 0.02
-viscous = 0.5
-torque_limit = 20
-"""
+DRY = ONE_JOINT.format(viscous=0.5, torque=20, more="")
 IDEAL = "without the dry friction of the file"
 
 

@@ -34,6 +34,7 @@ from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.many import Starts
 from lyapcheck.simulate.task import PAPER_TASK, task_for
 from lyapcheck.verdicts import Exit
+from tests.helpers.arm_texts import ONE_JOINT
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
 
@@ -241,7 +242,7 @@ def test_gains_are_of_so_many_digits(tuned: BenchTuning) -> None:
 def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None:
     """1000 is met by every set, 10⁻⁹ by none; then ``--best`` writes one, marked."""
     arm, out = tmp_path / "arm.toml", tmp_path / "gains.toml"
-    arm.write_text(ONE_JOINT)
+    arm.write_text(ONE_JOINT.format(viscous=0.1, torque=10, more="coulomb = 0.1"))
     words = ("tune", str(arm), "--m", "1", "--settle")
     easy = invoke(*words, "1000", "--out", str(out))
     assert easy.exit_code == 0
@@ -258,22 +259,6 @@ def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None
     assert best.exit_code == 3
     assert "# BEST FOUND, MISSES THE TARGETS: misses" in out.read_text()
     assert invoke("gate", str(out)).exit_code == 0
-
-
-ONE_JOINT = """
-title = "One joint"
-gravity = [0, 0, -9.81]
-[[links]]
-name = "joint"
-axis = [0, 1, 0]
-origin = [0, 0, 0]
-mass = 1
-com = [0, 0, -0.1]
-inertia = 0.02
-viscous = 0.1
-coulomb = {coulomb}
-torque_limit = 10
-""".format(coulomb="0.1")
 
 
 def test_a_target_that_is_met_to_the_last_digit_is_told() -> None:

@@ -280,12 +280,6 @@ def test_the_words_for_several_m_stand_once(write):
     assert sum(row[-1].startswith("the author's words") for row in proved.rows) == 1
 
 
-def test_timings_are_shown_where_they_are_wanted(write):
-    result = replace(run_proof(write(CHAIN.replace("{slope}", "1")), ms=(1,), n=2), timings=True)
-    assert all("seconds" in table.heads for table in every(result).values() if "claim" in table.heads)
-    assert "seconds" in result.written("csv").splitlines()[0]
-
-
 def test_systems_that_run_checks_get_a_case_a_claim(write):
     path = write(MEMBERS)
     cases = run_proof(path, ms=(1, 3), n=1).annotations()

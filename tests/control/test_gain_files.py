@@ -381,24 +381,6 @@ def test_problems_come_in_the_order_of_the_file(file):
     assert [problem.line for problem in result] == [1, 5, 6]
 
 
-@pytest.mark.parametrize(
-    ("make", "rule"),
-    [
-        (lambda path: path.mkdir(), "is a folder"),
-        (lambda path: None, "No such file"),
-        (lambda path: path.symlink_to(path), "Too many levels"),
-    ],
-    ids=["a folder", "no file", "a link to itself"],
-)
-def test_what_is_no_file(file, make, rule):
-    make(file)  # type: ignore[operator]
-    with pytest.raises(InputError) as caught:
-        read_gain_file(file)
-    (problem,) = caught.value.problems
-    assert (problem.file, problem.key, problem.line) == (str(file), "file", None)
-    assert rule in problem.rule
-
-
 def test_an_unknown_arm_is_a_mistake_on_its_line(file):
     file.write_text("# first\n" + changed('"buap3"', '"buap4"'))
     with pytest.raises(InputError) as caught:

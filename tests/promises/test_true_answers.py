@@ -6,27 +6,14 @@ from fractions import Fraction
 
 import pytest
 
+from tests.helpers.arm_texts import ONE_LINK
 from tests.promises.draws import asked, invoke, results
 
-ARM = """
-title = "Heavy with a payload"
-gravity = [0, -9.81, 0]
-[[links]]
-name = "j1"
-axis = [0, 0, 1]
-origin = [0, 0, 0]
-mass = {mass}
-com = [0.5, 0, 0]
-inertia = 0.2
-viscous = {viscous}
-torque_limit = 60
-{more}
-"""
 RANGED = 'assumed = true, note = "x"'
 
 
 def files(folder, more="", mass=1, viscous=2, kp=50, kv=1):
-    (folder / "arm.toml").write_text(ARM.format(mass=mass, viscous=viscous, more=more), encoding="utf-8")
+    (folder / "arm.toml").write_text(ONE_LINK.format(mass=mass, viscous=viscous, more=more), encoding="utf-8")
     text = f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [{kp}]\nkv = [{kv}]\n'
     (folder / "gains.toml").write_text(text, encoding="utf-8")
     return str(folder / "gains.toml")

@@ -12,25 +12,14 @@ from lyapcheck.answers.gate.shown import shown_gravity
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
+from tests.helpers.arm_texts import ONE_LINK
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 from tests.helpers.words_of_proof import left_over, words_of_proof
 
 ROOT = Path(__file__).parents[2]
-ARM = """
-title = "One link"
-gravity = [0, -9.81, 0]
-[[links]]
-name = "j1"
-axis = [0, 0, 1]
-origin = [0, 0, 0]
-mass = 1
-com = [0.5, 0, 0]
-inertia = 0.2
-viscous = 2
-coulomb = {value = 0.1, low = 0.1, high = 0.2, assumed = true, note = "x"}
-torque_limit = 60
-"""
+FRICTION = 'coulomb = {value = 0.1, low = 0.1, high = 0.2, assumed = true, note = "x"}'
+ARM = ONE_LINK.format(mass=1, viscous=2, more=FRICTION)
 GAINS = """
 [[gains]]
 name = "passes"

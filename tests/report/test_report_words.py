@@ -13,7 +13,7 @@ from lyapcheck.promise import promises_as_seen
 from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
 from tests.helpers.redrawn import other
-from tests.helpers.words_of_proof import said, words_of_proof
+from tests.helpers.words_of_proof import said, values, words_of_proof
 
 
 @pytest.mark.slow
@@ -23,24 +23,14 @@ def test_every_word_of_proof_in_a_report_is_a_promise(report):
     written = {*said(report.gate), *report.notes.known}
     written |= {text for row in rows for text in (row.id, row.section, row.heading, row.kind, *row.uses)}
     written |= {text for row in rows for text in (row.title, row.comment)}
-    written |= {text for row in rows if row.decision.promise is None for text in texts_of(row.data())}
+    written |= {text for row in rows if row.decision.promise is None for text in values(row.data())}
     written |= {text for row in rows for text in row.decision.rules} | set(report.certificates)
     written |= {box.title for box in (*report.notes.chain, *report.notes.route)}
     for finding in report.findings:
-        written |= {*texts_of(vars(finding)), *(f"{term}: {text}" for term, text in finding.about.items())}
+        written |= {*values(vars(finding)), *(f"{term}: {text}" for term, text in finding.about.items())}
     with promises_as_seen():
         left = {text for text in said(ReportAnswer(report)) if words_of_proof(text)} - written
     assert not left
-
-
-def texts_of(data):
-    """All texts in plain data."""
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, dict):
-        yield from (text for part in data.values() for text in texts_of(part))
-    elif isinstance(data, (list, tuple)):
-        yield from (text for part in data for text in texts_of(part))
 
 
 @pytest.mark.slow

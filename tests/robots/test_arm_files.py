@@ -222,10 +222,3 @@ def test_what_is_no_arm_file_at_all(tmp_path, name, content, rule):
     file.write_bytes(content)
     with pytest.raises(InputError, match=rule):
         robots.load(file)
-
-
-def test_a_missing_file_and_a_folder(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
-        robots.load(tmp_path / "nothing.toml")
-    with pytest.raises(InputError, match="is a folder"):
-        robots.load(tmp_path)

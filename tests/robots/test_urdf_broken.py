@@ -162,13 +162,6 @@ def test_what_is_no_arm_at_all(tmp_path: Path, content: bytes, rule: str) -> Non
         robots.load(file)
 
 
-def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
-    (tmp_path / "folder.urdf").mkdir()
-    for name, rule in (("nothing.urdf", "cannot be read"), ("folder.urdf", "is a folder")):
-        with pytest.raises(InputError, match=rule):
-            robots.load(tmp_path / name)
-
-
 def test_an_arm_that_nothing_keeps_in_place(tmp_path: Path) -> None:
     """A joint that moves no inertia leaves M singular."""
     light = TWO.replace('value="1.5"', 'value="0"').replace('value="0.25"', 'value="0"')
