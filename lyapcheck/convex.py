@@ -8,7 +8,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from lyapcheck._types import Array
 
@@ -71,17 +71,20 @@ def solved(aim: Any, constraints: Sequence[Any], variables: Sequence[Any]) -> So
     return Solution(Ended.ALMOST if almost else Ended.SOLVED, values, Ended.ALMOST.value if almost else "")
 
 
-def solved_cones(aim: Array, rows: Any, constants: Array, sizes: Sequence[int], tolerance: float) -> Solution:
-    """Ask Clarabel itself for the x of least aim·x for which constants − rows·x is in cones of matrices.
+Block = tuple["Array", "Mapping[int, Array]"]
+"""constant + Σ_i x_i slope_i ⪰ 0, slopes by i."""
+
+
+def solved_cones(aim: Array, blocks: Sequence[Block], tolerance: float, logarithms: int = 0) -> Solution:
+    """Ask Clarabel itself for the x of least aim·x for which matrices are positive semidefinite.
 
     The answer is the same on any number of cores.
 
     Args:
         aim: (N,)
-        rows: sparse, by columns; the upper triangles of the matrices one after the other.
-        constants: likewise.
-        sizes: of the matrices, which are to be positive semidefinite.
+        blocks: the matrices.
         tolerance: of the gap and of what is feasible.
+        logarithms: how many of the last x_i are to be at most ln of the first, one by one.
     """
     import clarabel
     import numpy as np
@@ -92,11 +95,25 @@ def solved_cones(aim: Array, rows: Any, constants: Array, sizes: Sequence[int], 
     settings.chordal_decomposition_enable = False
     settings.direct_solve_method, settings.max_threads = "faer", 1
     settings.tol_gap_rel = settings.tol_gap_abs = settings.tol_feas = tolerance
-    cones = [clarabel.PSDTriangleConeT(size) for size in sizes]
-    nothing = sparse.csc_matrix((len(aim), len(aim)))
-    result, fault = _asked(
-        lambda: clarabel.DefaultSolver(nothing, aim, rows, constants, cones, settings).solve()
-    )
+    constants, entries, places, begin = [], [], [], 0
+    for constant, slopes in blocks:
+        constants.append(_stacked(constant))
+        stacked = -np.array([_stacked(slope) for slope in slopes.values()])
+        which, row = np.nonzero(stacked)
+        entries.append(stacked[which, row])
+        places.append((begin + row, np.array(list(slopes))[which]))
+        begin += len(constants[-1])
+    for i in range(logarithms):  # (t, 1, x) with e^t ≤ x
+        constants.append(np.array([0.0, 1.0, 0.0]))
+        entries.append(np.array([-1.0, -1.0]))
+        places.append((np.array([begin, begin + 2]), np.array([len(aim) - logarithms + i, i])))
+        begin += 3
+    table = (np.concatenate(entries), np.hstack(places))
+    rows = sparse.coo_matrix(table, shape=(begin, len(aim))).tocsc()
+    cones = [clarabel.PSDTriangleConeT(len(constant)) for constant, _ in blocks]
+    cones += [clarabel.ExponentialConeT()] * logarithms
+    given = sparse.csc_matrix((len(aim), len(aim))), aim, rows, np.concatenate(constants), cones, settings
+    result, fault = _asked(lambda: clarabel.DefaultSolver(*given).solve())
     if fault:
         return _failed(fault)
     x, said = np.array(result.x), str(result.status)
@@ -104,6 +121,14 @@ def solved_cones(aim: Array, rows: Any, constants: Array, sizes: Sequence[int], 
         return _failed("Clarabel gives no numbers")
     ended = {"Solved": Ended.SOLVED, "AlmostSolved": Ended.ALMOST}.get(said, Ended.FAILED)
     return Solution(ended, (x,), "" if ended is Ended.SOLVED else f"Clarabel says {said}")
+
+
+def _stacked(matrix: Array) -> Array:
+    """The upper triangle by columns, off the diagonal times √2, as Clarabel wants it."""
+    import numpy as np
+
+    columns, rows = np.tril_indices(len(matrix))
+    return np.asarray(matrix[rows, columns] * np.where(rows == columns, 1.0, np.sqrt(2.0)))
 
 
 def _asked(solve: Callable[[], Any]) -> tuple[Any, str]:

@@ -46,6 +46,7 @@ from lyapcheck.check.loop.storage import (
     weight,
 )
 from lyapcheck.control.judgement import proves
+from lyapcheck.convex import Block, solved_cones
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.dynamics import Chain
 
@@ -105,10 +106,6 @@ def doubles(matrix: fmpq_mat) -> Array:
 # --- Proposing storage forms: a semidefinite program in doubles, solved by Clarabel.
 
 
-Block = tuple[Array, dict[int, Array]]
-"""constant + Σ_i x_i slope_i ⪰ 0, slopes by i."""
-
-
 def propose(
     problems: Sequence[StorageProblem], margin: float, prices: Array | None = None, most: float | None = None
 ) -> tuple[Array, list[Array]] | None:
@@ -123,10 +120,6 @@ def propose(
     Returns:
         The κ_k of the joints, (n,), and of each problem the coefficients of its forms, (n, forms).
     """
-    from scipy import sparse
-
-    from lyapcheck.convex import solved_cones
-
     n = len(problems[0].stages)
     prices = np.ones((n, 1)) if prices is None else prices
     free = end = prices.shape[1]
@@ -139,21 +132,10 @@ def propose(
         ends.append(end := end + n * problem.count)
     if most is not None:
         blocks += [(np.array([[most]]), {i: np.array([[-1.0]])}) for i in range(free)]
-    constants, entries, places, begin = [], [], [], 0
-    for constant, slopes in blocks:
-        constants.append(_stacked(constant))
-        stacked = -np.array([_stacked(slope) for slope in slopes.values()])
-        which, row = np.nonzero(stacked)
-        entries.append(stacked[which, row])
-        places.append((begin + row, np.array(list(slopes))[which]))
-        begin += len(constants[-1])
-    table = (np.concatenate(entries), np.hstack(places))
-    rows = sparse.coo_matrix(table, shape=(begin, end)).tocsc()
     aim = np.zeros(end)
     aim[:free] = 1.0
-    sizes = [len(constant) for constant, _ in blocks]
     # also what is not solved may show a bound: exact arithmetic has the last word
-    found = solved_cones(aim, rows, np.concatenate(constants), sizes, 1e-8).values
+    found = solved_cones(aim, blocks, 1e-8).values
     if not found:
         return None
     parts = np.split(found[0], [free, *ends])[1:-1]
@@ -183,12 +165,6 @@ def _blocks(problem: StorageProblem, least: float, prices: Array, first: int) ->
             if k + 1 < len(stages):
                 slopes[first + (k + 1) * count + i] = part(nothing, form, 0) - constant
         yield constant - least * np.eye(len(constant)), slopes
-
-
-def _stacked(matrix: Array) -> Array:
-    """The upper triangle by columns, off the diagonal times √2, as Clarabel wants it."""
-    columns, rows = np.tril_indices(len(matrix))
-    return np.asarray(matrix[rows, columns] * np.where(rows == columns, 1.0, np.sqrt(2.0)))
 
 
 # --- Proposing what bounds k_c = sup ‖C(q, x)x‖ along a chain: bounds of the rates of M, and shares.

@@ -4,7 +4,6 @@ import clarabel
 import cvxpy as cp
 import numpy as np
 import pytest
-from scipy import sparse
 
 from lyapcheck.convex import PANIC, Ended, solved, solved_cones
 
@@ -84,14 +83,21 @@ def test_almost_is_told_from_solved_and_both_from_failed(monkeypatch, status, va
 
 def least(constant, tolerance=1e-8):
     """The least x with x ≥ 1 and x·0 ≤ constant."""
-    rows = sparse.csc_matrix(np.array([[-1.0], [0.0]]))
-    return solved_cones(np.ones(1), rows, np.array([-1.0, constant]), [1, 1], tolerance)
+    one = np.eye(1)
+    return solved_cones(np.ones(1), [(-one, {0: one}), (constant * one, {0: 0 * one})], tolerance)
 
 
 def test_matrices_are_solved():
     solution = least(1.0)
     assert (solution.ended, solution.reason) == (Ended.SOLVED, "")
     assert solution.values[0] == pytest.approx([1.0], abs=1e-6)
+
+
+def test_logarithms_are_solved():
+    """The most of ln a + ln b with a + b ≤ 4."""
+    blocks = [(np.array([[4.0]]), {0: -np.eye(1), 1: -np.eye(1)})]
+    solution = solved_cones(np.array([0.0, 0.0, -1.0, -1.0]), blocks, 1e-8, logarithms=2)
+    assert solution.values[0] == pytest.approx([2, 2, np.log(2), np.log(2)], abs=1e-6)
 
 
 def test_of_matrices_without_an_answer_the_last_point_is_kept_apart():
