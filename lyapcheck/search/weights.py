@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from lyapcheck._types import SEED, Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.convex import Block, Ended, solved_cones
-from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.certified import MAX_BOXES, certify
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import SchurProblem
@@ -46,12 +45,6 @@ class Effort:
 
     turns: int = TURNS
     boxes: int = MAX_BOXES
-
-
-def usual_effort(n: int, most: int) -> Effort:
-    """Where nobody has asked for weights by name; of more than a few joints each turn and box takes long."""
-    few = n <= FEW_JOINTS
-    return Effort(TURNS if few else 4, min(most, 20_000 if few else 400))
 
 
 @dataclass(frozen=True)

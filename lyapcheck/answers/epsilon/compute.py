@@ -43,12 +43,14 @@ from lyapcheck.search.controlled_arm import ChainProof, ControlledArm, DecreaseP
 from lyapcheck.search.falsify import STARTS, RisingState, falsify, falsify_corners
 from lyapcheck.search.link_bounds import linked_proof
 from lyapcheck.search.scalar_program import ScalarResult, chain_epsilon, norm_epsilon, scalar_epsilon
-from lyapcheck.search.weights import Effort, Weighted, usual_effort, weighted_epsilon
+from lyapcheck.search.weights import Effort, Weighted, weighted_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
+USUAL = 20_000
+"""Boxes for weights that nobody has asked for by name."""
 NEARLY = Fraction(98, 100)
 """The share of the falsified ε₀ from which slow states are not asked."""
 DIGITS = 9
@@ -98,7 +100,8 @@ def epsilon(
         jobs: processes for the checker of its boxes.
         ranges: for all values of the arm's uncertain parameters and friction, not only the nominal ones.
         seconds: computing time for branch and bound; without it numbers are the same anywhere.
-        weights: look for weights Λ as well, joint by joint: with all boxes, with a few if ``None``, or not.
+        weights: look for weights Λ as well, joint by joint: with all boxes, or not; if ``None`` with a few
+            boxes for up to three joints.
         starts: starts of each optimised program of the falsifier.
         seed: of its random states.
         on_progress: receives the fraction done and a few words.
@@ -129,7 +132,8 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
         found |= {"seed": options.seed, "boxes": 0, "certified_by": "bounds along the links"}
         return put_together(controlled, controlled, None, linked, own, None, reasons, **found)
     reasons["certified"] = unphysical(controlled)
-    sought = options.weights is not False and model.n > 1
+    # boxes of the angles and errors of many joints are too many, unless somebody asks for them
+    sought = model.n > 1 and (model.n <= FEW_JOINTS if options.weights is None else options.weights)
     main = 0.9 if sought else 1.0
     guess = 10 * (scalar.eps0 or Fraction(1))
     tried = replace(options, max_boxes=0) if reasons["certified"] else options
@@ -142,8 +146,7 @@ def four(gain_set: GainSet, model: RobotModel, options: Options, progress: Progr
         proof, found["certified_by"], reasons["certified"] = _best(controlled, result)
         scalar_proof = proof_of(controlled, scalar.eps0)
     if sought and proof is not None:
-        boxes = options.max_boxes
-        effort = Effort(boxes=boxes) if options.weights else usual_effort(model.n, boxes)
+        effort = Effort(boxes=options.max_boxes if options.weights else min(options.max_boxes, USUAL))
         progress = part(progress, main, 1)
         weighted = weighted_epsilon(controlled, proof, effort, options.jobs, on_progress=progress)
         more = "" if options.weights else "; epsilon --weights looks at more"
