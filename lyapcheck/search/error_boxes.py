@@ -53,19 +53,23 @@ class ErrorBoxes:
         """A tree of boxes from 0 to R within a budget, with their scales."""
         nodes = Nodes()
         start = np.stack([np.zeros(self.n), np.array(self.loop.farthest)])[None]
-        stack, seen = [(start, nodes.add(1))], 0
-        scales: dict[int, str] = {}
-        while stack:
-            boxes, names = stack.pop()
-            if len(boxes) > CHUNK // 4:
-                stack.append((boxes[CHUNK // 4 :], names[CHUNK // 4 :]))
-                boxes, names = boxes[: CHUNK // 4], names[: CHUNK // 4]
-            seen += len(boxes)
-            if seen > max_boxes:
-                return CoverOutcome(False, seen, f"{EXHAUSTED}; allow more boxes")
-            proved, signs = self.judged(boxes)
-            for k in np.flatnonzero(proved):
-                scales[int(names[k])] = "".join(map(chr, signs[k]))
+        stack, seen, scales = [(start, nodes.add(1))], 0, dict[int, str]()
+        shown: list[tuple[Array, NDArray[np.intp], NDArray[np.intp]]] = []
+        while stack or shown:
+            if stack:
+                boxes, names = stack.pop()
+                if len(boxes) > CHUNK // 4:
+                    stack.append((boxes[CHUNK // 4 :], names[CHUNK // 4 :]))
+                    boxes, names = boxes[: CHUNK // 4], names[: CHUNK // 4]
+                seen += len(boxes)
+                if seen > max_boxes:
+                    return CoverOutcome(False, seen, f"{EXHAUSTED}; allow more boxes")
+                proved, signs = self.judged(boxes)
+                shown.append((boxes[proved], names[proved], signs[proved]))
+            else:  # balls take longer than doubles, and have the last word
+                boxes, names, signs = (np.concatenate(parts) for parts in zip(*shown, strict=True))
+                proved, shown = self._surely(boxes, signs), []
+                scales |= {int(names[k]): "".join(map(chr, signs[k])) for k in np.flatnonzero(proved)}
             rest = boxes[~proved]
             if len(rest):
                 if np.max(rest[:, 1] - rest[:, 0], axis=1).min() < 2 * SMALLEST or self._resists(rest):
@@ -79,16 +83,14 @@ class ErrorBoxes:
         """Whether the middle of one of some boxes cannot be shown alone."""
         middles = boxes[:: max(1, len(boxes) // 64)].mean(axis=1)
         points = np.stack([middles, middles], axis=1)
-        return not bool(self.judged(points, False)[0].all())
+        return not bool(self.judged(points)[0].all())
 
-    def judged(self, boxes: Array, surely: bool = True) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-        """Which boxes are shown, and with which scales; in balls as well where it is to be sure."""
+    def judged(self, boxes: Array) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+        """Which boxes seem to be shown, and with which scales."""
         count, size = len(boxes), 1 + 2 * self.n
-        proved = np.zeros(count, dtype=bool)
         signs = np.full((count, size), FIRST + SCALES // 2, dtype=np.intp)
         at = FormAt(self, boxes)
-        beyond = np.sum(boxes[:, 0] ** 2, axis=1) >= (1 + 1e-12) * self.loop.radius**2
-        proved[beyond] = True
+        proved = self._beyond(boxes)
         for power in MULTIPLIERS:
             left = np.flatnonzero(~proved)
             if not len(left):
@@ -98,11 +100,20 @@ class ErrorBoxes:
             signs[rows, 0] += power
             signs[rows, 1:] += sizes[shown]
             proved[rows] = True
+        return proved, signs
+
+    def _beyond(self, boxes: Array) -> NDArray[np.bool_]:
+        """Which boxes lie where nothing is to be shown."""
+        return np.asarray(np.sum(boxes[:, 0] ** 2, axis=1) >= (1 + 1e-12) * self.loop.radius**2)
+
+    def _surely(self, boxes: Array, signs: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Which boxes are shown with their scales in balls."""
+        proved = self._beyond(boxes)
         with precision(BITS):
-            for k in np.flatnonzero(proved & ~beyond & surely):
+            for k in np.flatnonzero(~proved):
                 box: Box = tuple(zip(boxes[k, 0].tolist(), boxes[k, 1].tolist(), strict=True))
                 proved[k] = self.form.proves(box, "".join(map(chr, signs[k])))
-        return proved, signs
+        return proved
 
     def sides(self, boxes: Array) -> NDArray[np.intp]:
         """The sides over which N changes most, in rough measure."""

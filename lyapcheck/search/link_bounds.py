@@ -21,10 +21,10 @@ from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import RESISTS
 from lyapcheck.search.error_boxes import ErrorBoxes, ErrorCosts, Shares
 
-SHARES = tuple(Fraction(n, 100) for n in (30, 50, 60, 70, 75, 80, 83, 85, 87, 90, 93, 95, 97))
+SHARES = tuple(Fraction(n, 100) for n in (30, 60, 75, 85, 90, 93, 95, 97))
 """Shares of the falsified ε₀ that are tried one after the other; then the middle below the one that fails."""
-MAX_BOXES = 100_000
-"""Of one share: as many as the checker judges in half a minute."""
+MAX_BOXES = 40_000
+"""Of one share: as many as the checker judges in a quarter of a minute."""
 MORE = 1.01
 """How far an entry of U may exceed the largest eigenvalue of B^−½MB^−½, which lets the others be smaller."""
 ROUNDS = 4
