@@ -141,20 +141,20 @@ def _leaving(controlled: ControlledArm, fast: States, starts: int) -> States:
     speed, _ = fastest_directions(controlled, fast.q, fast.e)
     best = fast.take(spread(fast, speed, max(1, starts // 6)))
     scales = [sign * t for t in (3.0, 30.0, 300.0) for sign in (1, -1)]
-    parts = [best.scaled(scale) for scale in scales]
-    return States(*(np.vstack([getattr(part, name) for part in parts]) for name in "qew"))
+    return best.scaled(scales)
 
 
 def _best(controlled: ControlledArm, kind: str, states: States) -> list[tuple[float, str, State]]:
     """The three best of the states, each with the smallest rates that are as good as any."""
-    moved = [states.scaled(scale) for scale in _SCALES]
-    reciprocals = np.array([quadratic(controlled, one).reciprocal() for one in moved])
+    moved = states.scaled(_SCALES)
+    reciprocals = quadratic(controlled, moved).reciprocal().reshape(len(_SCALES), -1)
     best = reciprocals.max(axis=0)
     result = []
     for i in np.argsort(-best, kind="stable")[:3]:
         if best[i] > 0:
             enough = int(np.argmax(reciprocals[:, i] >= best[i] * (1 - 1e-6)))
-            q, e, w = (_exact(getattr(moved[enough], part)[i]) for part in "qew")
+            place = enough * len(best) + i
+            q, e, w = (_exact(getattr(moved, part)[place]) for part in "qew")
             result.append((float(reciprocals[enough, i]), kind, State(q, e, w)))
     return result
 

@@ -40,9 +40,10 @@ class States:
         """The states at the given indices."""
         return States(self.q[chosen], self.e[chosen], self.w[chosen])
 
-    def scaled(self, factor: Array | float) -> States:
-        """The same states with every rate multiplied."""
-        return States(self.q, self.e, self.w * factor)
+    def scaled(self, factors: Sequence[float]) -> States:
+        """The same states with every rate multiplied, by one factor after the other."""
+        q, e = (np.tile(part, (len(factors), 1)) for part in (self.q, self.e))
+        return States(q, e, np.vstack([self.w * factor for factor in factors]))
 
 
 @dataclass(frozen=True)
