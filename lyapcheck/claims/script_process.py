@@ -129,7 +129,7 @@ def _statement(claim: Claim, case: Case, request: ScriptRequest) -> Statement:
     """
     try:
         statement = claim.statement(case)
-    except (Lacking, InputError):
+    except (Lacking, InputError, RecursionError):
         raise
     except BaseException as error:  # a script must not choose the exit code
         rule, repair = (
