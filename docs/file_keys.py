@@ -53,6 +53,14 @@ LOOP = (
         "Mass at the last link that the controller does not know.",
     ),
     Key("gravity_error", "number 0–1000", "%", "0", "5", "Error of the controller's g(q)."),
+    Key(
+        "within",
+        "number, at most 3600",
+        "degrees",
+        "",
+        "90",
+        "Prove stability for starts at rest this near to the goal.",
+    ),
 )
 GAINS = (
     Key("name", "text", "", "required", '"tuned"', "Name of the gain set, different for each set."),

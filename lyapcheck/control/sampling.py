@@ -14,7 +14,7 @@ from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 
 ONE = (Fraction(1),)
-TIMING = ("longest", "delay", "velocity", "filter", "lowpass", "encoder")
+TIMING = ("longest", "delay", "velocity", "filter", "lowpass", "encoder", "within")
 """What means something with a period only."""
 
 
@@ -36,6 +36,7 @@ class LoopRecord:
         unknown_payload: the most at the centre of mass of the last link, unknown to the controller, kg.
         gravity_error: the largest share of the g_i(q) of the arm file, which the controller uses, by which
             that of the real arm may differ.
+        within: the largest error at the start, degrees, if stability is to be proved for starts at rest.
     """
 
     period: Fraction | None = None
@@ -47,6 +48,7 @@ class LoopRecord:
     encoder: int | None = None
     unknown_payload: Fraction = Fraction(0)
     gravity_error: Fraction = Fraction(0)
+    within: Fraction | None = None
 
     @property
     def knows_gravity(self) -> bool:

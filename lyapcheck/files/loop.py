@@ -9,6 +9,7 @@ filter = [0.5, 0.5]           # optional: taps of a filter of the velocity; or l
 encoder = "17 bits"           # optional: of every joint; or its counts a turn
 unknown_payload = 2           # optional: kg at the last link that the controller does not know
 gravity_error = 5             # optional: % by which the controller's g(q) may be wrong
+within = 90                   # optional: degrees, prove stability for starts at rest this near to the goal
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ SHORTEST, LONGEST = Fraction(1, 10**7), Fraction(10)
 """Of a period, s."""
 MOST_ERROR = 1_000
 """Of g(q), %."""
+FARTHEST = 3_600
+"""Of a start, degrees."""
 _UNITS = {"s": 1, "ms": 10**3, "us": 10**6, "µs": 10**6, "μs": 10**6}
 _TIME = re.compile(rf"([0-9]{{1,9}}(?:\.[0-9]{{1,15}})?) ?({'|'.join(_UNITS)})")
 _BITS = re.compile(r"([0-9]{1,2}) ?bits?")
@@ -45,6 +48,7 @@ class LoopEntry:
     encoder: int | None = None
     unknown_payload: Fraction | None = None
     gravity_error: Fraction | None = None
+    within: Fraction | None = None
 
     def over(self, other: LoopEntry) -> LoopEntry:
         """The other, with what this one says in place; a period goes with its longest, a filter alone."""
@@ -60,7 +64,7 @@ class LoopEntry:
         lines = [f'{name} = "{decimal_text(10**6 * x)} us"' for name, x in periods.items() if x is not None]
         if self.period is not None and "/" in lines[0]:
             lines[0] = f"rate = {decimal_text(1 / self.period)}"
-        for name in ("delay", "lowpass", "encoder", "unknown_payload"):
+        for name in ("delay", "lowpass", "encoder", "unknown_payload", "within"):
             value = getattr(self, name)
             lines += [] if value is None else [f"{name} = {decimal_text(value)}"]
         lines += [] if self.velocity is None else [f'velocity = "{self.velocity}"']
@@ -100,6 +104,7 @@ def read_loop(table: Fields | None) -> LoopEntry:
         _encoder(table),
         table.number("unknown_payload", positive=False),
         _share(table),
+        _within(table),
     )
     table.close()
     return result
@@ -160,3 +165,11 @@ def _share(table: Fields) -> Fraction | None:
         table.fail("gravity_error", f"must be at most {MOST_ERROR} %", "give the error in % of g(q)")
         return None
     return None if percent is None else percent / 100
+
+
+def _within(table: Fields) -> Fraction | None:
+    within = table.number("within")
+    if within is not None and within > FARTHEST:
+        table.fail("within", f"must be at most {FARTHEST} degrees", "give the largest start, such as 90")
+        return None
+    return within

@@ -316,12 +316,15 @@ def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch:
     assert told == ["SampledFromRest", "1/1000", "90", 1]
     assert invoke("recheck", str(kept)).exit_code == 0
     assert left_over(words, monkeypatch) == []
+    in_file = file.with_name("in_file.toml")
+    in_file.write_text(f"{file.read_text()}[loop]\nrate = 1000\nwithin = 90\n")
+    assert judged(in_file, LoopEntry(), ("sampled",)).verdict == "accepted"
     with_folder = file.with_name("kept.toml")
     with_folder.write_text(f'certificates = "made"\n{file.read_text()}')
     monkeypatch.setattr(from_rest, "installed", lambda name: False)
     for within, answer in ((None, "accepted"), (45, "accepted"), (91, "undecided")):
         asked_for = None if within is None else Fraction(within)
-        found = judged(with_folder, LoopEntry(period=MS), ("sampled",), within=asked_for)
+        found = judged(with_folder, LoopEntry(period=MS, within=asked_for), ("sampled",))
         assert found.verdict == answer
     assert judged(with_folder, LoopEntry(period=MS / 2), ("sampled",)).verdict == "undecided"
 
@@ -343,6 +346,6 @@ def test_from_rest_what_is_not_shown_is_undecided(
     tmp_path: Path, name: str, removed: str, loop: dict[str, Any], reason: str
 ) -> None:
     file, loop = by_proof(tmp_path, name, removed), {"period": MS} | loop
-    result = judged(file, LoopEntry(**loop), ("sampled",), within=Fraction(90))
+    result = judged(file, LoopEntry(within=Fraction(90), **loop), ("sampled",))
     assert result.verdict == "undecided"
     assert reason in only(result, "sampled")[0].reason

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
@@ -28,7 +27,6 @@ def gate(
     arms: dict[str, ArmLimits] | None = None,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
-    within_deg: Fraction | None = None,
 ) -> GateAnswer:
     """Decide (10), (10p) and (19) for every gain set of a file, and the certificates that are asked for.
 
@@ -41,7 +39,6 @@ def gate(
         arms: arms already read, by name, for many files on one arm. Arms that are read now are added.
         on_progress: receives the fraction done, and the certificate in search.
         loop: the sampled loop, which replaces the loop in the files.
-        within_deg: degrees. Search a proof for starts at rest within this range, at exactly this period.
 
     Raises:
         InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
@@ -58,5 +55,6 @@ def gate(
         ['accepted', 'rejected', 'rejected']
     """
     file = gain_file_of(gain_file)
-    more: dict[str, Any] = {"on_progress": on_progress, "loop": loop, "within": within_deg}
-    return GateAnswer(judged_sets(file, robot, deciding, gamma, strict, arms, **more))
+    return GateAnswer(
+        judged_sets(file, robot, deciding, gamma, strict, arms, on_progress=on_progress, loop=loop)
+    )

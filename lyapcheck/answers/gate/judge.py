@@ -173,7 +173,6 @@ def judged_sets(
     explained: int = MOST_EXPLAINED,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
-    within: Fraction | None = None,
 ) -> list[GateResult]:
     """The results of a file, in its order; more than whether they pass of the first so many.
 
@@ -198,7 +197,8 @@ def judged_sets(
         key = gains.family, gains.m
         if key not in conditions:
             conditions[key] = Conditions(limits, gamma_of(gains, gamma))
-        more = within is not None or len(results) < explained  # what (P) shows is not said in one word
+        # what (P) shows is not said in one word
+        more = (record is not None and record.within is not None) or len(results) < explained
         undamped = _undamped(gains)
         checks = (*broken, *undamped, *conditions[key].all(gains, names), *certificates)
         if not undamped and (record is not None or set(RUNNING) & set(names)):
@@ -206,7 +206,7 @@ def judged_sets(
 
             least, others = gain_file.bounds.viscous_min, checks if gamma == "true" else ()
             searched = more or not explained
-            running = running_checks(gains, limits, record, least, names, others, searched, within, kept)
+            running = running_checks(gains, limits, record, least, names, others, searched, kept)
             checks = (*checks, *running)
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)

@@ -50,7 +50,6 @@ def running_checks(
     deciding: Sequence[str] = (),
     others: Sequence[Check] = (),
     searched: bool = True,
-    within: Fraction | None = None,
     kept: Sequence[Certificate] = (),
 ) -> tuple[Check, ...]:
     """The one place where an arm, gains and a record become statements that are judged.
@@ -63,14 +62,13 @@ def running_checks(
         deciding: conditions that must hold, whether the record speaks of them or not.
         others: the checks of (10i) and (10p), of which one has to pass for `sampled` to count.
         searched: whether to look for a refutation of what is not shown.
-        within: degrees from the goal within which it is to be shown from rest.
         kept: certificates that are judged before anything is searched.
     """
     checks: list[Check] = []
     if SAMPLED in deciding or (record is not None and record.period is not None):
         passed = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
         inside = any(each and all(each) for each in passed)
-        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, within, kept))
+        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, kept))
     if HOLDS in deciding or (record is not None and not record.knows_gravity):
         checks += holds_checks(gains, limits.model, record)
     return tuple(checks)

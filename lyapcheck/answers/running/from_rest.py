@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.folder import shown_by
 from lyapcheck.asked import sampled_from_rest, viscous_of
-from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, SampledFromRest
+from lyapcheck.check.kinds.sampled_from_rest import MOST_DELAY, SampledFromRest
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.sampling import ONE
 from lyapcheck.errors import PACKAGES, installed, repair
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
 
-UNTRIED = "gate --within 90 looks for a proof from rest within 90° at exactly this period"
+UNTRIED = "--within 90 or within = 90 under [loop] looks for a proof from rest, at exactly this period"
 TANH = (("tanh", None), ("hyperbolic", 1))
 SEARCHES = ("numpy", "scipy", "cvxpy", "clarabel")
 
@@ -38,19 +38,18 @@ def shown_from_rest(
     arm: RobotModel | None,
     record: LoopRecord,
     low: Fraction | None,
-    within: Fraction | None,
     kept: Sequence[Certificate] = (),
 ) -> tuple[Promise | None, str]:
     """That these gains bring the arm, in its ranges, to each goal at exactly the period; or why not.
 
     Its dry friction is left out; ``low``, N·m·s/rad, replaces its λmin(B). Starts are at rest with
-    each |e_i| ≤ ``within``, degrees; without it nothing is looked for but the widest of ``kept``.
+    each |e_i| ≤ ``within`` of the record; without it nothing is looked for but the widest of ``kept``.
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
-    unfit = _unfit(gains, arm, record, within)
+    unfit, within = _unfit(gains, arm, record), record.within
     if kept and arm is not None and record.period is not None and not unfit:
-        known = shown_by(kept, lambda stated: _asked(gains, arm, record, low, within, stated))
+        known = shown_by(kept, lambda stated: _asked(gains, arm, record, low, stated))
         widest = max(known, key=lambda pair: pair[0].asked.within, default=None)  # type: ignore[attr-defined]
         if widest is not None:
             return widest[0], ""
@@ -76,20 +75,19 @@ def _asked(
     arm: RobotModel,
     record: LoopRecord,
     low: Fraction | None,
-    within: Fraction | None,
     stated: Statement,
 ) -> Statement | None:
     """The question from within so many degrees, or from as many as a statement has."""
     if not isinstance(stated, SampledFromRest):
         return None
     try:
-        asked = sampled_from_rest(gains, record, arm, stated.within if within is None else within)
+        asked = sampled_from_rest(gains, record, arm, record.within or stated.within)
     except TooManyTerms:
         return None
     return replace(asked, viscous=viscous_of(arm, low))
 
 
-def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord, within: Fraction | None) -> str:
+def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
     """Why (P) does not speak of this loop; empty where it does."""
     rules = {
         "asks for the arm itself: name one with robot = …": arm is not None,
@@ -99,6 +97,5 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord, within: F
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
         "supposes that the controller knows g(q)": record.knows_gravity,
-        f"speaks of starts to {FARTHEST}° from the goal": within is None or 0 < within <= FARTHEST,
     }
     return next((f"(P) {rule}" for rule, fits in rules.items() if not fits), "")

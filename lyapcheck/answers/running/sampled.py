@@ -138,7 +138,6 @@ def sampled_check(
     viscous_min: Fraction | None,
     inside: bool,
     searched: bool = True,
-    within: Fraction | None = None,
     kept: Sequence[Certificate] = (),
 ) -> Check:
     """Are these gains stable, run in this way?
@@ -150,7 +149,6 @@ def sampled_check(
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
         inside: whether (10i) or (10p) is accepted, so that no motor saturates.
         searched: whether to look for a refutation where nothing is shown.
-        within: where that finds none, show it from rest within so many degrees at exactly this period.
         kept: certificates that are judged before anything is searched.
 
     Soundness: that of ``lyapcheck.check.verify``.
@@ -181,7 +179,7 @@ def sampled_check(
     refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
     if refuted is not None and not known.rests and _period(refuted) <= asked.period:
         return replace(known, judgement=refuted, refuted=refuted)
-    promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, within, kept)
+    promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, kept)
     known = replace(known, refuted=refuted, from_rest=promise)
     if promise is not None and known.counts and not known.rests and record.encoder is None:
         known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -38,8 +37,6 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--strict", action="store_true", help=about)
     add_vary(parser)
     add_loop(parser)
-    about = "Prove sampled for starts at rest within this many degrees, at exactly this period."
-    parser.add_number("--within", float, about, least=0.001, most=3600)
     add_certificates(parser, "Write the certificate of each verdict and check to this folder")
     add_format(parser)
 
@@ -51,7 +48,6 @@ def run(
     gamma: str,
     strict: bool,
     vary: list[str] | None,
-    within: float | None,
     certificates: Path | None,
     format: str,  # noqa: A002
     **loop: str | None,
@@ -91,7 +87,6 @@ def run(
     problems: list[Problem] = []
     arms: dict[str, ArmLimits] = {}
     ranges, run = varies(vary), loop_of(loop)
-    angle = None if within is None else Fraction(repr(within))
     with patient("gate") as advance:
         for done, file in enumerate(files):
             try:
@@ -101,7 +96,7 @@ def run(
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)
                 advanced = part(advance, done / len(files), (done + 1) / len(files))
-                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced, run, angle))
+                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced, run))
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)

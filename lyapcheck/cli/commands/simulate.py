@@ -259,7 +259,7 @@ def arguments(parser: Parser) -> None:
     add_robot(parser)
     about = "Run as on the paper's bench, at 2.5 ms without delay, with encoders and dry friction."
     parser.add_argument("--experiment", action="store_true", help=about)
-    add_loop(parser, [name for name in LOOP if name != "velocity"])  # which means initial rates here
+    add_loop(parser, [name for name in LOOP if name not in ("velocity", "within")])  # of other meanings here
     about = "Follow the trajectory in this reference file by (21), instead of a goal."
     parser.add_argument("--reference", metavar="FILE", type=Path, help=about)
     parser.add_number("--time", float, "Duration in s. Default: 5, or the length of the reference.")
