@@ -57,7 +57,7 @@ LOOP = (
         "within",
         "number, at most 3600",
         "degrees",
-        "",
+        "none",
         "90",
         "Prove stability for starts at rest this near to the goal.",
     ),
