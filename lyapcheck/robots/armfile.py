@@ -86,11 +86,11 @@ from lyapcheck.files.reader import ARM
 from lyapcheck.files.toml import ARM as TOML_ARM
 from lyapcheck.files.toml import TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
-from lyapcheck.robots.bodies import check_positive_definite
+from lyapcheck.robots.bodies import ChainPlan, check_positive_definite, read_chain
 from lyapcheck.robots.choice import Choice
 from lyapcheck.robots.fields import PARTS, ArmFields, ArmNotes, JointEntry, Number, of_joints, read_motor
-from lyapcheck.robots.plans import ModelPlan, read_plan
 from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots.printed import PrintedPlan, read_model
 from lyapcheck.robots.vary import (
     MASSES,
     MOTOR,
@@ -117,6 +117,8 @@ def open_arm(path: Path, shown: str) -> TomlFile:
 
 
 EXACT = Fraction(0)
+Plan = ChainPlan | PrintedPlan
+"""A checked description of M and the potential: links to derive them from, or printed polynomials."""
 
 
 def read_arm(
@@ -154,7 +156,7 @@ def read_arm(
     if choice:
         rule = "has no links to choose from: only an arm file that names a robot by urdf = … has"
         raise file_error(document.name, rule, "leave base, tip, fixed and xacro out")
-    plan = read_plan(top)
+    plan = _plan(top)
     top.close()
     if notes.problems or plan is None:
         raise InputError(notes.problems)
@@ -165,6 +167,36 @@ def read_arm(
     if notes.problems:
         raise InputError(notes.problems)
     return replace(model, loop=loop)
+
+
+def _plan(top: ArmFields) -> Plan | None:
+    """The model of an arm file, ``None`` when it has none that can be built; problems are noted."""
+    links, joints = top.tables("links"), top.tables("joints")
+    numbers, model, torques = top.table("numbers"), top.table("model"), top.table("printed")
+    gravity = top.vector("gravity", "m/s²") if "links" in top.data or "gravity" in top.data else None
+    for key in ("joints", "numbers", "model", "printed"):
+        if "links" in top.data and key in top.data:
+            top.fail(
+                key, "does not go together with [[links]]", "keep the links or the printed model, not both"
+            )
+    if "model" in top.data and "links" not in top.data and "gravity" in top.data:
+        top.fail("gravity", "is already inside the printed potential", "remove it")
+    if links:
+        return read_chain(top, links, gravity)
+    if joints and model:
+        return read_model(top, joints, numbers, model, torques)
+    _note_missing(top)
+    return None
+
+
+def _note_missing(top: ArmFields) -> None:
+    if "links" in top.data:
+        return
+    if "model" not in top.data and "joints" not in top.data:
+        top.fail("links", "is missing", "describe the arm by [[links]], or by [model] and [[joints]]")
+    for key, form in (("model", "[model]"), ("joints", "[[joints]]")):
+        if key not in top.data and ("model" in top.data or "joints" in top.data):
+            top.fail(key, "is missing", f"a printed model needs {form} as well")
 
 
 def with_ranges(model: RobotModel, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
@@ -184,7 +216,7 @@ def _model(
     name: str,
     title: str,
     remarks: tuple[str, ...],
-    plan: ModelPlan,
+    plan: Plan,
     spread: Fraction,
     vary: tuple[Vary, ...],
 ) -> RobotModel:

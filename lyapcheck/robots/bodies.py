@@ -1,20 +1,23 @@
-"""Reading ``[[links]]``: the mass geometry of each link, and whether such a body can exist."""
+"""Arms by ``[[links]]``: the mass geometry of each link, whether such a body can exist, and the chain."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice, product
 from math import isqrt
+from typing import Any, ClassVar
 
 from flint import fmpq, fmpq_mat
 
+from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import Notes
-from lyapcheck.robots.fields import ArmFields, Number, Sign
+from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare
+from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, Sign, read_joints
 from lyapcheck.robots.plant import RobotModel
 
 _ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -145,6 +148,75 @@ def _corners(tensor: dict[str, Number]) -> Iterator[list[list[Fraction]]]:
 
 def _parallel(a: list[Fraction], b: list[Fraction]) -> bool:
     return all(a[i] * b[k] == a[k] * b[i] for i in range(3) for k in range(3))
+
+
+# --- The arm that links make.
+
+
+MOST_JOINTS = 12
+_TENSOR = (("ixx", "ixy", "ixz"), ("ixy", "iyy", "iyz"), ("ixz", "iyz", "izz"))
+
+
+@dataclass(frozen=True)
+class ChainPlan:
+    """A serial chain of links."""
+
+    place: ClassVar[str] = "links"
+    joints: list[JointEntry]
+    bodies: list[BodyEntry]
+    gravity: tuple[Number, ...]
+    torques: None = None
+
+    def numbers(self) -> dict[str, Number]:
+        """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
+        result = components("gravity", self.gravity)
+        for joint, body in zip(self.joints, self.bodies, strict=True):
+            result |= body.numbers(joint.name) | joint.rotors
+        return result
+
+    def used(self) -> set[str]:
+        """All of them."""
+        return set(self.numbers())
+
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
+        def entry(name: str) -> Any:
+            if name in parameters:
+                return ParameterShare(name)
+            return numbers[name].value if name in numbers else Fraction(0)
+
+        bodies = zip(self.joints, self.bodies, strict=True)
+        links = tuple(_link(joint.name, body, entry) for joint, body in bodies)
+        return Chain(links, tuple(entry(f"gravity_{letter}") for letter in "xyz"), parameters)
+
+
+def _link(name: str, body: BodyEntry, entry: Callable[[str], Any]) -> RigidLink:
+    axis = tuple(x.value for x in body.axis)
+    if "inertia" in body.inertia:
+        own = entry(f"{name}_inertia")
+        inertia = tuple(tuple(_times(own, a * b) for b in axis) for a in axis)
+    else:
+        inertia = tuple(tuple(entry(f"{name}_{key}") for key in row) for row in _TENSOR)
+    origin, com = (tuple(entry(f"{name}_{key}_{letter}") for letter in "xyz") for key in ("origin", "com"))
+    rotor = entry(f"{name}{ROTOR}")
+    return RigidLink(axis, origin, entry(f"{name}_mass"), com, inertia, UNIT, rotor)
+
+
+def _times(number: Any, factor: Fraction) -> Any:
+    """The multiple of an exact number or of a parameter."""
+    if isinstance(number, ParameterShare):
+        return replace(number, factor=factor) if factor else factor
+    return number * factor
+
+
+def read_chain(
+    top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, ...] | None
+) -> ChainPlan | None:
+    """The arm of ``[[links]]``, ``None`` where it cannot be built; problems are noted."""
+    joints, bodies = read_joints(top, "links", tables, MOST_JOINTS), read_bodies(tables)
+    for table in tables:
+        table.close()
+    sound = [body for body in bodies if body is not None]
+    return ChainPlan(joints, sound, gravity) if gravity and len(sound) == len(tables) else None
 
 
 # --- A check that an arm as described can exist: M positive definite at a spread of states.

@@ -232,8 +232,10 @@ def of_joints(joints: Sequence[JointEntry], spread: Fraction = Fraction(0)) -> d
     return kept | {"joints": tuple(joint.name for joint in joints), "viscous": viscous}
 
 
-def read_joints(tables: list[ArmFields]) -> list[JointEntry]:
+def read_joints(top: ArmFields, key: str, tables: list[ArmFields], most: int) -> list[JointEntry]:
     """The joints of ``[[links]]`` or ``[[joints]]``, base first; names must differ."""
+    if len(tables) > most:
+        top.fail(key, f"has more than {most} joints", "give an arm of fewer joints")
     joints = [_read_joint(table) for table in tables]
     for i, joint in enumerate(joints):
         if joint.name and joint.name in [other.name for other in joints[:i]]:

@@ -12,13 +12,14 @@ import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, ClassVar
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.files.toml import KeyPath
 from lyapcheck.robots import trig
-from lyapcheck.robots.fields import ArmFields
+from lyapcheck.robots.dynamics import Dynamics, Polynomials
+from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, read_joints
 
 _FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9]))?")
 _ANGLE = re.compile(r"[sc][0-9]+")
@@ -229,3 +230,76 @@ def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> dic
         if read is not None:
             result[rates[0]] = (*result.get(rates[0], ()), read)
     return result
+
+
+# --- The arm in print.
+
+
+MOST_PRINTED = 9
+"""A name like c12 is the cosine of q1 + q2, so that joints have one digit."""
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,40}")
+
+
+@dataclass(frozen=True)
+class PrintedPlan:
+    """M and the potential in print."""
+
+    place: ClassVar[str] = "model"
+    joints: list[JointEntry]
+    entries: dict[str, Number]
+    printed: PrintedTerms
+    torques: PrintedTorques | None
+
+    def numbers(self) -> dict[str, Number]:
+        return dict(self.entries, **_rotors(self.joints))
+
+    def used(self) -> set[str]:
+        return self.printed.names() | set(_rotors(self.joints))
+
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
+        n = len(self.joints)
+        ring = trig.trig_ring(n, parameters)
+        polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
+        polys |= dict(zip(parameters, ring.gens()[2 * n :], strict=True))
+        mass, potential = self.printed.build(ring, polys)
+        rotors = [polys.get(f"{joint.name}{ROTOR}", 0) for joint in self.joints]
+        whole = tuple(
+            tuple(entry + rotors[i] if i == j else entry for j, entry in enumerate(row))
+            for i, row in enumerate(mass)
+        )
+        return Polynomials(whole, potential, parameters)
+
+
+def _rotors(joints: list[JointEntry]) -> dict[str, Number]:
+    return {name: number for joint in joints for name, number in joint.rotors.items()}
+
+
+def read_model(
+    top: ArmFields,
+    tables: list[ArmFields],
+    numbers: ArmFields | None,
+    model: ArmFields,
+    torques: ArmFields | None,
+) -> PrintedPlan:
+    """The arm of ``[model]`` and ``[[joints]]``; problems are noted."""
+    joints = read_joints(top, "joints", tables, MOST_PRINTED)
+    taken = {name for joint in joints for name in joint.numbers()} | set(_rotors(joints))
+    entries = {} if numbers is None else _read_numbers(numbers, taken)
+    names = [] if numbers is None else list(numbers.data)
+    n = min(len(joints), MOST_PRINTED)
+    printed = read_printed(model, n, names)
+    compared = None if torques is None else read_torques(torques, n, names)
+    for table in [*tables, model, *([] if torques is None else [torques])]:
+        table.close()
+    return PrintedPlan(joints, entries, printed, compared)
+
+
+def _read_numbers(fields: ArmFields, taken: set[str]) -> dict[str, Number]:
+    entries = {name: fields.quantity(name, "") for name in fields.data}
+    for name in fields.data:
+        if not _NAME.fullmatch(name) or is_angle(name):
+            rule = "must be letters, digits and underscores, and not look like a sine or cosine (s1, c23)"
+            fields.fail(name, rule, "rename it")
+        elif name in taken:
+            fields.fail(name, "is also the name of a number of a joint", "rename it")
+    return {name: number for name, number in entries.items() if number is not None}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.answer import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult, judged_sets
 from lyapcheck.control.gains import DECIDING, GainFile, gain_file_of
-from lyapcheck.control.limits import ArmLimits
+from lyapcheck.control.limits import Limits
 from lyapcheck.files.loop import NOTHING, LoopEntry
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def gate(
     deciding: Sequence[str] | None = None,
     gamma: str = "true",
     strict: bool = False,
-    arms: dict[str, ArmLimits] | None = None,
+    arms: dict[str, Limits] | None = None,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
 ) -> GateAnswer:

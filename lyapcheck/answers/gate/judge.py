@@ -15,7 +15,7 @@ from lyapcheck.check.statement import Relation
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions, gamma_of
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, RUNNING, GainFile, GainSet, deciding_for
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.control.limits import ArmLimits, Limits, limits_for
+from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.control.sampling import LoopRecord, record_of
 from lyapcheck.control.threshold import number
 from lyapcheck.errors import argument_error
@@ -169,7 +169,7 @@ def judged_sets(
     asked: Sequence[str] | None = None,
     gamma: str = "true",
     strict: bool = False,
-    arms: dict[str, ArmLimits] | None = None,
+    arms: dict[str, Limits] | None = None,
     explained: int = MOST_EXPLAINED,
     on_progress: Progress | None = None,
     loop: LoopEntry = NOTHING,
@@ -189,7 +189,7 @@ def judged_sets(
     kept = certificates_of(gain_file)
     proved, rests_on = _certificates(gain_file, limits, deciding, on_progress, kept)
     if rests_on:
-        limits = limits.resting_on((*limits.ranges, *limits.gravity_notes, *rests_on))
+        limits = replace(limits, assumptions=(*limits.ranges, *limits.gravity_notes, *rests_on))
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
     questions = GateQuestions(gain_file, limits, gamma)

@@ -20,7 +20,7 @@ from lyapcheck.verdicts import Exit, Verdict
 if TYPE_CHECKING:
     from lyapcheck.certificate import Certificate
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.control.limits import ArmLimits
+    from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
 
 MOST = 16
@@ -72,7 +72,7 @@ class UncertainArm:
     model: RobotModel
     ranges: tuple[Vary, ...]
     digest: str
-    limits: dict[str, ArmLimits] = field(default_factory=dict)
+    limits: dict[str, Limits] = field(default_factory=dict)
 
 
 @lru_cache(maxsize=MOST)

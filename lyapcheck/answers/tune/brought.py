@@ -11,7 +11,7 @@ from lyapcheck.answers.tune.gain_file import beside, condition_text
 from lyapcheck.control.conditions import Conditions, gamma_of
 from lyapcheck.control.foreign import Pid, read_foreign
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.limits import ArmLimits, arm_limits
+from lyapcheck.control.limits import Limits, arm_limits
 from lyapcheck.files.decimals import decimal_text, round_down, significant_down
 from lyapcheck.files.toml import key_of, quoted
 
@@ -59,14 +59,14 @@ def brought_file(source: Path, robot: str, folder: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _bounded(i: int, pid: Pid, limits: ArmLimits) -> tuple[Fraction, Fraction, str]:
+def _bounded(i: int, pid: Pid, limits: Limits) -> tuple[Fraction, Fraction, str]:
     """k_p and k_v of a joint, and what was done to them."""
     torque = limits.torque[i]
     if torque is None:
         return pid.p, pid.d, f"{pid.joint}: no torque limit is known, so that nothing was cut"
     n = limits.n
     gains = GainSet("", 1, (pid.p,) * n, (pid.d,) * n)
-    check = Conditions(limits, gamma_of(gains)).check_10p(gains)[i]  # type: ignore[arg-type]
+    check = Conditions(limits, gamma_of(gains)).check_10p(gains)[i]
     largest = None if check.threshold is None else check.threshold.largest(_PLACES)
     if largest is None:
         return pid.p, pid.d, f"{pid.joint}: gravity takes the whole torque limit, and (10p) leaves no gain"

@@ -74,7 +74,7 @@ def run(
     from lyapcheck.answers.gate import GateAnswer, gate
     from lyapcheck.cli.progress import patient
     from lyapcheck.control.gains import arm_named_in, read_gain_file
-    from lyapcheck.control.limits import ArmLimits, varied_limits
+    from lyapcheck.control.limits import Limits, varied_limits
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.robots.choice import named
 
@@ -85,7 +85,7 @@ def run(
         folder = open_folder("--certificates", certificates)
     results: list[GateAnswer] = []
     problems: list[Problem] = []
-    arms: dict[str, ArmLimits] = {}
+    arms: dict[str, Limits] = {}
     ranges, run = varies(vary), loop_of(loop)
     with patient("gate") as advance:
         for done, file in enumerate(files):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from lyapcheck._types import Progress
     from lyapcheck.answers.gate import GateResult
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.control.limits import ArmLimits, Limits
+    from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.vary import Vary
 
@@ -135,7 +135,7 @@ def accepted(
     way: str,
     robot: str,
     bounds: Bounds | None,
-    ranges: dict[str, ArmLimits] | None,
+    ranges: dict[str, Limits] | None,
     loop: LoopEntry,
 ) -> GateResult:
     """The set as the gate accepts it, with the conditions by which it does; else as it does not."""
@@ -163,7 +163,7 @@ def _other(
     bench: Trials,
     file: GainFile | None,
     robot: str,
-    ranges: dict[str, ArmLimits] | None,
+    ranges: dict[str, Limits] | None,
 ) -> Candidate:
     """A set from elsewhere, tried as ours are, with the conditions by which the gate accepts it."""
     trial = tried(gains, arms, bench, exact=True)
