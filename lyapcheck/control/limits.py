@@ -36,7 +36,7 @@ class Limits:
         torque_notes: which torque limits are assumed, and why.
         viscous_notes: which friction is assumed, and why.
         doubts: signs that the arm file is a template or in other units.
-        own: the arm as its file gives it, without ranges that are supposed beside it.
+        own: the arm of the file alone, without ranges of the command line.
 
     References: (9), (10), (19) and property 2.8 of reyes2019family.
     """
