@@ -14,7 +14,7 @@ from itertools import product
 from math import floor
 from typing import Any
 
-from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly
+from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from lyapcheck.check.expressions.domain import REALS, Domain, Interval
 from lyapcheck.check.expressions.expression import (
@@ -52,7 +52,6 @@ ODD = ("sinh", "tanh", "atan", "asin")
 """Functions with the sign of their argument."""
 BITS = (64, 256, 1024)
 HALVINGS = 10
-MOST_PIECES = 2000
 MOST_PARTS = 400
 
 
@@ -115,7 +114,8 @@ def by_value(tree: Tree, domain: Domain) -> Signs:
         result &= _sign_of(ball(tree, {name: _ball_over(domain.get(name, REALS)) for name in names}))
     if len(result) > 1 and len(names) == 1:
         (name,) = names
-        result &= _over_pieces(tree, name, domain.get(name, REALS))
+        low, high = domain.get(name, REALS).low, domain.get(name, REALS).high
+        result &= ANY if low is None or high is None else _over_pieces(tree, name, low, high, HALVINGS)
     return result
 
 
@@ -185,7 +185,9 @@ def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
         return ANY
     if ratio.top == 0:
         return frozenset([0])
-    top, bottom = (_of_terms(part, algebra, domain) for part in (ratio.top, ratio.bottom))
+    bounds = lower_bounds(algebra, domain)
+    both = (above(bounds, part, algebra.ring) for part in (ratio.top, ratio.bottom))
+    top, bottom = (of_terms(part, bounds) for part in both)
     result = _times(top, bottom - {0})
     short = max(map(max, (*ratio.top.monoms(), *ratio.bottom.monoms())), default=0) <= MAX_EXPONENT
     if len(result) > 1 and short and not algebra.uses and len(algebra.names) == 1:
@@ -194,31 +196,42 @@ def _of_polynomial(tree: Tree, domain: Domain) -> Signs:
     return result
 
 
-def _of_terms(polynomial: fmpq_mpoly, algebra: RationalAlgebra, domain: Domain) -> Signs:
-    """The signs that the terms show, once variables and constants are counted from their lower bounds."""
-    lows: dict[int, Fraction | None] = {}
-    strict: dict[int, bool] = {}
-    for i, name in enumerate(algebra.names):
-        interval = domain.get(name, REALS)
-        lows[i], strict[i] = interval.low, interval.open_low
+Bounds = Mapping[int, tuple[Fraction, Signs]]
+"""For each generator that has one, a lower bound, and the signs of what is above it."""
+
+
+def lower_bounds(algebra: RationalAlgebra, domain: Domain) -> Bounds:
+    """Those of variables and constants; the latter in sixteenths."""
+    intervals = ((i, domain.get(name, REALS)) for i, name in enumerate(algebra.names))
+    result = {
+        i: (one.low, PLUS if one.open_low else NOT_NEGATIVE) for i, one in intervals if one.low is not None
+    }
     with ctx.workprec(BITS[0]):
         for i, number in algebra.constants().items():
-            lows[i], strict[i] = Fraction(floor(Enclosure.from_arb(number).lower * 16), 16), False
-    generators = list(algebra.ring.gens())
-    for i, low in lows.items():
-        if low:
-            generators[i] += algebra.ring.constant(rational(low))
-    shifted = polynomial.compose(*generators, ctx=algebra.ring).to_dict()
+            result[i] = Fraction(floor(Enclosure.from_arb(number).lower * 16), 16), NOT_NEGATIVE
+    return result
 
-    def of_monomial(exponents: tuple[int, ...]) -> Signs:
-        result = PLUS
-        for i, e in enumerate(exponents):
-            if e:
-                own = ANY if lows.get(i) is None else PLUS if strict[i] else NOT_NEGATIVE
-                result = frozenset(a * b ** int(e) for a, b in product(result, own))
-        return result
 
-    return _sum([frozenset(_sign(c) * s for s in of_monomial(e)) for e, c in shifted.items()])
+def above(bounds: Bounds, polynomial: fmpq_mpoly, ring: fmpq_mpoly_ctx) -> fmpq_mpoly:
+    """The polynomial in generators that are counted from their lower bounds."""
+    lows = (rational(bounds[i][0]) if i in bounds else fmpq(0) for i in range(ring.nvars()))
+    return polynomial.compose(*(x + low for x, low in zip(ring.gens(), lows, strict=True)), ctx=ring)
+
+
+def of_monomial(exponents: tuple[int, ...], bounds: Bounds) -> Signs:
+    """The signs of a product of powers of generators that are counted from their lower bounds."""
+    result = PLUS
+    for i, e in enumerate(exponents):
+        if e:
+            own = bounds[i][1] if i in bounds else ANY
+            result = frozenset(a * b ** int(e) for a, b in product(result, own))
+    return result
+
+
+def of_terms(polynomial: fmpq_mpoly, bounds: Bounds) -> Signs:
+    """The signs that the terms show."""
+    terms = polynomial.to_dict().items()
+    return _sum([frozenset(_sign(c) * s for s in of_monomial(e, bounds)) for e, c in terms])
 
 
 def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:
@@ -231,28 +244,18 @@ def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:
     return ANY
 
 
-def _over_pieces(tree: Tree, name: str, interval: Interval) -> Signs:
+def _over_pieces(tree: Tree, name: str, low: Fraction, high: Fraction, halvings: int) -> Signs:
     """The sign over a bounded interval, cut until each piece shows it in balls."""
-    if interval.low is None or interval.high is None:
+    with ctx.workprec(BITS[0]):
+        result = _sign_of(ball(tree, {name: ball_of(low).union(ball_of(high))}))
+    if len(result) == 1:
+        return result
+    if halvings == 0 or low == high:
         return ANY
-    result: set[int] = set()
-    waiting = [(interval.low, interval.high, 0)]
-    count = 0
-    while waiting:
-        low, high, depth = waiting.pop()
-        count += 1
-        with ctx.workprec(BITS[0]):
-            value = _sign_of(ball(tree, {name: ball_of(low).union(ball_of(high))}))
-        if len(value) == 1:
-            result |= value
-        elif depth == HALVINGS or count > MOST_PIECES or low == high:
-            return ANY
-        else:
-            middle = (low + high) / 2
-            waiting += [(low, middle, depth + 1), (middle, high, depth + 1)]
-        if len(result) > 1:
-            return ANY
-    return frozenset(result)
+    middle = (low + high) / 2
+    result = _over_pieces(tree, name, middle, high, halvings - 1)
+    same = len(result) == 1 and result == _over_pieces(tree, name, low, middle, halvings - 1)
+    return result if same else ANY
 
 
 # --- The one judgement of definedness: whether every term of an expression has a value over a whole domain.

@@ -6,13 +6,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import ctx, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.expressions.domain import Comparison, Interval
 from lyapcheck.check.expressions.expression import Unsupported, evaluate
 from lyapcheck.check.expressions.expression import variables as variables_of
 from lyapcheck.check.expressions.normal_form import RationalAlgebra, room_for
-from lyapcheck.check.numbers.polynomials import Enclosure, rational
+from lyapcheck.check.expressions.signs import NOT_NEGATIVE, PLUS, above, lower_bounds, of_monomial, of_terms
+from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import Pointwise, conditional_text, domain_of, require_relations
 from lyapcheck.check.statement import Proof, Relation, Variable
@@ -47,7 +48,6 @@ class SignIdentity(Proof):
     multiples: tuple[Multiple, ...]
 
 
-BITS = 64
 Exponents = tuple[int, ...]
 
 
@@ -63,35 +63,22 @@ class Signs:
     def __init__(
         self, variables: Iterable[Variable], hypotheses: tuple[Relation, ...], conclusion: Relation
     ) -> None:
-        relations = (*hypotheses, conclusion)
-        self.known = {v.name: v for v in variables}
+        relations = (conclusion, *hypotheses)
         names = sorted({name for r in relations for name in variables_of(r.gap)})
         self.algebra = RationalAlgebra(names, room_for(*(r.gap for r in relations)))
         self.ring: fmpq_mpoly_ctx = self.algebra.ring
-        self.bottoms: list[fmpq_mpoly] = []
+        values = {name: self.algebra.variable(name) for name in names}
+        ratios = [evaluate(r.gap, values, self.algebra) for r in relations]
+        self.bounds = lower_bounds(self.algebra, domain_of(variables))
+        self.conclusion, *tops = (self._shifted(ratio.top) for ratio in ratios)
+        self.hypotheses = [(top, h.strict) for top, h in zip(tops, hypotheses, strict=True)]
+        self.bottoms = [self._shifted(ratio.bottom) for ratio in ratios]
         """Of the conclusion and the hypotheses; the polynomials are the tops."""
-        with ctx.workprec(BITS):
-            self.conclusion = self._polynomial(conclusion)
-            self.hypotheses = [(self._polynomial(h), h.strict) for h in hypotheses]
-
-    def _polynomial(self, relation: Relation) -> fmpq_mpoly:
-        values = {name: self.algebra.variable(name) for name in self.algebra.names}
-        ratio = evaluate(relation.gap, values, self.algebra)
-        top, bottom = (self._shifted(self.algebra.reduced(p)) for p in (ratio.top, ratio.bottom))
-        if not self.is_positive(bottom):
+        if not all(map(self.is_positive, self.bottoms)):
             raise Unsupported("a denominator whose sign is not plain from its terms")
-        self.bottoms.append(bottom)
-        return top
 
     def _shifted(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
-        generators = list(self.ring.gens())
-        for i, name in enumerate(self.algebra.names):
-            low = self.known[name].low
-            if low:
-                generators[i] += self.ring.constant(rational(low))
-        for i, ball in self.algebra.constants().items():
-            generators[i] += self.ring.constant(fmpq(int(Enclosure.from_arb(ball).lower * 16), 16))
-        return polynomial.compose(*generators, ctx=self.ring)
+        return above(self.bounds, self.algebra.reduced(polynomial), self.ring)
 
     @property
     def is_polynomial(self) -> bool:
@@ -100,30 +87,17 @@ class Signs:
         used = {i for exponents in self.conclusion.monoms() for i, e in enumerate(exponents) if e}
         return used <= plain
 
-    def kind(self, index: int) -> str:
-        """``positive``, ``nonnegative`` or ``real``, of a generator after the shift."""
-        if index < len(self.algebra.names):
-            variable = self.known[self.algebra.names[index]]
-            if variable.low is None:
-                return "real"
-            return "positive" if variable.strict else "nonnegative"
-        return "nonnegative" if index in self.algebra.constants() else "real"
-
     def monomial_is(self, exponents: Exponents, positive: bool) -> bool:
         """Whether a monomial is >= 0 everywhere (> 0, if ``positive``)."""
-        kinds = [(self.kind(i), int(e)) for i, e in enumerate(exponents) if e]
-        if positive:
-            return all(kind == "positive" for kind, _ in kinds)
-        return all(kind != "real" or e % 2 == 0 for kind, e in kinds)
+        return of_monomial(exponents, self.bounds) <= (PLUS if positive else NOT_NEGATIVE)
 
     def is_nonnegative(self, polynomial: fmpq_mpoly) -> bool:
         """Whether every term is plainly >= 0."""
-        return all(c > 0 and self.monomial_is(e, False) for e, c in polynomial.to_dict().items())
+        return of_terms(polynomial, self.bounds) <= NOT_NEGATIVE
 
     def is_positive(self, polynomial: fmpq_mpoly) -> bool:
         """Whether every term is plainly >= 0 and one of them > 0."""
-        terms = polynomial.to_dict()
-        return self.is_nonnegative(polynomial) and any(self.monomial_is(e, True) for e in terms)
+        return of_terms(polynomial, self.bounds) <= PLUS
 
     def exponents(self, monomial: Monomial) -> Exponents:
         """The exponents of all generators; refused where one does not exist or is not positive."""

@@ -14,6 +14,7 @@ from fractions import Fraction
 from flint import fmpq, fmpq_mpoly
 
 from lyapcheck.check.expressions.normal_form import product
+from lyapcheck.check.expressions.signs import PLUS
 from lyapcheck.check.kinds.implies import Exponents, Implies, Monomial, Signs, signs_of
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.refusal import require
@@ -123,7 +124,7 @@ def origin_is_out(signs: Signs) -> bool:
     zero: Exponents = (0,) * signs.ring.nvars()
     at_zero = ((gap.to_dict().get(zero, 0), strict) for gap, strict in signs.hypotheses)
     fails = any(value < 0 or (strict and value == 0) for value, strict in at_zero)
-    return fails or any(signs.kind(i) == "positive" for i in range(len(signs.algebra.names)))
+    return fails or any(above == PLUS for _, above in signs.bounds.values())
 
 
 def exponents_of(signs: Signs, monomial: Monomial) -> Exponents:

@@ -101,7 +101,7 @@ class _Search:
         """The blocks of unknowns, programs of low degree first."""
         half = (max(0, self.goal.total_degree()) + 1) // 2
         most = max((max(0, one.total_degree()) + 1) // 2 for one in (self.goal, *self.hypotheses))
-        bounded = [i for i in range(self.count) if self.signs.kind(i) != "real"]
+        bounded = [i for i in range(self.count) if i in self.signs.bounds]
         if self.hypotheses or bounded:
             yield self._blocks(half, 0, ())
             yield self._blocks(most, 2 * most, bounded)
@@ -380,7 +380,7 @@ def lowest_points(statement: Implies, signs: Signs) -> Iterator[dict[str, Fracti
     """
     names, random = signs.algebra.names, np.random.default_rng(SEED)
     goal, *given = (_Numeric(gap, len(names)) for gap in gaps_of(signs))
-    free = [signs.kind(i) == "real" for i in range(len(names))]
+    free = [i not in signs.bounds for i in range(len(names))]
     lows = {v.name: v.low or Fraction(0) for v in statement.variables}
     for _ in range(STARTS):
         start = random.normal(size=len(names)) * random.choice(LENGTHS)
