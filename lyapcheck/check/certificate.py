@@ -148,7 +148,6 @@ def judge(certificate: Certificate) -> Accepted:
         require(said == result, name, said, f"the proof gives {result}")
     if accepted.verdict == "refuted":
         require(not certificate.uses, "uses", ", ".join(certificate.uses), "a refutation rests on nothing")
-        return accepted
     return accepted
 
 

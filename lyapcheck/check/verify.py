@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -110,6 +110,15 @@ def require_proved(statement: Statement, proof: Proof, subject: str) -> str:
     if result.verdict != "proved":
         raise Refused(subject, result.verdict, "must be proved")
     return result.grade
+
+
+def all_proved(named: Iterable[tuple[str, Statement]], proofs: Sequence[Proof], subject: str) -> Accepted:
+    """What proofs of statements show together, one for each in order; refused if one is not proved."""
+    wanted = list(named)
+    if len(proofs) != len(wanted):
+        raise Refused(subject, len(proofs), f"must be {len(wanted)}")
+    pairs = zip(wanted, proofs, strict=True)
+    return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))
 
 
 def weakest(grades: Iterable[str]) -> str:

@@ -1,4 +1,9 @@
-"""Elementary functions of sums in the scale of ``asymptotic``, and their signs near infinity and near points.
+"""Functions near infinity as sums in the scale  e^{ax} x^b (ln x)^j,  and their signs there and near points.
+
+An :class:`Asymptotic` is a finite sum  Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k}  in which each c_k is either
+an exact number (a polynomial in π, γ_m, √c and their inverses) or lies in a ball for every x >= X. Sums and
+products keep that form. Exact coefficients cancel exactly, so that functions which agree to some order at
+infinity can be told apart by the next one.
 
 A function of c + u, u → 0, is its Taylor polynomial in u with a remainder in Lagrange's form, enclosed over
 all values of u; exp, ln, √ and atan of what grows are taken apart by their laws.
@@ -28,16 +33,6 @@ from lyapcheck.check.expressions.expression import (
     taylor,
 )
 from lyapcheck.check.numbers.polynomials import ball_of, rational, rational_root
-
-# --- Functions next to infinity as sums in the scale  e^{ax} x^b (ln x)^j,  enclosed on a half-line [X, ∞).
-#
-# An :class:`Asymptotic` is a finite sum  Σ c_k(x) e^{a_k x} x^{b_k} (ln x)^{j_k}  in which each c_k is either
-# an exact number (a polynomial in π, γ_m, √c and their inverses) or lies in a ball for every x >= X. Sums and
-# products keep that form. Exact coefficients cancel exactly, so that functions which agree to some order at
-# infinity can be told apart by the next one.
-#
-# References: ``gruntz1996limits`` for the scale; ``tucker2011validated``, chapter 3.
-
 
 Key = tuple[Fraction | int, Fraction | int, int]
 """(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""

@@ -297,32 +297,23 @@ CONDITIONS: dict[str, Condition] = {
 """The operations that do not always have a value, each with what gives it one."""
 
 
-def undefined_term(tree: Tree, domain: Domain) -> Tree | None:
-    """A part of an expression that is not shown to have a value over the whole domain; ``None`` if all are.
+def require_defined(tree: Tree, domain: Domain) -> None:
+    """Refuse an expression with a part that is not shown to have a value over the whole domain.
 
     Soundness: the conditions of all parts are shown one by one, each on the supposition that what is inside
         of it has a value; what is innermost supposes nothing.
     """
+    if tree[0] in LEAVES or (not domain and tree in _DEFINED):
+        return
     for node in nodes(tree):
         condition = CONDITIONS.get(node[0])
         if condition is not None and not condition(list(node[1:]), domain):
-            return tuple(node)
-    return None
-
-
-def require_defined(tree: Tree, domain: Domain) -> None:
-    """Refuse an expression with a part that may be without a value."""
-    if tree[0] in LEAVES or (not domain and tree in _DEFINED):
-        return
-    term = undefined_term(tree, domain)
-    if term is None and not domain and len(tree) > 2:
+            rule = (
+                "is not shown to have a value over the whole domain; restrict the domain, or write it without"
+            )
+            raise Undefined("term", expression_text(tuple(node)), rule)
+    if not domain and len(tree) > 2:
         _DEFINED.add(tree)
-    if term is not None:
-        raise Undefined(
-            "term",
-            expression_text(term),
-            "is not shown to have a value over the whole domain; restrict the domain, or write it without",
-        )
 
 
 def require_defined_at(tree: Tree, point: Mapping[str, Fraction]) -> None:

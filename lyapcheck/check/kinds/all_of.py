@@ -8,7 +8,7 @@ from typing import Any
 
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Statement, Total
-from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
+from lyapcheck.check.verify import Accepted, all_proved, rule, verify
 
 ARM = {
     "mass": "M",
@@ -113,9 +113,7 @@ class OnePart(Proof):
 @rule(AllOf, EveryPart)
 def by_every_part(statement: AllOf, proof: EveryPart) -> Accepted:
     """Soundness: each part by its own proof."""
-    require(len(proof.parts) == len(statement.parts), "parts", len(proof.parts), "is not one proof per part")
-    pairs = zip(statement.parts, proof.parts, strict=True)
-    return Accepted("proved", weakest([require_proved(part, own, name) for (name, part), own in pairs]))
+    return all_proved(statement.parts, proof.parts, "parts")
 
 
 @rule(AllOf, OnePart)

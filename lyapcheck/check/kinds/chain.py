@@ -15,7 +15,7 @@ from itertools import chain, product
 from flint import arb, fmpq_mat
 
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture, written_out
+from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture, vector, written_out
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.chain import Posture, RigidLink, lever_bound, pulls
 from lyapcheck.check.loop.storage import Shown, coriolis_power, hinges, rate_of_mass
@@ -66,10 +66,8 @@ class OfChain(OfLinks, Bound):
         return Posture(self.links, [x.sin() for x in q], [x.cos() for x in q], Algebra(to_arb))
 
     def moved(self, witness: PostureWitness) -> tuple[list[arb], list[arb]]:
-        rows, n = self.at(witness).mass(), len(self.links)
-        require(len(witness.x) == n, "x", len(witness.x), f"must have {n} entries")
-        require(any(witness.x), "x", "0", "must not be the zero vector")
-        x = [to_arb(value) for value in witness.x]
+        rows = self.at(witness).mass()
+        x = vector("x", witness.x, len(self.links))
         return x, [dot(row, x) for row in rows]
 
 

@@ -26,6 +26,7 @@ from lyapcheck.check.kinds.inertia import (
     require_polynomials,
     require_posture,
     variable_names,
+    vector,
     written_out,
 )
 from lyapcheck.check.loop.field import MOST_BOXES
@@ -233,6 +234,6 @@ class CoriolisBelow(OfArm, BoundedAbove):
     def excess(self, at: PostureWitness) -> arb:
         """‖C(q, x)y‖² − high² ‖x‖² ‖y‖²; no norm is negative."""
         require_posture(at, self.joints, self.parameters)
-        x, y = self.vector("x", at.x), self.vector("y", at.y)
+        x, y = vector("x", at.x, self.joints), vector("y", at.y, self.joints)
         turned = self.symmetric.coriolis(at.q, at.parameters, x, y)
         return dot(turned, turned) - to_arb(max(self.high, Fraction(0))) ** 2 * dot(x, x) * dot(y, y)

@@ -5,7 +5,6 @@ References: ``reyes2019family`` (11), (12), (15).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Self
@@ -23,6 +22,7 @@ from lyapcheck.check.kinds.inertia import (
     mass_text,
     require_mass,
     require_one_a_joint,
+    require_within,
 )
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, at_parameters
 from lyapcheck.check.loop.proof import proves
@@ -228,8 +228,8 @@ def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
 def require_rising(statement: Decreasing, proof: StateWitness) -> None:
     """dV/dt > 0 is shown at a state of an arm within the ranges."""
     require(not statement.coupling, "coupling", statement.coupling, "must be empty: the state is of (13)")
-    _require_within("viscous", proof.viscous, statement.viscous)
-    _require_within("parameters", proof.parameters, statement.parameters)
+    require_within("viscous", proof.viscous, statement.viscous)
+    require_within("parameters", proof.parameters, statement.parameters)
     mass = tuple(
         tuple(at_parameters(entry, 2 * len(statement.mass), proof.parameters) for entry in row)
         for row in statement.mass
@@ -246,14 +246,7 @@ def statement_of(loop: ClosedLoop) -> Decreasing:
     return Decreasing.about(loop, eps0=loop.eps0, coupling=loop.coupling)
 
 
-def _require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[Ends]) -> None:
-    require(len(values) == len(ranges), subject, len(values), f"must be {len(ranges)}")
-    for value, (low, high) in zip(values, ranges, strict=True):
-        require(low <= value <= high, subject, value, f"must be between {low} and {high}")
-
-
-# --- Whether a bound on K_v is needed for dV/dt < 0: against it, gains that break the bound and have dV/dt <
-# 0.
+# --- Whether a bound on K_v is needed for dV/dt < 0: against it, gains that break it and have dV/dt < 0.
 #
 # References: ``reyes2019family`` (19).
 

@@ -31,8 +31,6 @@ from lyapcheck.check.verify import Accepted, rule, weakest
 #
 # Next to 0 and on [X, ∞) ``scales`` has the sign of the dominant term. Each step returns ``True`` only if it
 # is a proof; ``False`` says nothing.
-#
-# References: ``tucker2011validated``, chapters 3 and 5; ``sturm1829``.
 
 
 def positive_at(tree: Tree, name: str, x: Fraction) -> bool:

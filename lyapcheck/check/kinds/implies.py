@@ -1,4 +1,7 @@
-"""Implications between inequalities: an identity of signs, or a point at which they fail."""
+"""Implications between inequalities: an identity of signs, or a point at which they fail.
+
+References: ``stengle1974nullstellensatz`` (these certificates are its simplest members).
+"""
 
 from __future__ import annotations
 
@@ -23,8 +26,6 @@ from lyapcheck.check.verify import Accepted, rule
 #
 # C is the gap of the conclusion, H_k are gaps of hypotheses, λ_k > 0 are rational, μ and μ_k are monomials
 # that are positive (or at least not negative), and R has no negative term.
-#
-# References: ``stengle1974nullstellensatz`` (these certificates are its simplest members).
 
 Monomial = tuple[tuple[int, int], ...]
 """Pairs (generator, exponent)."""

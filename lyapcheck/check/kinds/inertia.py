@@ -23,7 +23,7 @@ from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
-from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
+from lyapcheck.check.verify import Accepted, all_proved, rule
 
 MAX_POWER = 40
 MAX_PARAMETERS = 16
@@ -194,10 +194,21 @@ def by_posture(statement: Bound, proof: PostureWitness) -> Accepted:
 def require_posture(proof: PostureWitness, n: int, parameters: tuple[Ends, ...]) -> None:
     """Refuse angles of another number of joints, and parameters out of their ranges."""
     require(len(proof.q) == n, "posture", len(proof.q), f"must have {n} joints")
-    known = len(proof.parameters) == len(parameters)
-    require(known, "parameters", len(proof.parameters), f"must be {len(parameters)}")
-    for value, (low, high) in zip(proof.parameters, parameters, strict=True):
-        require(low <= value <= high, "parameter", value, f"must be between {low} and {high}")
+    require_within("parameters", proof.parameters, parameters)
+
+
+def require_within(subject: str, values: Sequence[Fraction], ranges: Sequence[Ends]) -> None:
+    """Refuse values out of their ranges, or of another number."""
+    require(len(values) == len(ranges), subject, len(values), f"must be {len(ranges)}")
+    for value, (low, high) in zip(values, ranges, strict=True):
+        require(low <= value <= high, subject, value, f"must be between {low} and {high}")
+
+
+def vector(name: str, entries: tuple[Fraction, ...], n: int) -> list[arb]:
+    """A vector of a witness in balls, refused where it does not fit."""
+    require(len(entries) == n, name, len(entries), f"must have {n} entries")
+    require(any(entries), name, "0", "must not be the zero vector")
+    return [to_arb(value) for value in entries]
 
 
 @dataclass(frozen=True)
@@ -228,13 +239,6 @@ class OfArm(Total):
     def over(self) -> str:
         return f"for all q, with {mass_text(self.mass, self.parameters)}"
 
-    def vector(self, name: str, entries: tuple[Fraction, ...]) -> list[arb]:
-        """A vector of a witness in balls, refused where it does not fit."""
-        n = self.joints
-        require(len(entries) == n, name, len(entries), f"must have {n} entries")
-        require(any(entries), name, "0", "must not be the zero vector")
-        return [to_arb(value) for value in entries]
-
 
 @dataclass(frozen=True)
 class MassAbove(OfArm, Bounded):
@@ -255,7 +259,7 @@ class MassAbove(OfArm, Bounded):
     def excess(self, at: PostureWitness) -> arb:
         """low xᵀx − xᵀMx."""
         require_posture(at, self.joints, self.parameters)
-        x = self.vector("x", at.x)
+        x = vector("x", at.x, self.joints)
         return to_arb(self.low) * dot(x, x) - dot(x, self.inertia.times(at.q, at.parameters, x))
 
 
@@ -279,7 +283,7 @@ class MassBelow(OfArm, BoundedAbove):
     def excess(self, at: PostureWitness) -> arb:
         """‖Mx‖² − high² ‖x‖²; no norm is negative."""
         require_posture(at, self.joints, self.parameters)
-        x = self.vector("x", at.x)
+        x = vector("x", at.x, self.joints)
         moved = self.symmetric.times(at.q, at.parameters, x)
         return dot(moved, moved) - to_arb(max(self.high, Fraction(0))) ** 2 * dot(x, x)
 
@@ -330,7 +334,5 @@ def mass_by_corners(statement: MassAbove, proof: MassAtCorners) -> Accepted:
     """Soundness: at one posture M is a mean of its values at the corners, and so is xᵀ(M − low·I)x."""
     require(bool(statement.parameters), "parameters", "", "must be there")
     corners = masses_at_corners(statement.mass, statement.parameters)
-    require(len(proof.each) == len(corners), "corners", len(proof.each), f"must be {len(corners)}")
-    at = (MassAbove(mass, (), statement.low) for mass in corners)
-    grades = [require_proved(one, by, "M at a corner") for one, by in zip(at, proof.each, strict=True)]
-    return Accepted("proved", weakest(grades))
+    at = [("M at a corner", MassAbove(mass, (), statement.low)) for mass in corners]
+    return all_proved(at, proof.each, "corners")

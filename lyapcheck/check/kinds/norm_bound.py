@@ -18,10 +18,10 @@ from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.for_all import ForAll
-from lyapcheck.check.refusal import require
+from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import Pointwise
 from lyapcheck.check.statement import Proof, Relation
-from lyapcheck.check.verify import Accepted, require_proved, rule, weakest
+from lyapcheck.check.verify import Accepted, all_proved, require_proved, rule
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,7 @@ def by_supremum(statement: NormBound, proof: Supremum) -> Accepted:
     """Soundness: γ_m = sup |h_m| and ρ_m = sup |h_m'| by definition, so each entry is at most that."""
     relation = supremum_relation(statement)
     if relation is None:
-        require(False, "component", statement.component[0], "is neither h_m(x) nor h_m'(x)")
-        raise AssertionError
+        raise Refused("component", statement.component[0], "is neither h_m(x) nor h_m'(x)")
     return Accepted("proved", require_proved(Constant(relation), proof.numbers, "√n times the supremum"))
 
 
@@ -100,18 +99,15 @@ def by_supremum(statement: NormBound, proof: Supremum) -> Accepted:
 def by_equal_entries(statement: NormBound, proof: EqualEntries) -> Accepted:
     """Soundness: ‖f(x)‖² is a sum of n squares, each at most c²/n."""
     require(statement.power == 0, "power", statement.power, "must be 0")
-    pairs = zip(uniform_parts(statement), (proof.above, proof.below), strict=True)
-    return Accepted("proved", weakest([require_proved(part, own, "one sign") for part, own in pairs]))
+    parts = [("one sign", part) for part in uniform_parts(statement)]
+    return all_proved(parts, (proof.above, proof.below), "parts")
 
 
 @rule(NormBound, OneEntry)
 def by_one_entry(statement: NormBound, proof: OneEntry) -> Accepted:
     """Soundness: ‖f(x)‖² is a sum of squares f(x_i)² <= c² x_i²."""
     require(statement.power == 1, "power", statement.power, "must be 1")
-    parts = linear_parts(statement)
-    require(len(proof.parts) == len(parts), "parts", len(proof.parts), f"must be {len(parts)}")
-    pairs = zip(parts, proof.parts, strict=True)
-    return Accepted("proved", weakest([require_proved(part, own, "one sign") for part, own in pairs]))
+    return all_proved([("one sign", part) for part in linear_parts(statement)], proof.parts, "parts")
 
 
 def supremum_relation(statement: NormBound) -> Relation | None:

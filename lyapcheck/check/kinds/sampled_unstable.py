@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import prod
 from typing import Any
 
 from flint import arb, arb_mat
@@ -29,7 +28,9 @@ from lyapcheck.check.kinds.sampled import GOAL, SampledStable
 from lyapcheck.check.kinds.stable_arm import hessian
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.chain import Posture
+from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.check.refusal import require
@@ -174,14 +175,9 @@ def _arm_at(statement: SampledStable, proof: GrowingMotion) -> tuple[Rows, Rows]
     sines, cosines = [x.sin() for x in angles], [x.cos() for x in angles]
     require_posture(PostureWitness(proof.goal, proof.parameters, ()), n, statement.parameters)
     if not statement.links:
-        point = [*sines, *cosines, *map(to_arb, proof.parameters)]
 
         def ball(entry: Monomials) -> arb:
-            parts = (
-                prod((point[k] for k, p in enumerate(powers) for _ in range(p)), start=to_arb(c))
-                for powers, c in entry
-            )
-            return sum(parts, arb(0))
+            return value_at(by_parameters(entry, n), proof.goal, proof.parameters, unit)
 
         fixed = tuple((x, x) for x in proof.parameters)
         require_proved(MassAbove(statement.mass, fixed, Fraction(0)), proof.inertia, "M(q)")

@@ -20,7 +20,7 @@ from lyapcheck.check.systems.forms import EPS0
 from lyapcheck.check.systems.obligations import never_met, obligations
 from lyapcheck.check.systems.system import Entrywise
 from lyapcheck.check.systems.theorems import THEOREMS
-from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
+from lyapcheck.check.verify import Accepted, all_proved, rule, verify
 
 FRICTION = {
     "none": "without friction",
@@ -248,15 +248,7 @@ def by_argument(
     if never is not None and proof.met is not None:
         met = verify(never, proof.met).verdict == "refuted"
         require(met, "met", "", "must be a point at which all conditions hold")
-    return all_proved(obligations, proof)
-
-
-def all_proved(obligations: Iterable[tuple[str, Statement]], proof: ByObligations) -> Accepted:
-    """Each obligation by its own proof; refused if one is not proved."""
-    wanted = list(obligations)
-    require(len(proof.proofs) == len(wanted), "proofs", len(proof.proofs), f"must be {len(wanted)}")
-    pairs = zip(wanted, proof.proofs, strict=True)
-    return Accepted("proved", weakest([require_proved(one, own, name) for (name, one), own in pairs]))
+    return all_proved(obligations, proof.proofs, "proofs")
 
 
 # --- What Lyapunov's method asks of a closed loop and of V, each property by itself.

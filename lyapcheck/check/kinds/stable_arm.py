@@ -24,14 +24,14 @@ from lyapcheck.check.kinds.inertia import (
     require_mass,
     require_polynomials,
 )
-from lyapcheck.check.kinds.stability import ByObligations, Stable, all_proved
+from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import require_distinct
 from lyapcheck.check.statement import Monomials, Relation, Statement, Total
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.obligations import obligations
-from lyapcheck.check.verify import Accepted, rule
+from lyapcheck.check.verify import Accepted, all_proved, rule
 
 Numbers = tuple[Fraction, ...]
 Mass = tuple[tuple[Monomials, ...], ...]
@@ -195,4 +195,4 @@ def slope(polynomial: Monomials, i: int, n: int) -> Monomials:
 def by_obligations(statement: StableArm, proof: ByObligations) -> Accepted:
     """Soundness: the argument holds for all arms with such constants, and this is one of them."""
     require(proof.met is None, "conditions", "", "are met by the numbers of the statement")
-    return all_proved(statement.obligations(), proof)
+    return all_proved(statement.obligations(), proof.proofs, "proofs")

@@ -63,7 +63,6 @@ def by_squares(statement: Implies, proof: SumOfSquares) -> Accepted:
     variable is positive or a hypothesis fails there.
     """
     signs = signs_of(statement)
-    require(is_plain(signs), "relations", "", "are not all between polynomials over the rational numbers")
     conclusion, *hypotheses = gaps_of(signs)
     size = sum(len(one.monomials) for one in (proof.lift, *(term.squares for term in proof.products)))
     require(size <= MOST_MONOMIALS, "monomials", size, f"must be at most {MOST_MONOMIALS}")
@@ -85,17 +84,12 @@ def by_squares(statement: Implies, proof: SumOfSquares) -> Accepted:
     return Accepted("proved", "exact")
 
 
-def is_plain(signs: Signs) -> bool:
-    """Whether all gaps are polynomials in the variables, with rational coefficients."""
-    count = len(signs.algebra.names)
-    tops = (signs.conclusion, *(top for top, _ in signs.hypotheses))
-    functions = any(any(exponents[count:]) for top in tops for exponents in top.monoms())
-    return not functions and all(bottom.is_constant() for bottom in signs.bottoms)
-
-
 def gaps_of(signs: Signs) -> list[fmpq_mpoly]:
-    """The gaps of the conclusion and of the hypotheses, where they are plain."""
-    tops = (signs.conclusion, *(top for top, _ in signs.hypotheses))
+    """The gaps of the conclusion and of the hypotheses; refused unless they are polynomials over ℚ."""
+    tops, count = [signs.conclusion, *(top for top, _ in signs.hypotheses)], len(signs.algebra.names)
+    functions = any(any(exponents[count:]) for top in tops for exponents in top.monoms())
+    plain = not functions and all(bottom.is_constant() for bottom in signs.bottoms)
+    require(plain, "relations", "", "are not all between polynomials over the rational numbers")
     return [top / bottom.leading_coefficient() for top, bottom in zip(tops, signs.bottoms, strict=True)]
 
 
@@ -114,17 +108,13 @@ def squares_of(signs: Signs, squares: Squares) -> tuple[fmpq_mpoly, bool]:
         row = sum((terms[i] * rational(entry) for i, entry in below if entry), terms[k])
         result += row * row * rational(weight)
     alone = {e.index(1) for e in z if sum(e) == 1}
-    somewhere = any(signs.monomial_is(e, True) for e in z)
-    apart = alone >= set(range(len(signs.algebra.names))) and origin_is_out(signs)
-    return result, all(weight > 0 for weight in d) and (somewhere or apart)
-
-
-def origin_is_out(signs: Signs) -> bool:
-    """Whether the hypotheses or the ranges leave out the point at which all generators are 0."""
-    zero: Exponents = (0,) * signs.ring.nvars()
-    at_zero = ((gap.to_dict().get(zero, 0), strict) for gap, strict in signs.hypotheses)
-    fails = any(value < 0 or (strict and value == 0) for value, strict in at_zero)
-    return fails or any(above == PLUS for _, above in signs.bounds.values())
+    origin: Exponents = (0,) * signs.ring.nvars()
+    at_origin = ((gap.to_dict().get(origin, 0), strict) for gap, strict in signs.hypotheses)
+    excluded = any(value < 0 or (strict and value == 0) for value, strict in at_origin)
+    excluded = excluded or any(own == PLUS for _, own in signs.bounds.values())
+    apart = excluded and alone >= set(range(len(signs.algebra.names)))
+    nowhere_0 = apart or any(signs.monomial_is(e, True) for e in z)
+    return result, nowhere_0 and all(weight > 0 for weight in d)
 
 
 def exponents_of(signs: Signs, monomial: Monomial) -> Exponents:

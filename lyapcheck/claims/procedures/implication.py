@@ -26,7 +26,8 @@ from lyapcheck.check.kinds.implies import (
     Signs,
     signs_of,
 )
-from lyapcheck.check.kinds.sum_of_squares import is_plain
+from lyapcheck.check.kinds.sum_of_squares import gaps_of
+from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Variable
 from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
 from lyapcheck.claims.procedures.squares import NEEDED, by_squares, lowest_points
@@ -160,7 +161,7 @@ def find_implies(statement: Implies) -> SearchResult:
         result = _refuted(statement) if depth == SEARCH_AFTER else None
         if result is not None:
             return result
-    result = _by_squares(statement, signs) if signs is not None and is_plain(signs) else None
+    result = None if signs is None else _by_squares(statement, signs)
     return result or still_open(
         "no certificate of signs and no counterexample among the points tried; "
         "split the claim, or add a hypothesis: a bound of the variables, or what always holds, as "
@@ -171,6 +172,10 @@ def find_implies(statement: Implies) -> SearchResult:
 
 def _by_squares(statement: Implies, signs: Signs) -> SearchResult | None:
     """The points where descents end, then sums of squares, for polynomials."""
+    try:
+        gaps_of(signs)
+    except Refused:
+        return None
     missing = next((one for one in NEEDED if not installed(one)), None)
     if missing is not None:
         return still_open(
