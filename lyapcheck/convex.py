@@ -75,7 +75,7 @@ Block = tuple["Array", "Mapping[int, Array]"]
 """constant + Σ_i x_i slope_i ⪰ 0, slopes by i."""
 
 
-def solved_cones(aim: Array, blocks: Sequence[Block], tolerance: float, logarithms: int = 0) -> Solution:
+def solved_cones(aim: Array, blocks: Sequence[Block], tolerance: float) -> Solution:
     """Ask Clarabel itself for the x of least aim·x for which matrices are positive semidefinite.
 
     The answer is the same on any number of cores.
@@ -84,7 +84,6 @@ def solved_cones(aim: Array, blocks: Sequence[Block], tolerance: float, logarith
         aim: (N,)
         blocks: the matrices.
         tolerance: of the gap and of what is feasible.
-        logarithms: how many of the last x_i are to be at most ln of the first, one by one.
     """
     import clarabel
     import numpy as np
@@ -103,15 +102,9 @@ def solved_cones(aim: Array, blocks: Sequence[Block], tolerance: float, logarith
         entries.append(stacked[which, row])
         places.append((begin + row, np.array(list(slopes))[which]))
         begin += len(constants[-1])
-    for i in range(logarithms):  # (t, 1, x) with e^t ≤ x
-        constants.append(np.array([0.0, 1.0, 0.0]))
-        entries.append(np.array([-1.0, -1.0]))
-        places.append((np.array([begin, begin + 2]), np.array([len(aim) - logarithms + i, i])))
-        begin += 3
     table = (np.concatenate(entries), np.hstack(places))
     rows = sparse.coo_matrix(table, shape=(begin, len(aim))).tocsc()
     cones = [clarabel.PSDTriangleConeT(len(constant)) for constant, _ in blocks]
-    cones += [clarabel.ExponentialConeT()] * logarithms
     given = sparse.csc_matrix((len(aim), len(aim))), aim, rows, np.concatenate(constants), cones, settings
     result, fault = _asked(lambda: clarabel.DefaultSolver(*given).solve())
     if fault:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.convex import Block, Ended, solved_cones
+from lyapcheck.convex import solved
 from lyapcheck.search.certified import MAX_BOXES, certify
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import SchurProblem
@@ -187,18 +187,20 @@ class _Proposal:
 
     def _program(self, seen: Seen, near: Array) -> Array:
         """The weights that the convex program gives for some states, starting from ``near``."""
+        import cvxpy as cp
+
         n, scale = self.n, np.outer(self.root, self.root)
         x = self.B + seen.s[:, None, None] * np.einsum("i,cijk->cjk", near, seen.S)
-        # the weights in units of near, then what is at most their logarithms
-        blocks: list[Block] = [(np.full((1, 1), 3.0), {i: -np.eye(1)}) for i in range(n)]
-        blocks += [(np.full((1, 1), -1 / 3), {i: np.eye(1)}) for i in range(n)]
+        weights = cp.Variable(n, pos=True)
+        constraints = [weights <= 3 * near, weights >= near / 3]
         for S, s, rows in zip(seen.S, seen.s, x, strict=True):
             softer = np.einsum("ij,ik->ijk", rows, rows) / (4 * self.controlled.kp[:, None, None])
-            linear = near[:, None, None] * s * ((S + np.swapaxes(S, 1, 2)) / 2 - softer) / scale
-            blocks.append(((1 - MARGIN) * np.eye(n), dict(enumerate(linear))))
+            linear = s * ((S + np.swapaxes(S, 1, 2)) / 2 - softer) / scale
+            P = cp.reshape(linear.reshape(n, n * n).T @ weights, (n, n), order="C") + self.B / scale
+            constraints.append(P - MARGIN * np.eye(n) >> 0)
         # almost solved is good enough for a proposal; without one the next turn begins a bit nearer to 0
-        found = solved_cones(np.repeat([0.0, -1.0], n), blocks, 1e-8, logarithms=n)
-        return near * (0.9 if found.ended is Ended.FAILED else found.values[0][:n])
+        found = solved(cp.sum(cp.log(weights)), constraints, [weights]).values
+        return found[0] if found else near * 0.9
 
     def smallest(self, seen: Seen, weights: Array) -> Array:
         """λmin(B^−½ P B^−½) at each state."""

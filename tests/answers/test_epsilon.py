@@ -5,6 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
+import cvxpy as cp
 import pytest
 
 from lyapcheck.answers.epsilon import Contradiction, EpsilonResults, epsilon
@@ -28,9 +29,28 @@ ARM = load("reyes-kelly2")
 SETS = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains
 
 
+PROGRAMS = []
+"""The solvers of the convex programs that CVXPY was asked for."""
+
+
 @pytest.fixture(scope="module", params=but((0,), (0, 1)), ids=["m1", "m2"])
 def case(request):
-    return SETS[request.param], epsilon(SETS[request.param], ARM, starts=6, max_boxes=8_000)
+    PROGRAMS.clear()
+    solve = cp.Problem.solve
+
+    def recorded(problem, *args, **options):
+        PROGRAMS.append(options.get("solver"))
+        return solve(problem, *args, **options)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cp.Problem, "solve", recorded)
+        result = epsilon(SETS[request.param], ARM, starts=6, max_boxes=8_000)
+    return SETS[request.param], result
+
+
+def test_weights_are_searched_by_convex_programs(case):
+    assert PROGRAMS
+    assert {str(solver).upper() for solver in PROGRAMS} == {"CLARABEL"}
 
 
 def test_the_four_are_in_order(case):

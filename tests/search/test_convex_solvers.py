@@ -93,13 +93,6 @@ def test_matrices_are_solved():
     assert solution.values[0] == pytest.approx([1.0], abs=1e-6)
 
 
-def test_logarithms_are_solved():
-    """The most of ln a + ln b with a + b ≤ 4."""
-    blocks = [(np.array([[4.0]]), {0: -np.eye(1), 1: -np.eye(1)})]
-    solution = solved_cones(np.array([0.0, 0.0, -1.0, -1.0]), blocks, 1e-8, logarithms=2)
-    assert solution.values[0] == pytest.approx([2, 2, np.log(2), np.log(2)], abs=1e-6)
-
-
 def test_of_matrices_without_an_answer_the_last_point_is_kept_apart():
     solution = least(-1.0)
     assert solution.ended is Ended.FAILED
