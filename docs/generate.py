@@ -20,15 +20,15 @@ sys.path.insert(0, str(ROOT))
 from docs.file_keys import FILES  # noqa: E402
 
 NOTE = "<!-- Written by `python -m docs.generate`. Do not edit. -->\n"
-EXIT_CODES = """| code | meaning |
-|---|---|
-| 0 | Everything is proved or accepted. |
-| 1 | Something is refuted or rejected. |
-| 2 | The input cannot be used. |
-| 3 | Something is undecided and nothing is refuted. |
-| 4 | Internal error. |
-| 130, 143, 141 | Interrupted, terminated, or nobody reads the output. |
-"""
+EXIT_CODES = {
+    "0": "Everything is proved or accepted.",
+    "1": "Something is refuted or rejected.",
+    "2": "The input cannot be used.",
+    "3": "Something is undecided and nothing is refuted.",
+    "4": "Internal error.",
+    "130, 143, 141": "Interrupted, terminated, or nobody reads the output.",
+}
+"""Of all commands; a command says in `Exit code …` what they mean for it."""
 
 
 def table(head, rows):
@@ -60,7 +60,8 @@ def commands():
         text = inspect.cleandoc(module.run.__doc__)
         rows.append([f"[`lyapcheck {name}`](commands/{name}.md)", text.partition("\n")[0]])
         pages[f"commands/{name}.md"] = command_page(name, text, parser)
-    shared = f"Every command has `--help`. The exit codes are the same for all commands.\n\n{EXIT_CODES}"
+    shared = "Every command has `--help`. The exit codes are the same for all commands.\n\n"
+    shared += table(["code", "meaning"], EXIT_CODES.items())
     pages["commands.md"] = f"# Commands\n\n{table(['command', 'purpose'], rows)}\n{shared}"
     return pages
 
@@ -68,6 +69,8 @@ def commands():
 def command_page(name, text, parser):
     """What a command does and takes, with its examples and the keys of its JSON."""
     about, _, examples = text.partition("Examples:\n")
+    own = re.search(r"^Exit code (.*?)\n\n", about, re.DOTALL | re.MULTILINE)
+    about = about.replace(own[0], "") if own else about
     usage = parser.usage.replace("%(prog)s", parser.prog)
     parts = [f"# lyapcheck {name}", paragraphs(about), f"```text\n{usage}\n```"]
     groups = {"Arguments": [], "Options": []}
@@ -88,7 +91,15 @@ def command_page(name, text, parser):
     lines = [line.strip() for line in examples.splitlines() if line.strip()]
     if lines:
         parts.append("## Examples\n\n```console\n" + "\n".join(f"$ {line}" for line in lines) + "\n```")
-    parts.append(f"## Exit codes\n\n{EXIT_CODES}")
+    said = re.findall(r"(\d): (.*?)(?:, (?=\d: )|\.?$)", " ".join(own[1].split())) if own else ()
+    codes = {code: f"{meaning[:1].upper()}{meaning[1:]}." for code, meaning in said}
+    codes |= {
+        code: says
+        for code, says in EXIT_CODES.items()
+        if code not in codes and (not said or code not in "0123")
+    }
+    codes = dict(sorted(codes.items(), key=lambda row: (len(row[0]), row[0])))
+    parts.append(f"## Exit codes\n\n{table(['code', 'meaning'], codes.items())}")
     return "\n\n".join(parts)
 
 

@@ -37,7 +37,7 @@ class Given:
 
 @dataclass(frozen=True)
 class EveryN(OfTerms):
-    """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices (``check.letters``).
+    """``left = right`` for every n >= 1, all numbers, vectors of Rⁿ and n × n matrices.
 
     ``symmetric`` names the matrices with Aᵀ = A, ``positive`` the numbers that are > 0. The symbols are
     functions of time, over some interval, with the derivatives ``rates``, pairs (letter, derivative), and

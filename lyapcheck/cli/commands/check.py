@@ -45,7 +45,7 @@ def run(
     all: bool,  # noqa: A002
     format: str,  # noqa: A002
 ) -> Exit:
-    """Decide the claims of a proof script: proved, refuted with a counterexample, or undecided.
+    """Decide if each claim of a proof script is proved, refuted with a counterexample, or undecided.
 
     A proof script is a program. Run only scripts that you trust with your files. A script cannot influence
     a verdict, because a fresh process of the checker decides its statements.

@@ -27,6 +27,8 @@ def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
 
     The checker verifies each derived formula, and its verdict is printed next to the formula.
 
+    Exit code 0: SymPy and the checker agree, 1: they differ, 2: unusable input.
+
     Examples:
       lyapcheck derive
       lyapcheck derive --m 1:3 --n 3 --format latex

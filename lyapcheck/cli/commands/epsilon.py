@@ -90,7 +90,7 @@ def run(
     timings: bool,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Bound ε₀ of the Lyapunov function from both sides: certified and falsified, published and scalar.
+    """Bound ε₀ of the Lyapunov function from both sides, and compare with the published and the scalar ε₀.
 
     Published is the end of (18) and scalar follows from norms. Certified is the largest ε₀ proved at every
     state. Falsified is the smallest ε₀ that a state refutes.

@@ -29,9 +29,11 @@ def run(
     proof: str | None,
     format: str,  # noqa: A002
 ) -> Exit:
-    """Explain a claim: its statement, verdict, place in the paper, premises and method.
+    """Explain a claim with its statement, verdict, place in the paper, premises and method.
 
     Without an ID, list all claims.
+
+    Exit code 0: explained, for any verdict, 2: no claim has the ID, or the script cannot be used.
 
     Examples:
       lyapcheck explain

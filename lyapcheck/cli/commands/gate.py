@@ -54,8 +54,8 @@ def run(
 ) -> Exit:
     """Accept or reject gains by the paper's conditions or by a proof for the arm, as the checker judges them.
 
-    The answer has for each gain set and joint the value, the limit, the margin and the largest value that
-    would pass.
+    The answer has the value, the limit and the margin of each gain set and joint. It also has the largest
+    value that would pass.
 
     Exit code 0: all accepted, 1: something rejected, 2: a file cannot be used, 3: something undecided.
 

@@ -42,7 +42,7 @@ def run(
     kernel_files: Path | None,
     format: str,  # noqa: A002
 ) -> int:
-    """Verify certificates with the small checker alone: accepted, refused or undecided, with the reason.
+    """Verify certificates with the small checker alone, and give the reason for each that is not accepted.
 
     Each statement is printed from its data. The author's description is in quotation marks. A certificate is
     undecided while a certificate that it uses is missing.
