@@ -105,8 +105,10 @@ class Explanation(Answer):
     def document(self) -> Document:
         """The verdict, what is decided and what it uses; in detail how, and the other claims about it."""
         source = f" of {_cited(self.reference)}" if self.reference else ""
-        place = f"{self.place}{source}" if self.place else "not in the paper's text"
-        said, made = f"“{one_line(self.says)}” (the author's words)", f"{place}; claimed in {self.script}"
+        made = (
+            f"{self.place}{source}; claimed in {self.script}" if self.place else f"claimed in {self.script}"
+        )
+        said = f"“{one_line(self.says)}” (the author's words)"
         title, lead = f"{self.id}: {said}", [made]
         if self.decided:
             worst = next(v for v in ORDER if any(row.verdict is v for row in self.decided))
@@ -368,11 +370,11 @@ def _parts(name: str, statement: Statement) -> list[Part]:
 
 
 def _procedures(statement: Statement) -> list[str]:
-    """How each part is decided: as the file of its search says, or that of its kind where it has none."""
+    """How each part is decided: what its kind is, and how a proof of it is searched."""
     if isinstance(statement, AllOf):
         return [text for _, part in statement.parts for text in _procedures(part)]
     kind = type(statement)
     procedure = procedure_of(kind)
-    home = kind if procedure is procedure_of(Statement) else procedure
-    described = inspect.getdoc(inspect.getmodule(home)) or ""
-    return [described.split("References:")[0].replace("``", "").strip()]
+    searched = "" if procedure is procedure_of(Statement) else inspect.getdoc(procedure) or ""
+    described = (inspect.getdoc(inspect.getmodule(kind)) or "").split("References:")[0]
+    return ["\n\n".join(filter(None, (described.strip(), searched))).replace("``", "")]

@@ -118,7 +118,7 @@ class Exported:
         """What is known of the loop at the period asked for, in a word."""
         if self.sampled is None or not self.covered:
             return "open"
-        what = "stable" if self.certificate.statement.conclusion == "goal" else "stops"
+        what = "stable" if self.certificate.statement.conclusion == "goal" else "comes to rest"
         return self.sampled.says(what + ("" if self.mark == "✓" else " while no motor saturates"))
 
     @property
@@ -127,7 +127,7 @@ class Exported:
         if self.sampled is None:
             return f"as run: open for every period, because {self.reason}"
         asked = self.certificate.statement
-        what = "stable" if asked.conclusion == "goal" else "stops"
+        what = "stable" if asked.conclusion == "goal" else "comes to rest"
         apart = f", no interval above {decimal_text(asked.stretch)} times it" if asked.stretch > 1 else ""
         words = f"as run: {what} for every period up to {time_text(asked.period)}{apart}"
         return self.sampled.says(f"{words}, exact readings, no saturated motor")

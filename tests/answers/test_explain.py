@@ -117,7 +117,7 @@ def test_lists_of_how_it_is_decided_stay_lists():
     assert isinstance(rules, Bullets)
     assert [item[:5] for item in rules.items] == ["k = 0", "k = 1"]
     assert first.text.startswith("Bounds ‖")
-    assert last.text.startswith("A bound by a certified supremum")
+    assert last.text.startswith("Try the vectors that are worst")
 
 
 def test_what_cannot_be_decided_says_why():

@@ -195,7 +195,7 @@ def test_the_experiment_is_held_against_nothing() -> None:
     run = experiment(TABLE2[0], robots.load("buap3"), TARGET, T=0.1)
     answer = SetPointRuns((run,))
     document = answer.document()
-    assert document.title == "buap3: 1 gain set"
+    assert document.title == "! buap3: no limit cycle seen in 1 gain set"
     assert document.lead[0].startswith("2.5 ms, no delay, velocity by differences, ")
     (case,) = answer.annotations()
     assert (case.level, case.rule) == (Level.PASSED, "finished")

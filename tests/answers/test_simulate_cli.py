@@ -61,7 +61,9 @@ def test_joints_that_do_not_settle_have_no_settling_time():
 def test_experiment_and_markdown():
     done = lyapcheck(PD, "--experiment", "--format", "markdown", "--time", "0.5")
     assert done.returncode == 0
-    assert done.stdout.startswith("# buap3: 1 gain set\n\n2.5 ms, no delay, velocity by differences, ")
+    assert done.stdout.startswith(
+        "# \\! buap3: no limit cycle seen in 1 gain set\n\n2.5 ms, no delay, velocity by differences, "
+    )
     assert "## tau_pd: (0, 0, 0)° to (45, 45, 90)° in 0.5 s" in done.stdout
     assert "| shoulder |" in done.stdout
 

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from lyapcheck.claims.statements import Missing
 
 SHORT, FAILED, ALL = "short", "failed", "all"
+DEFAULT_MS = (1, 2, 3)
 MOST_ROWS, MOST_WORDS = 14, 56
 """Claims of the short answer, and letters of what the author calls one."""
 SHOWN_COORDINATES = 12
@@ -210,6 +211,7 @@ class ProofResult(Answer):
         about_gains: the ids of the claims that are about the gain set of their m.
         timings: True prints the seconds of each claim.
         extent: ``short``, ``failed`` for all that is not proved with its evidence, or ``all``.
+        folder: where the certificates were written; empty if that was not asked.
         elsewhere: another script and its claim that proves a theorem which this proof leaves open.
         assumed: how many numbers of the arm are assumed, as every answer says it.
     """
@@ -228,6 +230,7 @@ class ProofResult(Answer):
     about_gains: frozenset[str] = frozenset()
     timings: bool = False
     extent: str = SHORT
+    folder: str = ""
     elsewhere: Mapping[tuple[str, int | None], tuple[str, ClaimResult]] = field(default_factory=dict)
     assumed: str = ""
 
@@ -265,10 +268,12 @@ class ProofResult(Answer):
         then = command(
             "check",
             script,
-            "--m",
-            ",".join(map(str, self.ms)),
+            *(["--m", ",".join(map(str, self.ms))] if self.ms != DEFAULT_MS else []),
+            *(["--n", self.n] if self.robot is None else []),
             *(["--failed"] if failed else ["--certificates", "certificates"]),
         )
+        if self.folder and not failed:
+            then = command("recheck", self.folder)
         blocks = (*self._index(), *self._of_nothing())
         return Document(self._title(), blocks, notes, lead, every, self.assumed, then)
 

@@ -133,13 +133,18 @@ class SetPointRuns(Simulation[Run]):
     def about(self) -> str:
         """How the loop was sampled, and how far from the goal the runs end."""
         loops = dict.fromkeys(one.loop for one in self.results)
-        sampled = [one for one in self.results if one.loop is not None and one.complete]
         ways = "".join(f", {_loop_text(loop)}" for loop in loops if loop)
+        return f"{ways}{self.far_off}"
+
+    @property
+    def far_off(self) -> str:
+        """Also the joint."""
+        sampled = [one for one in self.results if one.loop is not None and one.complete]
         ends = [(float(abs(x)), i) for one in sampled for i, x in enumerate(one.indices.final_error)]
         angle, i = max(ends, default=(0.0, 0))
         if angle <= math.degrees(BAND):
-            return ways
-        return f"{ways}, at the end up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
+            return ""
+        return f", at the end up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
 
     def level(self, name: str) -> Level:
         """Also failed where a sampled run shows unrest."""

@@ -185,6 +185,11 @@ class Simulation(Answer, Generic[Result]):
         """What the tables mean."""
         return ()
 
+    @property
+    def far_off(self) -> str:
+        """How far from the goal sampled runs end; empty if that is near."""
+        return ""
+
     def motions(self) -> Sequence[str]:
         """What was simulated: from where to where, and whether a run was cut short."""
         return ()
@@ -218,7 +223,7 @@ class Simulation(Answer, Generic[Result]):
             return f"? {robots}: undecided for {open_} of {count}"
         if any(map(self.watches, names)):
             return f"{'!' if left_out else '✓'} {robots}: no bound violated by {count}"
-        return f"{robots}: {count}"
+        return f"{'!' if self.far_off else '✓'} {robots}: no limit cycle seen in {count}"
 
     def _notes(self) -> list[str]:
         return _unique(note for one in self.results for note in one.notes)

@@ -89,5 +89,6 @@ def run(
     if folder is not None:
         write_certificates(folder, result.certificates)
     extent = ALL if all else FAILED if failed else SHORT
-    show(replace(result, timings=timings, extent=extent), format)
+    written = str(folder or "")
+    show(replace(result, timings=timings, extent=extent, folder=written), format)
     return result.exit_code
