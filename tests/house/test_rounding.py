@@ -56,7 +56,7 @@ SEEN = {
     "answers/tune/response/answer.py:_missed_in_motions": "the time of a simulated motion",
     "answers/tune/response/answer.py:_angles": "angles that the user gave",
     "answers/tune/response/answer.py:_six": "simulated",
-    "answers/simulate/runs.py:about": "how far from the goal a run ended",
+    "answers/simulate/runs.py:far_off": "how far from the goal a run ended",
     "answers/tune/response/search.py:of": "an order of candidates",
     "answers/tune/response/search.py:set_of": "gains, which the gate judges as they are written",
 }
