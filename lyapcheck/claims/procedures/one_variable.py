@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from flint import ctx
@@ -77,15 +78,18 @@ def find_for_all(statement: ForAll) -> SearchResult:
 def sample(statement: ForAll) -> list[Fraction]:
     """Exact points of the domain: its ends, an even grid, and a grid that is even in the exponent."""
     low, high = statement.low, statement.high
+    skip = {low if statement.open_low else None, high if statement.open_high else None}
+    return [point for point in _grid(low, high) if point not in skip]
+
+
+@lru_cache(maxsize=64)
+def _grid(low: Fraction | None, high: Fraction | None) -> tuple[Fraction, ...]:
     left = low if low is not None else min(Fraction(-40), (high or Fraction(0)) - 40)
     right = high if high is not None else max(Fraction(40), left + 40)
     grid = [left + (right - left) * Fraction(k, 240) for k in range(241)]
     fine = [sign * Fraction(3, 2) ** k for k in range(-40, 14) for sign in (1, -1)]
-    points = sorted(
-        {*grid, *(x for x in fine if left < x < right), *([Fraction(0)] if left < 0 < right else [])}
-    )
-    skip = {low if statement.open_low else None, high if statement.open_high else None}
-    return [point for point in points if point not in skip]
+    inside = {x for x in (*fine, Fraction(0)) if left < x < right}
+    return tuple(sorted({*grid, *inside}))
 
 
 def valleys(statement: ForAll) -> list[Fraction]:
