@@ -117,14 +117,15 @@ class _Evaluation:
         self.known: dict[int, tuple[Tree, Any]] = {}
 
     def of(self, tree: Tree) -> Any:
-        kind, *rest = tree
-        if kind in LEAVES:
-            return _leaf(kind, rest, self.values, self.algebra)
-        if id(tree) not in self.known:
-            self.known[id(tree)] = tree, self._worked_out(kind, rest)
-        return self.known[id(tree)][1]
+        known = self.known.get(id(tree))
+        if known is None:
+            kind, rest = tree[0], tree[1:]
+            if kind in LEAVES:
+                return _leaf(kind, rest, self.values, self.algebra)
+            known = self.known[id(tree)] = tree, self._worked_out(kind, rest)
+        return known[1]
 
-    def _worked_out(self, kind: str, rest: list[Any]) -> Any:
+    def _worked_out(self, kind: str, rest: Tree) -> Any:
         if kind in FAMILY:
             return self.of(family_formula(kind, *rest))
         if kind == "pow":
@@ -141,7 +142,7 @@ def _fraction(text: str) -> Fraction:
     return Fraction(*map(int, text.split("/"))) if "/" in text else Fraction(text)
 
 
-def _leaf(kind: str, rest: list[Any], values: Mapping[str, Any], algebra: Algebra) -> Any:
+def _leaf(kind: str, rest: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
     if kind == "num":
         return algebra.number(_fraction(rest[0]))
     if kind == "var":
