@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -252,7 +253,7 @@ def _proposals(
     order = [
         claim for claim in in_order({claim.id: claim for claim in handover.claims}, file) if claim.answers
     ]
-    depends = _dependences(handover)
+    depends, search = _dependences(handover), cache(_search)
     for index, (m, n, _, _) in enumerate(asked):
         for step, claim in enumerate(order):
             on_progress((index + step / len(order)) / len(asked), f"m = {m}: {claim.id}")
@@ -262,7 +263,7 @@ def _proposals(
             begin = time.perf_counter()
             stated = handover.stated(claim.answers[index])
             used = tuple((name, m if "m" in depends[name] else None) for name in claim.uses)
-            finding = chained(_search(stated), stated, [result[one] for one in used])
+            finding = chained(search(stated), stated, [result[one] for one in used])
             joints = n if "n" in depends[claim.id] else None
             result[key] = Proposal(claim, key[1], joints, stated, used, finding, time.perf_counter() - begin)
     return result
