@@ -9,10 +9,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.answers.tune.answer import Effect, effect_section
 from lyapcheck.errors import argument_error
 from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.answer import Answer
+from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.output.fields import Field, table
 from lyapcheck.output.typst import markup
@@ -255,10 +255,10 @@ def evidence(report: Report) -> Iterator[Section]:
     # what m does in these runs, where each member has one gain set
     members = {row.m: row for row in report.runs if row.m is not None and row.complete}
     if len(members) > 1 and len(members) == sum(row.m is not None and row.complete for row in report.runs):
-        first = members[min(members)]
-        effects = [_effect(m, row) for m, row in sorted(members.items())]
-        section = effect_section(effects, first.target, first.time)
-        yield replace(section, blocks=(*section.blocks, Paragraph(OWN_GAINS)))
+        ordered = [members[m] for m in sorted(members)]
+        goal, seconds = ", ".join(f"{x:g}" for x in ordered[0].target), f"{ordered[0].time:g}"
+        says = Paragraph(MEMBERS.format(seconds=seconds, goal=goal))
+        yield Section("Simulated: what m does", (table(MEMBER, [(row,) for row in ordered]), says))
 
 
 def _told(document: Document) -> Iterator[Block]:
@@ -287,22 +287,30 @@ def _runs(report: Report) -> Iterator[Block]:
         yield from figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
 
 
-OWN_GAINS = (
-    "Each m has the gains of its own gain set. Floating point, one motion; lyapcheck tune --m compares "
-    "members at the largest gains of each."
+MEMBERS = (
+    "Simulated by (11), without dry friction: in {seconds} s from rest to ({goal})°, one motion in floating "
+    "point. Each m has the gains of its own gain set. For m ≥ 2 h is flat at the goal."
 )
 
 
-def _effect(m: int, row: RunRow) -> Effect:
+def _most_share(row: RunRow) -> float:
     known = [peak / most for peak, most in zip(row.peak_torque, row.torque_limit, strict=True) if most]
-    return Effect(
-        m,
-        math.nan if row.L2 is None else row.L2,
-        max(abs(error) for error in row.final_error if error is not None),
-        max(known, default=math.nan),
-        row.top_speed,
-        math.inf if row.rest is None else row.rest,
-    )
+    return max(known, default=math.nan)
+
+
+def _leaves(error: float | None) -> str:
+    return "anywhere" if error is None else at_most(error) if error > 0 else "—"
+
+
+MEMBER = (
+    Field("", "m", "m", align="l"),
+    Field("", lambda row: math.nan if row.L2 is None else row.L2, "L2 [°]", ".2f"),
+    Field("", lambda row: max(abs(e) for e in row.final_error if e is not None), "last error [°]", ".2f"),
+    Field("", _most_share, "torque share", ".2f"),
+    Field("", "top_speed", "top speed [rad/s]", ".2f"),
+    Field("", "rest", "friction leaves [°]", _leaves),
+)
+"""What is said of a member's run."""
 
 
 def rests(report: Report) -> Iterator[Section]:

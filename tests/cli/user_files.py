@@ -26,7 +26,6 @@ COMMANDS = {
     "gain file of export": "export bad.toml --out c --rate 1000",
     "gain file of check": "check published.py --only 7b --m 1 --gains bad.toml",
     "gain file of report": "report --m 1 --gains bad.toml",
-    "gain file to compare with": "tune buap3 --compare bad.toml",
     "arm of gate": "gate gains.toml --robot bad.toml",
     "arm of robot": "robot bad.toml",
     "arm of tune": "tune bad.toml",

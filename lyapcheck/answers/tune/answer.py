@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,15 +15,13 @@ from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_least, at_most, decimals, shown
+from lyapcheck.output.digits import at_least, decimals
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.control.conditions import Check
-    from lyapcheck.robots import RobotModel
-    from lyapcheck.simulate.task import Task
 
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
 BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
@@ -42,86 +39,8 @@ DAMPED = (
 )
 LIMIT_DIGITS = 6
 """Significant digits of limits, as the gate shows them."""
-LEFT = "k_p left: how much smaller the k_p is than the largest; negative where it is larger."
 DIGITS = 20
 """Of limits, for programs."""
-
-
-@dataclass(frozen=True)
-class Effect:
-    """One member's run: degrees, the largest share of a motor's limit, rad/s; the worst joint each.
-
-    ``rest`` is how far from the goal dry friction may hold a joint; infinite where it holds it anywhere.
-    """
-
-    m: int
-    L2: float
-    final: float
-    share: float
-    speed: float
-    rest: float
-
-
-def _six(value: float) -> float | None:
-    """Six digits; none for infinity."""
-    return float(f"{value:.6g}") if math.isfinite(value) else None
-
-
-def _rest(value: float) -> str:
-    return "anywhere" if math.isinf(value) else at_most(value) if value > 0 else "—"
-
-
-EFFECT = (
-    Field("m", "m", "m", align="l"),
-    Field("L2", "L2", "L2 [°]", ".2f", _six),
-    Field("final", "final", "error at the end [°]", ".2f", _six),
-    Field("share", "share", "torque share", ".2f", _six),
-    Field("speed", "speed", "top speed [rad/s]", ".2f", _six),
-    Field("rest", "rest", "friction leaves [°]", _rest, _six),
-)
-
-
-def effects(sets: Sequence[GainSet], model: RobotModel, task: Task) -> tuple[Effect, ...]:
-    """A run by the equations for each member; one that could not be finished is left out.
-
-    Soundness: floating point; one motion says nothing of others.
-    """
-    # what runs is loaded only by those who have no runs yet
-    import numpy as np
-
-    from lyapcheck.answers.gate.friction import rest_errors
-    from lyapcheck.simulate.closed_loop import simulate
-    from lyapcheck.simulate.run import SimulationFailed
-
-    result = []
-    for gains in sets:
-        try:
-            run = simulate(gains, model, task.q_d, task.q0, task.w0, task.T, stop=False)
-        except SimulationFailed:
-            continue
-        limits = np.array([np.nan if most is None else most for most in run.torque_limit])
-        share = float(np.nanmax(run.peak_torque / limits)) if not np.all(np.isnan(limits)) else math.nan
-        rest = max(math.inf if e is None else math.degrees(e) for e in rest_errors(gains, model))
-        final, speed = float(np.max(np.abs(run.indices.final_error))), float(np.max(np.abs(run.w)))
-        result.append(Effect(gains.m or 0, run.L2, final, share, speed, rest))
-    return tuple(result)
-
-
-def effect_section(result: Sequence[Effect], target: Sequence[float], time: float) -> Section:
-    """Runs to a target, degrees, in a time, s, beside each other, and what they show in one sentence."""
-    goal = ", ".join(shown(x, "g") for x in target)
-    first, last = result[0], result[-1]
-    L2, final, speed = (
-        f"from {shown(getattr(first, name), '.1f')}{unit} to {shown(getattr(last, name), '.1f')}{unit}"
-        for name, unit in (("L2", "°"), ("final", "°"), ("speed", ""))
-    )
-    says = (
-        f"Simulated by (11), without dry friction: in {shown(time, 'g')} s from rest to ({goal})°, from "
-        f"m = {first.m} to m = {last.m}: L2 goes {L2}, the error at the end {final}, the top speed {speed} "
-        "rad/s. For m ≥ 2 h is flat at the goal."
-    )
-    blocks: tuple[Block, ...] = (table(EFFECT, [(one,) for one in result]), Paragraph(says))
-    return Section("Simulated: what m does", blocks)
 
 
 @dataclass(frozen=True)
@@ -150,38 +69,6 @@ class TunedJoint:
 
 
 @dataclass(frozen=True)
-class ComparedJoint:
-    """A joint's gains from elsewhere beside the tuned ones.
-
-    Args:
-        name: of the joint.
-        kp: theirs, N·m.
-        kv: theirs, N·m.
-        kp_left: tuned k_p less theirs: what they left on the table, N·m.
-        kp_left_share: the same as a share of the tuned k_p, from below.
-        used: the share of (10p)'s limit that they use, from below.
-        broken: the conditions that they break.
-    """
-
-    name: str
-    kp: Fraction
-    kv: Fraction
-    kp_left: Fraction
-    kp_left_share: Fraction
-    used: Fraction
-    broken: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class GainComparison:
-    """A gain set from elsewhere beside the tuned one."""
-
-    name: str
-    source: str
-    joints: tuple[ComparedJoint, ...]
-
-
-@dataclass(frozen=True)
 class TunedSet:
     """The gains for one member; ``reasons`` says why there are none, ``runs`` what the loop makes of them."""
 
@@ -191,7 +78,6 @@ class TunedSet:
     joints: tuple[TunedJoint, ...] = ()
     reasons: tuple[str, ...] = ()
     program: str = ""
-    comparison: GainComparison | None = None
     runs: tuple[Check, ...] = ()
 
     @property
@@ -217,14 +103,6 @@ def _limit(value: Enclosure) -> str:
     return at_least(value, LIMIT_DIGITS)
 
 
-def _percent(share: Fraction) -> str:
-    return f"{at_least(100 * share)} %"
-
-
-def _broken(names: Sequence[str]) -> str:
-    return ", ".join(BOUNDS[name] for name in names) or "nothing"
-
-
 ASKED = (
     Field("digits", "digits"),
     *(Field(key, key, to=texts) for key in ("peak_share", "kv_share", "kv_min", "damping")),
@@ -235,15 +113,6 @@ TUNED_TO = (
     Field("viscous_min", "viscous_min", to=decimal_text),
 )
 """N·m and N·m·s/rad."""
-COMPARED = (
-    Field("joint", "name", "joint", align="l"),
-    Field("kp", "kp", "k_p", decimal_text, decimal_text),
-    Field("kv", "kv", "k_v", decimal_text, decimal_text),
-    Field("kp_left", "kp_left", "k_p left", decimal_text, decimal_text),
-    Field("kp_left_share", "kp_left_share", "of the largest", _percent, decimal_text),
-    Field("used", "used", "share of (10p)", _percent, decimal_text),
-    Field("broken", "broken", "breaks", _broken, list, "l"),
-)
 
 
 def of_joint(digits: int, damped: bool) -> tuple[Field, ...]:
@@ -275,8 +144,6 @@ class Tuning(Answer):
         limits: the limits of the search, with the reserve of torque subtracted.
         bounds: limits that the gain file must repeat, because they differ from the arm's.
         sets: one gain set per order m.
-        task: a motion that compares the orders, or None.
-        effects: its runs.
         loop: the sampled loop from the user, which replaces the arm file's.
     """
 
@@ -288,8 +155,6 @@ class Tuning(Answer):
     limits: Limits
     bounds: Bounds
     sets: tuple[TunedSet, ...]
-    task: Task | None = None
-    effects: tuple[Effect, ...] = ()
     loop: LoopEntry = NOTHING
 
     @property
@@ -301,11 +166,9 @@ class Tuning(Answer):
         return Exit.UNDECIDED if UNDECIDED in result or not result else Exit.PROVED
 
     def document(self) -> Document:
-        """The largest gains joint by joint; in detail a table a member and what each is compared with."""
+        """The largest gains joint by joint; in detail a table a member."""
         joints = self.limits.joints
         blocks: list[Block] = [_section(item, self.targets.digits, joints) for item in self.sets]
-        if self.task is not None and len(self.effects) > 1:
-            blocks.append(effect_section(self.effects, [math.degrees(x) for x in self.task.q_d], self.task.T))
         rows = [
             (item.name, *(f"{decimal_text(x.kp)} / {decimal_text(x.kv)}" for x in item.joints))
             for item in self.sets
@@ -326,33 +189,27 @@ class Tuning(Answer):
         return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)
 
     def data(self) -> dict[str, Any]:
-        """``results: [{name, m, status, joints: [...], reasons, comparison}]``, numbers as strings."""
+        """``results: [{name, m, status, joints: [...], reasons}]``, numbers as strings."""
         return {
             "robot": self.robot,
             "targets": data(ASKED, self.targets),
             "limits": data(TUNED_TO, self.limits),
             "assumptions": list(self.limits.assumptions),
             "results": [self._set(item) for item in self.sets],
-            "effects": [data(EFFECT, one) for one in self.effects],
         }
 
     def records(self) -> list[dict[str, Any]]:
-        """A row a joint of each member, with what it is compared with; a row a member that has no gains."""
+        """A row a joint of each member; a row a member that has no gains."""
         rows = []
         for item in self.data()["results"]:
             head = {key: item[key] for key in ("name", "m", "status")}
-            beside = (item["comparison"] or {"joints": [{}] * len(item["joints"])})["joints"]
-            for joint, other in zip(item["joints"], beside, strict=True):
-                compared = {key: other[key] for key in other if key != "joint"}
-                if compared:
-                    compared["broken"] = ", ".join(compared["broken"])
-                rows.append(head | joint | ({"compared": compared} if compared else {}))
+            rows += [head | joint for joint in item["joints"]]
             if not item["joints"]:
                 rows.append(head | {"reasons": "; ".join(item["reasons"])})
         return rows
 
     def _set(self, item: TunedSet) -> dict[str, Any]:
-        fields, other = of_joint(self.targets.digits, False), item.comparison
+        fields = of_joint(self.targets.digits, False)
         return {
             "name": item.name,
             "m": item.m,
@@ -361,13 +218,6 @@ class Tuning(Answer):
             "joints": [data(fields, joint) for joint in item.joints],
             "program": item.program or None,
             "as_run": running_sentences(item.runs, self.limits.joints),
-            "comparison": None
-            if other is None
-            else {
-                "name": other.name,
-                "source": other.source,
-                "joints": [data(COMPARED, joint) for joint in other.joints],
-            },
         }
 
     def _verdict(self) -> str:
@@ -396,7 +246,6 @@ class Tuning(Answer):
             *LIMITS,
             *([ENDS] if tuned else []),
             *([DAMPED] if tuned and self.targets.damping else []),
-            *([LEFT] if any(item.comparison is not None for item in tuned) else []),
             *(f"{text}." for text in self.limits.assumptions),
         )
 
@@ -407,9 +256,6 @@ def _section(item: TunedSet, digits: int, joints: Sequence[str]) -> Section:
     if item.status != TUNED:
         return Section(f"{title}: {item.status}", (Bullets(item.reasons),))
     damped = any(joint.damping is not None for joint in item.joints)
-    tables = [table(of_joint(digits, damped), [(joint,) for joint in item.joints])]
-    if (other := item.comparison) is not None:
-        beside = f"Beside {other.name} of {other.source}:"
-        tables.append(table(COMPARED, [(joint,) for joint in other.joints], beside))
+    rows = table(of_joint(digits, damped), [(joint,) for joint in item.joints])
     said = tuple(running_sentences(item.runs, joints))
-    return Section(title, (*tables, *([Bullets(said)] if said else [])))
+    return Section(title, (rows, *([Bullets(said)] if said else [])))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from math import floor
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate import GateResult, gate
@@ -15,12 +14,9 @@ from lyapcheck.answers.tune.answer import (
     INFEASIBLE,
     TUNED,
     UNDECIDED,
-    ComparedJoint,
-    GainComparison,
     TunedJoint,
     TunedSet,
     Tuning,
-    effects,
 )
 from lyapcheck.answers.tune.largest import (
     Damping,
@@ -33,7 +29,7 @@ from lyapcheck.answers.tune.largest import (
 )
 from lyapcheck.answers.tune.limits import arm_limits, impossible, obstacle, unknown
 from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
-from lyapcheck.control.conditions import ACCEPTED, REJECTED, check_10p, check_19, gamma_of
+from lyapcheck.control.conditions import ACCEPTED, gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import round_down
@@ -41,39 +37,9 @@ from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import RobotModel, load
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.tune.answer import Effect
     from lyapcheck.robots.vary import Vary
-    from lyapcheck.simulate.task import Task
 
 WRITTEN_PLACES = 12
-
-
-def compare(tuned: TunedSet, limits: Limits, against: GainFile | None) -> GainComparison | None:
-    """The gains of the same member in another file, judged by the same limits; ``None`` where it has none."""
-    if against is None or tuned.gains is None:
-        return None
-    for item in against.gains:
-        if item.m == tuned.m and item.family == "hyperbolic" and item.n == limits.n:
-            return GainComparison(item.name, against.path, _joints(tuned, item, limits))
-    return None
-
-
-def _joints(tuned: TunedSet, other: GainSet, limits: Limits) -> tuple[ComparedJoint, ...]:
-    gamma = gamma_of(other)
-    torques, dampings = check_10p(other, limits, gamma), check_19(other, limits, gamma)
-    result = []
-    for i, joint in enumerate(tuned.joints):
-        kp, kv = other.kp[i], other.kv[i]
-        broken = tuple(check.id for check in (torques[i], dampings[i]) if check.verdict == REJECTED)
-        left = joint.kp - kp
-        shares = _millionths(left / joint.kp), _millionths((kp + kv) / joint.sum_limit.upper)
-        result.append(ComparedJoint(joint.name, kp, kv, left, *shares, broken))
-    return tuple(result)
-
-
-def _millionths(share: Fraction) -> Fraction:
-    """A share to six decimal places, from below."""
-    return Fraction(floor(share * 10**6), 10**6)
 
 
 def tune(
@@ -81,9 +47,7 @@ def tune(
     members: Sequence[int] = (1, 2, 3),
     targets: Targets | None = None,
     bounds: Bounds | None = None,
-    against: GainFile | None = None,
     varies: tuple[Vary, ...] = (),
-    task: Task | None = None,
     loop: LoopEntry = NOTHING,
 ) -> Tuning:
     """Find the largest k_p, and with it the largest k_v, that meet (10p), (19) and the targets.
@@ -93,9 +57,7 @@ def tune(
         members: the order m of each gain set.
         targets: stiffness, damping and torque. Default: as much damping as (19) allows.
         bounds: limits that replace the arm's.
-        against: gains to compare with.
         varies: ranges of the arm's numbers for the limits.
-        task: a motion that compares the orders.
         loop: the sampled loop, which replaces the arm file's.
 
     Raises:
@@ -124,12 +86,7 @@ def tune(
     limits, repeated = _limits(robot, model, wanted, bounds or Bounds(), varies)
     found = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
     sets = _confirmed(found, robot, repeated, loop)
-    compared = tuple(replace(item, comparison=compare(item, limits, against)) for item in sets)
-    tuned = [item.gains for item in sets if item.gains is not None]
-    seen: tuple[Effect, ...] = ()
-    if task is not None and len(tuned) > 1:
-        seen = effects(tuned, model, task)
-    return Tuning(robot, model.title, wanted, limits, repeated, compared, task, seen, loop)
+    return Tuning(robot, model.title, wanted, limits, repeated, sets, loop)
 
 
 def _for_each_joint(targets: Targets, n: int) -> Targets:

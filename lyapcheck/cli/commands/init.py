@@ -89,7 +89,7 @@ def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
     place = open_folder("DIR", folder)
     texts = {GAINS: GAIN_TEXT, ARM: ARM_TEXT}
     if source is not None and robot is not None:
-        from lyapcheck.answers.tune.brought import brought_file
+        from lyapcheck.answers.tune.gain_file import brought_file
 
         texts = {GAINS: brought_file(source, robot, place)}
     there = [name for name in texts if (place / name).exists()]

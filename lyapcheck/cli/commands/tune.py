@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.cli.show import require_writable, show, write_whole
 from lyapcheck.cli.values import (
@@ -20,7 +20,6 @@ from lyapcheck.cli.values import (
     parse_decimal,
     parse_decimals,
     parse_m,
-    require_joints,
     varies,
 )
 from lyapcheck.errors import InputError, argument_error
@@ -29,169 +28,27 @@ from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
+    from lyapcheck.answers.tune.answer import Tuning
+    from lyapcheck.answers.tune.response.answer import BenchTuning
     from lyapcheck.answers.tune.response.trial import Trials
     from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.control.gains import Bounds, GainFile
-    from lyapcheck.files.loop import LoopEntry
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.control.gains import Bounds
     from lyapcheck.simulate.task import Task
 
-PAPERS_ARM, PAPERS_GAINS = "buap3", "table2"
+PAPERS_ARM = "buap3"
 ONE = (Fraction(1),)
-COMPARED = range(2, 7)
-"""So many members are compared by runs of each."""
 MOST_RUNS, MOST_SPREAD = 64, 90.0
 """Random motions, and degrees about their middle."""
 WAYS = ("19", "proof")
 """How stability may be shown."""
 FORMATS = (*Format, "toml")
 """What every answer can be written in, and the gain file alone."""
-
-
-def trials_of(
-    robot: str,
-    wishes: dict[str, float],
-    peak_share: str,
-    motion: tuple[str | None, list[str] | None],
-    drawn: tuple[int | None, float | None, int | None],
-    quantile: float,
-    ways: tuple[str, ...],
-    digits: int,
-) -> Trials:
-    """What is asked, and of which motions.
-
-    Raises:
-        InputError: a target or an angle that cannot be used.
-    """
-    from lyapcheck.answers.tune.response.trial import Trials, Wishes
-    from lyapcheck.simulate.results import LEAST_STEP
-
-    if not 0 < quantile <= 1:
-        raise argument_error("--quantile", quantile, "must be above 0, up to 1", "write --quantile 0.9")
-    tasks = tasks_of(robot, *motion)
-    for task, goal in zip(tasks, motion[1] or [""], strict=True):
-        if not any(abs(step) >= LEAST_STEP for step in task.step):
-            raise argument_error("--goal", goal, "is where the motion starts", "give another goal or --start")
-    shares = parse_decimals("--peak-share", peak_share) or ONE
-    if len(set(shares)) > 1:
-        raise argument_error(
-            "--peak-share", peak_share, "is one share with targets", "write --peak-share 0.8"
-        )
-    share = None if shares[0] == 1 else float(shares[0])
-    runs, spread, seed = drawn
-    if runs is not None:
-        from lyapcheck.cli.task import starts_of
-
-        size = MOST_SPREAD if spread is None else spread
-        if not 1 <= runs <= MOST_RUNS or not 1 <= size <= MOST_SPREAD:
-            rule = f"must be 1 to {MOST_RUNS} motions within 1 to {MOST_SPREAD:g} degrees"
-            raise argument_error("--runs", f"{runs} within {size:g}", rule, "write --runs 16 --spread 90")
-        middle = tasks[0].q0
-        pairs = zip(*starts_of(runs, size, seed).motions(middle), strict=True)
-        random = [replace(tasks[0], q0=tuple(a.tolist()), q_d=tuple(b.tolist())) for a, b in pairs]
-        tasks = (*(tasks if motion[1] else ()), *random)
-    return Trials(Wishes(**wishes, peak_share=share), tasks, ways, digits, quantile)
-
-
-def tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:
-    """Motions from rest to rest: those asked for, or the paper's, or 45° for each joint.
-
-    Raises:
-        InputError: angles that cannot be used.
-    """
-    from lyapcheck.cli.task import task_of
-    from lyapcheck.robots import load
-
-    model = load(robot)
-    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
-    try:
-        return tuple(task_of(model, goal, start, None) for goal in goals or [default])
-    except InputError as error:
-        problems = [
-            replace(
-                one, **{part: getattr(one, part).replace("--target", "--goal") for part in ("key", "repair")}
-            )
-            for one in error.problems
-        ]
-        raise InputError(problems) from None
-
-
-def targets_of(
-    wrong: Complaints,
-    digits: int,
-    peak_share: str,
-    kv_share: str | None,
-    kv_min: str | None,
-    damping: str | None,
-) -> Targets:
-    """The targets given on the command line; those that cannot be read are left at their defaults."""
-    from lyapcheck.answers.tune.targets import Targets
-
-    shares = wrong.reading(parse_decimals, "--peak-share", peak_share)
-    others = (("--kv-share", kv_share), ("--kv-min", kv_min), ("--damping", damping))
-    return Targets(digits, shares or ONE, *(wrong.reading(parse_decimals, *each) for each in others))
-
-
-def bounds_of(
-    wrong: Complaints,
-    robot: str,
-    targets: Targets,
-    torque: str | None,
-    gravity: str | None,
-    viscous_min: str | None,
-) -> Bounds:
-    """The limits given on the command line; these and the targets are held against the joints of the arm."""
-    from lyapcheck.answers.tune.targets import require_usable
-    from lyapcheck.control.gains import Bounds
-    from lyapcheck.robots import load
-
-    torques = wrong.reading(parse_decimals, "--torque", torque)
-    gravities = wrong.reading(parse_decimals, "--gravity", gravity)
-    friction = wrong.reading(parse_decimal, "--viscous-min", viscous_min)
-    model = wrong.reading(load, robot)
-    if model is not None:
-        wrong.reading(require_usable, targets, model.n)
-    n = None if model is None else model.n
-    wrong.reading(_require_limits, "--torque", torques, n, True)
-    wrong.reading(_require_limits, "--gravity", gravities, n, False)
-    wrong.reading(_require_limits, "--viscous-min", None if friction is None else (friction,), None, True)
-    return Bounds(friction, torques, gravities)
-
-
-def _require_limits(option: str, values: tuple[Fraction, ...] | None, n: int | None, positive: bool) -> None:
-    """Refuse a negative limit, or another number of them than joints where that is known.
-
-    Raises:
-        InputError: the first that is wrong.
-    """
-    if values is None:
-        return
-    if n is not None and len(values) != n:
-        rule = f"has {len(values)} values for {n} joints"
-        raise argument_error(option, _written(values), rule, f"give {n}, separated by commas")
-    if min(values) < 0 or (positive and min(values) == 0):
-        rule = "must be positive" if positive else "must not be negative"
-        raise argument_error(option, _written((min(values),)), rule, "correct the value")
-
-
-def _written(values: tuple[Fraction, ...]) -> str:
-    from lyapcheck.files.decimals import decimal_text
-
-    return ",".join(map(decimal_text, values))
-
-
-def gains_beside(robot: str, compare: Path | None) -> GainFile | None:
-    """The gains to compare with."""
-    from lyapcheck.control.gains import paper_gain_file, read_gain_file
-
-    if compare is not None:
-        return read_gain_file(compare)
-    if robot != PAPERS_ARM:
-        return None
-    return replace(read_gain_file(paper_gain_file(PAPERS_GAINS)), path="the paper's Table 2")
+TARGETS = ("overshoot", "settle", "rest_error")
+FOR_LARGEST = ("kv_share", "kv_min", "damping")
+"""Options that have a meaning without targets only."""
+FOR_TARGETS = ("start", "goal", "best", "runs", "spread", "seed")
+"""Options that have a meaning with targets only."""
 
 
 def arguments(parser: Parser) -> None:
@@ -232,8 +89,6 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--torque", metavar="TORQUES", help="Torque limits in N·m, instead of the arm's.")
     parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds in N·m, instead of the arm's.")
     parser.add_argument("--viscous-min", metavar="N", help="λmin(B) in N·m·s/rad, instead of the arm's.")
-    about = "Gain file to compare with. Default for buap3: Table 2 of the paper."
-    parser.add_argument("--compare", metavar="FILE", type=Path, help=about)
     parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gains to this file.")
     about = "With targets, write the best set, marked, if no set meets the targets."
     parser.add_argument("--best", action="store_true", help=about)
@@ -243,30 +98,10 @@ def arguments(parser: Parser) -> None:
 def run(
     robot: str,
     m: str | None,
-    digits: int,
-    overshoot: float | None,
-    settle: float | None,
-    rest_error: float | None,
-    peak_share: str,
-    start: str | None,
-    goal: list[str] | None,
-    runs: int | None,
-    spread: float | None,
-    seed: int | None,
-    quantile: float,
-    stability: str,
-    kv_share: str | None,
-    kv_min: str | None,
-    damping: str | None,
-    vary: list[str] | None,
-    torque: str | None,
-    gravity: str | None,
-    viscous_min: str | None,
-    compare: Path | None,
     out: Path | None,
-    best: bool,
+    vary: list[str] | None,
     format: str,  # noqa: A002
-    **loop: str | None,
+    **options: Any,
 ) -> Exit:
     """Find gains for an arm that the gate accepts: the largest gains, or gains that meet targets.
 
@@ -287,88 +122,55 @@ def run(
       lyapcheck tune arm.toml --overshoot 10 --settle 2 --runs 16 --rate 1000
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
-    from lyapcheck.answers.tune.gain_file import gain_file_text
+    from lyapcheck.answers.tune.response.tuning import tune_for
     from lyapcheck.answers.tune.tuning import tune
-    from lyapcheck.robots import load
+    from lyapcheck.cli.progress import progress
 
     wrong = Complaints()
     if out is not None:
         wrong.reading(require_writable, "--out", out)
-    targeted = (overshoot, settle, rest_error) != (None, None, None)
-    members = wrong.reading(parse_m, m or ("1" if targeted and _many(robot) else "1:3"))
+    wishes = {name: options[name] for name in TARGETS if options[name] is not None}
+    members = wrong.reading(parse_m, m or ("1" if wishes and _many(robot) else "1:3")) or ()
     ranges = wrong.reading(varies, vary) or ()
-    run = wrong.reading(loop_of, loop)
-    targets = targets_of(wrong, digits, peak_share, kv_share, kv_min, damping)
-    bounds = bounds_of(wrong, robot, targets, torque, gravity, viscous_min)
-    against = wrong.reading(gains_beside, robot, compare)
-    asked = {"overshoot": overshoot, "settle": settle, "rest_error": rest_error}
-    wishes = {name: value for name, value in asked.items() if value is not None}
-    others = {"--kv-share": kv_share, "--kv-min": kv_min, "--damping": damping}
+    loop = wrong.reading(loop_of, options)
+    targets = _targets_of(wrong, options)
+    bounds = _bounds_of(wrong, robot, targets, options)
     if wishes:
-        wrong.reading(_refuse, others, "cannot go with targets", "leave one of them out")
-        ways = WAYS if stability == "both" else (stability,)
-        drawn = (runs, spread, seed)
-        if runs is None:
-            wrong.reading(
-                _refuse, {"--spread": spread, "--seed": seed}, "has a meaning with --runs only", "add --runs"
-            )
-        motion = (start, goal)
-        bench = wrong.reading(trials_of, robot, wishes, peak_share, motion, drawn, quantile, ways, digits)
-    else:
-        several = {"--runs": runs, "--spread": spread, "--seed": seed}
-        given = {"--start": start, "--goal": goal and goal[0], "--best": best or None, **several}
-        repair = "add --overshoot, --settle or --rest-error"
-        wrong.reading(_refuse, given, "has a meaning with targets only", repair)
+        wrong.reading(_refuse, options, FOR_LARGEST, "cannot go with targets", "leave one of them out")
+        if options["runs"] is None:
+            rule, repair = "has a meaning with --runs only", "add --runs"
+            wrong.reading(_refuse, options, ("spread", "seed"), rule, repair)
+        bench = wrong.result(_trials_of, robot, wishes, options)
+        assert loop is not None
+        with progress("tune") as advance:
+            found = tune_for(robot, bench, members, bounds, ranges, loop, on_progress=advance)
+        return _told_bench(found, out, options["best"], format)
+    repair = "add --overshoot, --settle or --rest-error"
+    wrong.reading(_refuse, options, FOR_TARGETS, "has a meaning with targets only", repair)
     wrong.raise_all()
-    assert run is not None
-    if compare is not None and against is not None:
-        require_joints((against,), load(robot))
-    if wishes and bench is not None:
-        return _tune_for(robot, bench, members or (), bounds, against, ranges, run, (out, best), format)
-    task = tasks_of(robot, None, None)[0] if len(members or ()) in COMPARED else None
-    tuning = tune(robot, members or (), targets, bounds, against, ranges, task, run)
+    assert loop is not None
+    return _told_largest(tune(robot, members, targets, bounds, ranges, loop), out, format)
+
+
+def _told_largest(tuning: Tuning, out: Path | None, format: str) -> Exit:  # noqa: A002
+    from lyapcheck.answers.tune.gain_file import gain_file_text
+
     if out is not None and tuning.exit == Exit.PROVED:
         write_whole(out, gain_file_text(tuning, out.parent))
     if format != "toml":
         show(tuning, format)
-    else:
-        sys.stdout.write(document_text(gain_file_text(tuning)))
-        for item in tuning.sets:
-            for reason in item.reasons:
-                print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
+        return tuning.exit
+    sys.stdout.write(document_text(gain_file_text(tuning)))
+    for item in tuning.sets:
+        for reason in item.reasons:
+            print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
     return tuning.exit
 
 
-def _many(robot: str) -> bool:
-    """Whether an arm has so many joints that one member takes as long as three of a small one."""
-    from lyapcheck.robots import load
-    from lyapcheck.robots.dynamics import FEW_JOINTS
-
-    try:
-        return load(robot).n > FEW_JOINTS
-    except InputError:
-        return False  # which is raised with all else that is wrong
-
-
-def _tune_for(
-    robot: str,
-    bench: Trials,
-    members: Sequence[int],
-    bounds: Bounds,
-    against: GainFile | None,
-    ranges: tuple[Vary, ...],
-    run: LoopEntry,
-    file: tuple[Path | None, bool],
-    format: str,  # noqa: A002
-) -> Exit:
-    """Gains for targets; ``file`` says where to write them, and whether the best are written in any case."""
+def _told_bench(tuning: BenchTuning, out: Path | None, best: bool, format: str) -> Exit:  # noqa: A002
+    """``best``: the best set is written where none meets the targets."""
     from lyapcheck.answers.tune.gain_file import bench_file_text
-    from lyapcheck.answers.tune.response.tuning import tune_for
-    from lyapcheck.cli.progress import progress
 
-    with progress("tune") as advance:
-        tuning = tune_for(robot, bench, members, bounds, against, ranges, run, on_progress=advance)
-    out, best = file
     if text := bench_file_text(tuning, None if out is None else out.parent, best=best):
         if out is not None:
             write_whole(out, text)
@@ -383,12 +185,135 @@ def _tune_for(
     return tuning.exit
 
 
-def _refuse(given: dict[str, object], rule: str, repair: str) -> None:
+def _trials_of(robot: str, wishes: dict[str, float], options: dict[str, Any]) -> Trials:
+    """What is asked, and of which motions.
+
+    Raises:
+        InputError: a target or an angle that cannot be used.
+    """
+    from lyapcheck.answers.tune.response.trial import Trials, Wishes
+    from lyapcheck.simulate.results import LEAST_STEP
+
+    quantile, goals, runs = options["quantile"], options["goal"], options["runs"]
+    if not 0 < quantile <= 1:
+        raise argument_error("--quantile", quantile, "must be above 0, up to 1", "write --quantile 0.9")
+    tasks = _tasks_of(robot, options["start"], goals)
+    for task, goal in zip(tasks, goals or [""], strict=True):
+        if not any(abs(step) >= LEAST_STEP for step in task.step):
+            raise argument_error("--goal", goal, "is where the motion starts", "give another goal or --start")
+    shares = parse_decimals("--peak-share", options["peak_share"]) or ONE
+    if len(set(shares)) > 1:
+        rule = "is one share with targets"
+        raise argument_error("--peak-share", options["peak_share"], rule, "write --peak-share 0.8")
+    if runs is not None:
+        from lyapcheck.cli.task import starts_of
+
+        size = MOST_SPREAD if options["spread"] is None else options["spread"]
+        if not 1 <= runs <= MOST_RUNS or not 1 <= size <= MOST_SPREAD:
+            rule = f"must be 1 to {MOST_RUNS} motions within 1 to {MOST_SPREAD:g} degrees"
+            raise argument_error("--runs", f"{runs} within {size:g}", rule, "write --runs 16 --spread 90")
+        pairs = zip(*starts_of(runs, size, options["seed"]).motions(tasks[0].q0), strict=True)
+        random = [replace(tasks[0], q0=tuple(a.tolist()), q_d=tuple(b.tolist())) for a, b in pairs]
+        tasks = (*(tasks if goals else ()), *random)
+    asked = Wishes(**wishes, peak_share=None if shares[0] == 1 else float(shares[0]))
+    ways = WAYS if options["stability"] == "both" else (options["stability"],)
+    return Trials(asked, tasks, ways, options["digits"], quantile)
+
+
+def _tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:
+    """Motions from rest to rest: those asked for, or the paper's, or 45° for each joint.
+
+    Raises:
+        InputError: angles that cannot be used.
+    """
+    from lyapcheck.cli.task import task_of
+    from lyapcheck.robots import load
+
+    model = load(robot)
+    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
+    try:
+        return tuple(task_of(model, goal, start, None) for goal in goals or [default])
+    except InputError as error:
+        problems = [
+            replace(
+                one, **{part: getattr(one, part).replace("--target", "--goal") for part in ("key", "repair")}
+            )
+            for one in error.problems
+        ]
+        raise InputError(problems) from None
+
+
+def _targets_of(wrong: Complaints, options: dict[str, Any]) -> Targets:
+    """The targets given on the command line; those that cannot be read are left at their defaults."""
+    from lyapcheck.answers.tune.targets import Targets
+
+    read = {
+        name: wrong.reading(parse_decimals, f"--{name.replace('_', '-')}", options[name])
+        for name in ("peak_share", *FOR_LARGEST)
+    }
+    return Targets(options["digits"], read.pop("peak_share") or ONE, **read)
+
+
+def _bounds_of(wrong: Complaints, robot: str, targets: Targets, options: dict[str, Any]) -> Bounds:
+    """The limits given on the command line; these and the targets are held against the joints of the arm."""
+    from lyapcheck.answers.tune.targets import require_usable
+    from lyapcheck.control.gains import Bounds
+    from lyapcheck.robots import load
+
+    torques = wrong.reading(parse_decimals, "--torque", options["torque"])
+    gravities = wrong.reading(parse_decimals, "--gravity", options["gravity"])
+    friction = wrong.reading(parse_decimal, "--viscous-min", options["viscous_min"])
+    model = wrong.reading(load, robot)
+    if model is not None:
+        wrong.reading(require_usable, targets, model.n)
+    n = None if model is None else model.n
+    wrong.reading(_require_limits, "--torque", torques, n, True)
+    wrong.reading(_require_limits, "--gravity", gravities, n, False)
+    wrong.reading(_require_limits, "--viscous-min", None if friction is None else (friction,), None, True)
+    return Bounds(friction, torques, gravities)
+
+
+def _require_limits(option: str, values: tuple[Fraction, ...] | None, n: int | None, positive: bool) -> None:
+    """Refuse a negative limit, or another number of them than joints where that is known.
+
+    Raises:
+        InputError: the first that is wrong.
+    """
+    if values is None:
+        return
+    if n is not None and len(values) != n:
+        rule = f"has {len(values)} values for {n} joints"
+        raise argument_error(option, _written(values), rule, f"give {n}, separated by commas")
+    if min(values) < 0 or (positive and min(values) == 0):
+        rule = "must be positive" if positive else "must not be negative"
+        raise argument_error(option, _written((min(values),)), rule, "correct the value")
+
+
+def _written(values: tuple[Fraction, ...]) -> str:
+    from lyapcheck.files.decimals import decimal_text
+
+    return ",".join(map(decimal_text, values))
+
+
+def _many(robot: str) -> bool:
+    """Whether an arm has so many joints that one member takes as long as three of a small one."""
+    from lyapcheck.robots import load
+    from lyapcheck.robots.dynamics import FEW_JOINTS
+
+    try:
+        return load(robot).n > FEW_JOINTS
+    except InputError:
+        return False  # which is raised with all else that is wrong
+
+
+def _refuse(options: dict[str, Any], names: tuple[str, ...], rule: str, repair: str) -> None:
     """Refuse options that have no meaning here.
 
     Raises:
         InputError: the first of them.
     """
-    for option, value in given.items():
-        if value is not None:
-            raise argument_error(option, str(value), rule, repair)
+    for name in names:
+        value = options[name]
+        if value not in (None, False):
+            shown = value[0] if isinstance(value, list) else value
+            raise argument_error(f"--{name.replace('_', '-')}", str(shown), rule, repair)

@@ -62,18 +62,16 @@ class Candidate:
     Args:
         gains: the set, with the conditions by which the gate accepts it; without any where it does not.
         trial: its motions on the whole arm.
-        way: how it was asked to be stable; empty for a set from elsewhere.
+        way: how it was asked to be stable.
         held: per joint the conditions that keep its gains from being larger.
-        source: where a set from elsewhere is from.
         result: the gate's, which accepts it; ``None`` where it does not.
         runs: what the gate says of it as a computer runs it.
     """
 
     gains: GainSet
     trial: Trial
-    way: str = ""
+    way: str
     held: tuple[str, ...] = ()
-    source: str = ""
     result: GateResult | None = None
     runs: tuple[Check, ...] = ()
 
@@ -135,31 +133,39 @@ class BenchTuning(Answer):
         record = record_of(self.loop, NOTHING, self.model.loop)
         if record is None or record.period is None:
             return f"{motions} of (11) at an infinite rate, {without}"
-        count = max((one.trial.as_run for one in self.own), default=0)
+        count = max((one.trial.as_run for one in self.sets), default=0)
         runs = f"{count} run{'' if count == 1 else 's'} at {time_text(record.period)}, {record.how}"
         return f"{motions}, {runs}, {without}"
 
     @property
     def good(self) -> list[Candidate]:
         """The sets that meet the targets, best first."""
-        return sorted(filter(self.met, self.own), key=self._rank)
+        return sorted(filter(self.met, self.sets), key=self._rank)
 
     @property
     def best(self) -> Candidate | None:
         """The best set that was found, one that the gate accepts if there is any."""
-        return min(self.own, key=self._rank, default=None)
+        return min(self.sets, key=self._rank, default=None)
 
     def _rank(self, one: Candidate) -> tuple[bool, float]:
         return not one.stable, one.trial.worst(self.bench.wishes)
 
     @property
-    def own(self) -> list[Candidate]:
-        """The sets that were found here."""
-        return [one for one in self.sets if one.way]
+    def lacking(self) -> str:
+        """Why a target cannot be judged: dry friction that the arm file does not give; empty if it can."""
+        rows = zip(self.joints, self.model.coulomb, strict=True)
+        joints = [joint for joint, friction in rows if friction is None]
+        if self.bench.wishes.rest_error is None or not joints:
+            return ""
+        return (
+            f"the arm file gives no dry friction of {', '.join(joints)}, so the error at rest is not known; "
+            "add coulomb = … to the joint"
+        )
 
     def met(self, one: Candidate) -> bool:
         """Whether a set is proved stable and met all that was asked in every motion, and keeps to it."""
-        return bool(one.stable) and one.trial.kept and one.trial.worst(self.bench.wishes) <= 1
+        kept = one.trial.kept and one.trial.worst(self.bench.wishes) <= 1
+        return bool(one.stable) and kept and not self.lacking
 
     @property
     def exit(self) -> Exit:
@@ -179,9 +185,9 @@ class BenchTuning(Answer):
         assumed = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
         friction = f" The viscous friction of {', '.join(assumed)} is assumed." if assumed else ""
         warning = Paragraph(f"Other motions and lower rates may miss the targets.{friction}")
-        lines = [*self._given_up(), *self.missing]
+        lines = [*filter(None, (self.lacking,)), *self._given_up(), *self.missing]
         said = (Bullets(tuple(lines)),) if lines else ()
-        details = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.own))
+        details = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.sets))
         best = self.best
         joints: list[Block] = []
         if best is not None:
@@ -189,7 +195,7 @@ class BenchTuning(Answer):
         first = [*(self.missed(best) if best else ()), *lines, *self.model.doubts][:MOST_REMARKS]
         blocks = (*joints, *([Bullets(tuple(first))] if first else []))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
-        found = [one.result for one in self.own]
+        found = [one.result for one in self.sets]
         promises = [one for result in found if result is not None for one in result.grounds.promises]
         inside = [all_say(promises, INSIDE)] if found and all(found) else []
         then = command("gate", self.out) if self.out else command("robot", *arm_words(self.robot))
@@ -238,6 +244,9 @@ class BenchTuning(Answer):
             return (
                 f"{self._mark} simulated: {best.gains.name} meets the targets on {self.model.name}{without}"
             )
+        if self.lacking and not self.missed(best):
+            met = f"{best.gains.name} meets the targets on {self.model.name}"
+            return f"? simulated: whether {met} is open; the error at rest is not known"
         return f"? simulated: no set meets the targets on {self.model.name}; the best is {best.gains.name}"
 
     @property
@@ -270,8 +279,8 @@ class BenchTuning(Answer):
             trial, worst = one.trial, one.trial.worst(self.bench.wishes)
             rows.append(
                 (
-                    (self._mark if self.met(one) else "✗" if one.stable else "?") if one.way else "",
-                    one.gains.name + (f", {one.source}" if one.source else ""),
+                    self._mark if self.met(one) else "✗" if one.stable else "?",
+                    one.gains.name,
                     NONE if one.gains.m is None else str(one.gains.m),
                     one.stable or NONE,
                     _times(worst),
@@ -304,11 +313,16 @@ class BenchTuning(Answer):
             Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
             Field("settling", "trial.settled", "settles [s]", _seconds, _sixes, each=True),
             Field("torque_share", "trial.share", "torque share", _up, _sixes, each=True),
-            Field("rest_error", "trial.rest", "friction leaves [°]", _degrees, _sixes, each=True),
+            Field("rest_error", self._rests, "friction leaves [°]", _degrees, _sixes, each=True),
             Field(
                 "held_by", lambda one: one.held or ("",) * len(self.joints), "held by", align="l", each=True
             ),
         )
+
+    def _rests(self, one: Candidate) -> list[float]:
+        """The error at rest of each joint; NaN where no dry friction is known."""
+        rows = zip(one.trial.rest, self.model.coulomb, strict=True)
+        return [math.nan if friction is None else float(error) for error, friction in rows]
 
     def _behind(self, one: Candidate) -> Iterator[str]:
         """What a set misses, and what stands in the way."""
@@ -325,8 +339,8 @@ class BenchTuning(Answer):
     def _given_up(self) -> Iterator[str]:
         """What (19) costs for each member, where both ways were tried."""
         wishes = self.bench.wishes
-        for m in dict.fromkeys(one.gains.m for one in self.own):
-            by = {one.way: one for one in self.own if one.gains.m == m}
+        for m in dict.fromkeys(one.gains.m for one in self.sets):
+            by = {one.way: one for one in self.sets if one.gains.m == m}
             if len(by) == 2:
                 a, b = (by[way].trial.worst(wishes) for way in (BY_19, BY_PROOF))
                 if b < 0.95 * a:
@@ -339,8 +353,7 @@ class BenchTuning(Answer):
         return {
             "name": one.gains.name,
             "m": one.gains.m,
-            "source": one.source or None,
-            "way": one.way or None,
+            "way": one.way,
             "stable_by": one.stable or None,
             "met": self.met(one),
             "condition": list(one.gains.condition),

@@ -13,7 +13,7 @@ from lyapcheck.answers.running import runs_of
 from lyapcheck.answers.tune.limits import arm_limits, impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
-from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, WAYS, Trials, tried
+from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, Trials
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.control.limits import varied_limits
@@ -40,7 +40,6 @@ def tune_for(
     bench: Trials,
     members: Sequence[int] = (1,),
     bounds: Bounds | None = None,
-    against: GainFile | None = None,
     varies: tuple[Vary, ...] = (),
     loop: LoopEntry = NOTHING,
     on_progress: Progress | None = None,
@@ -52,7 +51,6 @@ def tune_for(
         bench: what is asked, of which motions, and how stability may be shown.
         members: m of each gain set.
         bounds: limits to take instead of the arm's.
-        against: gains to try beside them.
         varies: ranges of the arm's numbers; the worst of motions at their ends counts, limits hold for all.
         loop: how a computer runs the gains, before what the arm file says of it.
         on_progress: receives the fraction done.
@@ -85,9 +83,7 @@ def tune_for(
         own = judged if judged.verdict == ACCEPTED else None
         gains = result.gains if own is None else own.gains
         held = tuple(_held(gains, search))
-        sets.append(Candidate(gains, result.trial, way, held, result=own, runs=runs_of(judged)))
-    beside = [one for one in ([] if against is None else against.gains) if one.m in members]
-    sets = [*(_other(one, arms, bench, against, robot, ranges) for one in beside), *sets]
+        sets.append(Candidate(gains, result.trial, way, held, own, runs_of(judged)))
     return BenchTuning(
         robot,
         model,
@@ -155,22 +151,3 @@ def _held(gains: GainSet, search: Search) -> Iterator[str]:
         if search.way == BY_19 and kv == most_kv * search.unit:
             rules.append("(19)")
         yield ", ".join(rules)
-
-
-def _other(
-    gains: GainSet,
-    arms: Sequence[RobotModel],
-    bench: Trials,
-    file: GainFile | None,
-    robot: str,
-    ranges: dict[str, Limits] | None,
-) -> Candidate:
-    """A set from elsewhere, tried as ours are, with the conditions by which the gate accepts it."""
-    trial = tried(gains, arms, bench, exact=True)
-    assert file is not None
-    own = replace(gains, condition=())
-    for way in WAYS:
-        judged = accepted(own, way, robot, file.bounds, ranges, file.loop)
-        if judged.verdict == ACCEPTED:
-            return Candidate(judged.gains, trial, source=file.path, result=judged, runs=runs_of(judged))
-    return Candidate(own, trial, source=file.path, runs=runs_of(judged))
