@@ -83,6 +83,11 @@ from lyapcheck.claims.expressions import sqrt as sqrt
 from lyapcheck.claims.expressions import tanh as tanh
 from lyapcheck.claims.expressions import total as total
 from lyapcheck.claims.expressions import var as var
+from lyapcheck.claims.flows import converges_to as converges_to
+from lyapcheck.claims.flows import enters as enters
+from lyapcheck.claims.flows import global_ as global_
+from lyapcheck.claims.flows import local as local
+from lyapcheck.claims.flows import system as system
 from lyapcheck.claims.goals import constant_goal as constant_goal
 from lyapcheck.claims.goals import moving_goal as moving_goal
 from lyapcheck.claims.goals import norm as norm

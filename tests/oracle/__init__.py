@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from random import Random
 
-MODULES = "boxes", "small", "letters", "bounds", "laws", "loop", "properties", "stability", "sampled"
+MODULES = "boxes", "small", "letters", "bounds", "laws", "loop", "properties", "stability", "sampled", "flows"
 OBJECTIONS, JUDGEMENTS = {}, {}
 
 

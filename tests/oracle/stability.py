@@ -304,11 +304,11 @@ def _fault(argument, loop, random):
         return f"an eigenvalue is {rightmost:.3g}"
     if argument.theorem in ("exponential", "ISS") and rightmost > -1e-12 * scale:
         return f"no decay: an eigenvalue is {rightmost:.3g}"
-    fading = {"LaSalle": set(loop.system.moving), "convergence": argument.seen(argument.rate)}
-    if _swings(loop, slope, fading.get(argument.theorem, ())):
-        return "a linearisation does not fade"
     comes = argument.theorem != "convergence" or "e" in argument.seen(argument.rate)
-    return _rests_elsewhere(loop, random) if comes and not argument.local else ""
+    elsewhere = _rests_elsewhere(loop, random) if comes and not argument.local else ""
+    fading = {"LaSalle": set(loop.system.moving), "convergence": argument.seen(argument.rate)}
+    swings = not elsewhere and _swings(loop, slope, fading.get(argument.theorem, ()))
+    return "a linearisation does not fade" if swings else elsewhere
 
 
 def _swings(loop, slope, fading):

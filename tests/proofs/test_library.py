@@ -28,6 +28,7 @@ REFUSED = {
     "kelly_filter": {"soft": "undecided", "turned": "refuted", "leak": "undecided"},
     "flexible_joints": dict.fromkeys(("soft", "undamped", "still"), "undecided"),
     "computed_torque": dict.fromkeys(("any a", "turned", "twice"), "undecided"),
+    "textbook": dict.fromkeys(("forwards", "wide", "open", "undamped", "small ball", "at 0"), "undecided"),
     "adaptive_pd": dict.fromkeys(("any a", "turned", "learned", "asymptotic"), "undecided"),
     "slotine_li_adaptive": dict.fromkeys(
         ("printed", "turned", "unbounded", "learned", "exponential"), "undecided"
@@ -133,6 +134,12 @@ FAULTS = {
         ("share * goal.M @ wanted", "share * goal.M_at_goal @ wanted"),
         ("[a < K_v.min] if", "[K_v.min < a] if"),
         ("goal.C @ velocity + goal.gravity", "goal.gravity"),
+    ],
+    "textbook": [
+        ("- (1 - x**2) * y", "+ (1 - x**2) * y"),
+        ("x**2 / 2 - x * y + y**2", "x**2 / 2 + x * y + y**2"),
+        ("x**2 / 2 - x * y + y**2", "x**2 / 2 - 2 * x * y + y**2"),
+        ("within=4", "within=2"),
     ],
     "adaptive_pd": [
         ("(w - ε * e)", "(w + ε * e)"),

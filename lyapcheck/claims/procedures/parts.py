@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
+from lyapcheck.check.kinds.flow import Flow
 from lyapcheck.check.kinds.stability import ByObligations, Property, Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.refusal import Refused
@@ -43,10 +44,10 @@ def find_all(statement: AllOf) -> SearchResult:
     return shown(EveryPart(proofs), methods, **evidence)
 
 
-@procedure(Stable, StableArm, Property)
-def find_stable(statement: Stable | StableArm | Property) -> SearchResult:
+@procedure(Stable, StableArm, Property, Flow)
+def find_stable(statement: Stable | StableArm | Property | Flow) -> SearchResult:
     """Decide the obligations up to one that fails: the conclusion is open then, as it is sufficient only."""
-    never = None if isinstance(statement, StableArm) else never_met(statement.argument)
+    never = never_met(statement.argument) if isinstance(statement, Stable | Property) else None
     point = None if never is None else counterexample(never)
     if never is not None and point is None:
         return still_open("conditions: no constants were found that meet them; a theorem needs some", METHOD)

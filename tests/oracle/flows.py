@@ -1,0 +1,75 @@
+"""ODEs of a few variables: motions by SciPy's integrators, with expressions evaluated here."""
+
+import warnings
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from tests import oracle
+from tests.oracle import Objection
+from tests.oracle.stability import value
+
+STARTS, FAR = 4, 1e6
+LONG = {"nearby": 200.0, "everywhere": 200.0, "bounded": 10.0, "towards": 100.0}
+
+
+@oracle.objections_to("Flow")
+def flow(statement, random):
+    """A motion that does not do what is said, of constants drawn at random."""
+    names = [name for name, _ in statement.rates]
+    known = {("var", name): random.uniform(0.1, 3) for name in statement.constants}
+
+    def at(tree, x):
+        return value(tree, known | {("var", name): entry for name, entry in zip(names, x, strict=True)})
+
+    def rate(_, x):
+        return [at(tree, np.clip(x, -FAR, FAR)) + 0.0 for _, tree in statement.rates]
+
+    try:
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for _ in range(STARTS):
+                start = _start(statement, at, len(names), random)
+                if start is None:
+                    return None
+                fault = _fault(statement, at, rate, start)
+                if fault:
+                    return Objection("false", f"{fault}, from {start}, with {known}")
+    except (KeyError, OverflowError, ZeroDivisionError, ValueError, AttributeError):
+        return None
+    return None
+
+
+def _start(statement, at, n, random):
+    """A start that the conclusion is about."""
+    for _ in range(1000):
+        radius = 3.0 if statement.radius is None else float(at(statement.radius, [0.0] * n)) ** 0.5
+        x = np.array([random.gauss(0, 1) for _ in range(n)])
+        x *= random.uniform(0.3, 1) * radius / np.linalg.norm(x)
+        if statement.conclusion != "nearby" or at(statement.energy, x) <= at(statement.level, x):
+            return x
+    return None
+
+
+def _fault(statement, at, rate, start):
+    origin = np.zeros(len(start))
+    fixed = statement.conclusion in ("nearby", "everywhere")
+    if fixed and np.abs(rate(0, origin)).max() > 1e-9:
+        return "the origin moves"
+
+    def escaped(_, x):
+        return FAR - np.abs(x).max()
+
+    escaped.terminal = True
+    run = solve_ivp(
+        rate, (0, LONG[statement.conclusion]), start, method="LSODA", rtol=1e-6, atol=1e-8, events=escaped
+    )
+    end = run.y[:, -1]
+    if run.status == 1 or not np.isfinite(end).all():
+        return "a motion runs away"
+    if fixed and np.linalg.norm(end) > 0.5 * np.linalg.norm(start):
+        return f"it is at {end} in the end"
+    if statement.conclusion == "bounded" and at(statement.energy, end) > at(statement.level, end) + 1e-6:
+        return f"V is {at(statement.energy, end)} in the end"
+    far = [part for part in statement.parts if abs(at(part, end)) > 0.5 * abs(at(part, start)) + 1e-3]
+    return f"{far[0]} is {at(far[0], end)} in the end" if far else ""
