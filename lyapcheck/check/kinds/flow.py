@@ -26,11 +26,11 @@ from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.kinds.stability import ByObligations, all_proved
+from lyapcheck.check.kinds.stability import ByObligations
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import require_distinct
 from lyapcheck.check.statement import Relation, Statement, Total, Variable
-from lyapcheck.check.verify import Accepted, rule
+from lyapcheck.check.verify import Accepted, all_proved, rule
 
 ZERO: Tree = ("num", "0")
 FIXED = ("nearby", "everywhere")
@@ -172,4 +172,4 @@ THEOREMS = {
 def by_obligations(statement: Flow, proof: ByObligations) -> Accepted:
     """Soundness: see above; the constants are positive numbers, without conditions."""
     require(proof.met is None, "conditions", "", "are none here")
-    return all_proved(statement.obligations(), proof)
+    return all_proved(statement.obligations(), proof.proofs, "proofs")
