@@ -82,10 +82,10 @@ _BLANK = "\N{SIX-PER-EM SPACE}"
 
 @cache
 def latex(formula: str) -> Markup:
-    """A formula on a line of its own, from LaTeX."""
+    """A formula on a line of its own, from LaTeX; a wide one is scrolled by keys when it has the focus."""
     from latex2mathml.converter import convert
 
-    return Markup(convert(formula, display="block"))
+    return Markup(convert(formula, display="block").replace("<math ", '<math tabindex="0" ', 1))
 
 
 @cache
