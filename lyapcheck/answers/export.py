@@ -10,17 +10,18 @@ from functools import cached_property, partial
 from hashlib import sha256
 from typing import Any
 
-from lyapcheck import asked, store
+from lyapcheck import store
 from lyapcheck.answers.assumed import assumed_line, file_words
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
+from lyapcheck.answers.running.sampled import largest, question
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.control.conditions import REJECTED, UNDECIDED
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.limits import Limits, limits_for
-from lyapcheck.control.sampled import judged_sampled, largest_period, require_sampled
+from lyapcheck.control.sampled import judged_sampled
 from lyapcheck.control.sampling import LoopRecord, time_text
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
@@ -35,7 +36,6 @@ from lyapcheck.output.fields import Field
 from lyapcheck.output.json import laid_out
 from lyapcheck.promise import Promise, promised, told
 from lyapcheck.robots import RobotModel
-from lyapcheck.robots.dynamics import TooManyTerms
 
 PROOF = "export"
 ROUNDING = (
@@ -307,25 +307,22 @@ def export(
             rule = f"has no bound of rounding: {reason}"
             raise argument_error("gains", gains.name, rule, "choose numbers of a usual size") from None
         (judged,) = gate(replace(gain_file, gains=(gains,)), robot)
-        period = _certified_period(gains, model, limits, loop)
+        period = _certified_period(gains, replace(limits, model=model), loop, gain_file.bounds.viscous_min)
         proofs = {name: one.digest for name, one in certificates([judged]).certificates.items()}
         result.append(Exported(controller, rounding, judged, proofs, controller.texts(), *period))
     return Export(tuple(result), gain_file, model, robot or gain_file.robot or "")
 
 
 def _certified_period(
-    gains: GainSet, model: RobotModel, limits: Limits, loop: LoopRecord
+    gains: GainSet, limits: Limits, loop: LoopRecord, viscous_min: Fraction | None
 ) -> tuple[Promise | None, str]:
     """That the loop is stable at each period up to one just below all that (S) shows; or why it is open."""
-    run = require_sampled(loop)
-    least = [number.bounds[0] for number in model.viscous]
-    conclusion = "goal" if loop.knows_gravity and not model.dry else "rest"
     try:
-        question = asked.sampled(gains, run, least, model, conclusion=conclusion)
-    except TooManyTerms:
-        question = asked.sampled(gains, run, least, None, limits.gravity, conclusion)
-    most = largest_period(question)
+        asked = question(gains, limits, loop, viscous_min)
+    except ValueError as error:
+        return None, str(error)
+    most, _, why = largest(asked, limits.joints)
     if most is None:
-        return None, "L k_v of a joint is not below its friction"
-    question = replace(question, period=significant_down(most * Fraction(9999, 10000), 4))
-    return promised(question, judged_sampled(question))
+        return None, why.removeprefix("(S) shows no period: ")
+    asked = replace(asked, period=significant_down(most[1] * Fraction(9999, 10000), 4))
+    return promised(asked, judged_sampled(asked))

@@ -76,7 +76,7 @@ def test_v_and_its_derivative_are_those_that_the_checker_proves(n):
 @pytest.mark.parametrize("term", range(11))
 def test_a_changed_term_is_found(term, monkeypatch):
     """By SymPy in entries, and by the checker for every n."""
-    from lyapcheck.answers.derive import statements
+    from lyapcheck.answers.derive import rows as statements
 
     right = lyapunov.terms_15
 

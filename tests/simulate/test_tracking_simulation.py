@@ -22,8 +22,7 @@ from lyapcheck.simulate.reference import MinimumJerk, Sine
 from lyapcheck.simulate.results import energies
 from lyapcheck.simulate.run import PromiseBroken
 from lyapcheck.simulate.task import gains_for, set_up
-from lyapcheck.simulate.torque import torque_bounds, tracking_form
-from lyapcheck.simulate.tracking import Tracking, bound_of, track
+from lyapcheck.simulate.tracking import Tracking, bound_of, torque_bounds, track, tracking_form
 from tests.helpers.shares import one_in
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains
