@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from lyapcheck.control.limits import Limits, limits_for
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.export.torque import torque
-    from lyapcheck.family.asymptotes import gamma_less_than
     from lyapcheck.family.base import Family
     from lyapcheck.family.base import named as named_family
+    from lyapcheck.family.members.hyperbolic import gamma_less_than
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
@@ -172,7 +172,7 @@ _HOMES = {
     "epsilon": "answers.epsilon",
     "explain": "answers.explain",
     "export_controller": "tasks",
-    "gamma_less_than": "family.asymptotes",
+    "gamma_less_than": "family.members.hyperbolic",
     "gate": "answers.gate",
     "hyperbolic_constants": "check.numbers.balls",
     "limits_for": "control.limits",

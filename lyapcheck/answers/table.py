@@ -20,7 +20,7 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.control.gains import PRINTED_GAMMA
-from lyapcheck.family.asymptotes import Asymptotes, asymptotes, gamma_less_than
+from lyapcheck.family.members.hyperbolic import gamma_less_than
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import correct_digits, decimals
@@ -33,7 +33,6 @@ LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, n
 CONSTANTS = {"gamma": "γ", "rho": "ρ", "L": "L", "gamma_at": "x of γ", "rho_at": "x of ρ", "L_at": "x of L"}
 ENDS = ("lower", "upper")
 INFINITY, NONE = "∞", "none"
-REST_DIGITS = 6
 
 LIMITS = (
     "For m → ∞: γ → √2, ρ = m − 1/2 + O(1/m), L → √2/asinh 1 = 1.6045…; "
@@ -43,20 +42,7 @@ GROWS = (
     "As m grows h goes flat at 0, like x^(2m−1), and γ rises: less torque near the goal, a slower end, "
     "farther rest under dry friction, and less k_p within (10p); lyapcheck tune ROBOT shows it in runs."
 )
-LEADING = (
-    "Leading terms for m → ∞: γ ~ √2 (1 − (1 + ln 4m)/(4m)), ρ ~ m − 1/2 + 9/(16m), "
-    "L ~ √2/asinh 1 · (1 − κ (1 + ln(m/κ))/m) with κ = (1 + √2/asinh 1)/4."
-)
-
-RESTS = (
-    "Claims that lyapcheck check decides: of every_m.py 3/32 < (γ − leading) m²/(√2 ln² 4m) < 1/6 for all m "
-    "≥ 2, −3/4 < (ρ − leading) m² < 0 for all m ≥ 12; of asymptotics.py for each m both, and 1/5 < (L − "
-    "leading) asinh 1 m²/(√2 ln² 4m) < 1/3."
-)
-
 _GUARD_DIGITS = 6
-_RESTS_DIGITS = 12
-"""More digits still, where the constants are compared with numbers that come close to them."""
 PROOF = "table"
 PRECISIONS = (128, 512, 2048)
 """Bits."""
@@ -83,7 +69,6 @@ class Table(Answer):
         digits: number of printed digits. The enclosures are tighter.
         rows: the constants of each member.
         budget: the largest gains within the torque limits of an arm.
-        asymptotes: the leading terms of each row as m grows.
     """
 
     schema = "lyapcheck/table/1"
@@ -91,12 +76,11 @@ class Table(Answer):
     digits: int
     rows: tuple[Constants, ...]
     budget: Budget | None = None
-    asymptotes: tuple[Asymptotes, ...] | None = None
 
     def document(self) -> Document:
         """What was asked for of the constants, all digits correct; the rest with -v."""
         members = table(self._fields, [(row,) for row in self.rows])
-        first, *others = [one for one in (self._budget(), self._asymptotes(), members) if one is not None]
+        first, *others = [one for one in (self._budget(), members) if one is not None]
         printed = tuple(self._printed())
         return Document(
             TITLE,
@@ -127,47 +111,24 @@ class Table(Answer):
             budget = {
                 limit["joint"]: limit["limit"] or dict.fromkeys(ENDS) for limit in row.pop("budget", [])
             }
-            tails = {
-                f"{name}_{part}": ends
-                for name, parts in row.pop("asymptotics", {}).items()
-                for part, ends in parts.items()
-            }
             slope, _ = row.pop("slope_at_0"), row.pop("gamma_printed")
             ends = {name: dict.fromkeys(ENDS) if value is None else value for name, value in row.items()}
-            rows.append({**ends, **tails, **({"budget": budget} if budget else {}), "slope_at_0": slope})
+            rows.append({**ends, **({"budget": budget} if budget else {}), "slope_at_0": slope})
         return rows
 
     @cached_property
     def _fields(self) -> tuple[Field, ...]:
         """What is said of a member, whatever else was asked."""
 
-        def shown(value: Enclosure | None) -> str:
-            return self._cells(value)[0]
-
-        constants = (Field(key, key, head, shown, self._ends, "l") for key, head in CONSTANTS.items())
+        constants = (Field(key, key, head, self._cell, self._ends, "l") for key, head in CONSTANTS.items())
         slope = Field("slope_at_0", lambda row: str(slope_at_zero(row.m)), "h′(0)", align="l")
         return Field("m", "m", "m"), *constants, slope, Field("gamma_printed", lambda row: _printed(row.m))
-
-    def _asymptotes(self) -> Cells | None:
-        if self.asymptotes is None:
-            return None
-        heads = ("m", *(head for name in "γρL" for head in (f"{name} leading", f"{name} − leading")))
-        rows = []
-        for row, tail in zip(self.rows, self.asymptotes, strict=True):
-            pairs = ((tail.gamma, tail.gamma_rest), (tail.rho, tail.rho_rest), (tail.L, tail.L_rest))
-            cells = [
-                text
-                for leading, rest in pairs
-                for text in (*self._cells(leading), *self._cells(rest, digits=min(self.digits, REST_DIGITS)))
-            ]
-            rows.append((str(row.m), *cells))
-        return Cells(heads, tuple(rows), LEADING, "r" + "l" * 6)
 
     def _budget(self) -> Cells | None:
         if self.budget is None:
             return None
         rows = [
-            (str(row.m), *(NONE if limit is None else self._cells(limit)[0] for limit in limits))
+            (str(row.m), *(NONE if limit is None else self._cell(limit) for limit in limits))
             for row, limits in zip(self.rows, self.budget.rows, strict=True)
         ]
         title = f"Torque budget of {self.budget.robot}: k_p + k_v < (τmax − k_g)/(√n γ), N·m."
@@ -183,23 +144,13 @@ class Table(Answer):
     def _notes(self) -> list[str]:
         """What is proved about large m."""
         grows = [GROWS] if any(row.m > 1 for row in self.rows) else []
-        return [LIMITS, *grows, *([RESTS] if self.asymptotes else [])]
+        return [LIMITS, *grows]
 
-    def _cells(self, *values: Enclosure | None, digits: int | None = None) -> list[str]:
-        shown = self.digits if digits is None else digits
-        return [INFINITY if value is None else correct_digits(value, shown) for value in values]
+    def _cell(self, value: Enclosure | None) -> str:
+        return INFINITY if value is None else correct_digits(value, self.digits)
 
     def _row(self, index: int) -> dict[str, Any]:
         result = data(self._fields, self.rows[index])
-        if self.asymptotes is not None:
-            tail = self.asymptotes[index]
-            result["asymptotics"] = {
-                name: {
-                    "leading": self._ends(getattr(tail, name)),
-                    "rest": self._ends(getattr(tail, f"{name}_rest")),
-                }
-                for name in ("gamma", "rho", "L")
-            }
         if self.budget is not None:
             result["budget"] = [
                 {"joint": joint, "limit": self._ends(limit)}
@@ -215,8 +166,6 @@ def build_table(
     members: Sequence[int],
     digits: int = 30,
     on_progress: Callable[[float, str], None] | None = None,
-    *,
-    with_asymptotes: bool = False,
 ) -> Table:
     """γ_m, ρ_m and L_m of each member, enclosed a few digits tighter than they are shown.
 
@@ -224,7 +173,6 @@ def build_table(
         members: m of each row, at least 1.
         digits: significant digits to show, at least 1; all of them correct.
         on_progress: called with the fraction done (0 to 1) and a note.
-        with_asymptotes: True adds the leading terms as m grows.
 
     Raises:
         ValueError: an m or ``digits`` below 1.
@@ -243,13 +191,11 @@ def build_table(
         Constants of h_m(x) = ...
     """
     rows, step = [], 1 + len(members) // 10
-    exact = digits + _GUARD_DIGITS + (_RESTS_DIGITS if with_asymptotes else 0)
     for done, m in enumerate(members):
         if on_progress and done and done % step == 0:
             on_progress(done / len(members), f"m = {m}")
-        rows.append(hyperbolic_constants(m, exact))
-    tails = tuple(asymptotes(row, exact) for row in rows) if with_asymptotes else None
-    return Table(digits, tuple(rows), asymptotes=tails)
+        rows.append(hyperbolic_constants(m, digits + _GUARD_DIGITS))
+    return Table(digits, tuple(rows))
 
 
 def slope_at_zero(m: int) -> int:

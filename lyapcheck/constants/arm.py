@@ -204,7 +204,7 @@ def _merit(plant: RobotModel, name: str) -> tuple[int, Callable[..., tuple[float
     """1 for a supremum, −1 for an infimum; what is to be small at (q, x), by a size, and its slopes."""
     import casadi as ca
 
-    from lyapcheck.robots import graph
+    from lyapcheck.lyapunov import graph
 
     n = plant.n
     z = ca.SX.sym("z", 2 * n)

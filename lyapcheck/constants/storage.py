@@ -189,9 +189,7 @@ def rate_bounds(links: tuple[RigidLink, ...]) -> RateBounds | None:
     chain = Chain(links, (Fraction(0),) * 3)
     rates = []
     for joint in range(1, chain.n):
-        shown = prices_shown(
-            [rate_problem(chain, joint, sign) for sign in (1, -1)], np.ones(chain.n), (1.0,) * chain.n
-        )
+        shown = prices_shown([rate_problem(chain, joint, sign) for sign in (1, -1)], np.ones(chain.n))
         if shown is None:
             return None
         rates.append(shown)
@@ -199,18 +197,17 @@ def rate_bounds(links: tuple[RigidLink, ...]) -> RateBounds | None:
 
 
 def prices_shown(
-    problems: Sequence[StorageProblem], weight: Array, share: Sequence[float], most: float | None = None
+    problems: Sequence[StorageProblem], weight: Array, most: float | None = None
 ) -> Shown | None:
-    """Prices κ_k with a small Σ κ_k share_k/weight_k, and forms for each problem that show them.
+    """Prices κ_k with a small Σ κ_k/weight_k, and forms for each problem that show them.
 
     Args:
         problems: costs along chains of n links.
         weight: of the prices, (n,).
-        share: what a κ_k/weight_k costs.
-        most: what no κ_k/weight_k is to exceed, times share_k.
+        most: what no κ_k/weight_k is to exceed.
     """
     for margin in _RATES_MARGINS:
-        result = propose(problems, margin, np.diag(weight / share), most)
+        result = propose(problems, margin, np.diag(weight), most)
         if result is None:
             continue
         kappa, coefficients = result

@@ -21,8 +21,8 @@ import casadi as ca
 import numpy as np
 
 from lyapcheck._types import Array
+from lyapcheck.lyapunov import graph
 from lyapcheck.lyapunov.graph import at_symbols, lyapunov_graph
-from lyapcheck.robots import graph
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.sample import States, fastest_directions, quadratic
 

@@ -16,7 +16,7 @@ from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError, argument_error, argument_problem
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import VELOCITIES
-from lyapcheck.robots import graph
+from lyapcheck.lyapunov import graph
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import PAYLOAD, Vary, varied

@@ -14,9 +14,9 @@ import numpy as np
 
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
+from lyapcheck.lyapunov import graph
 from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.robots import graph
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.breach import (
     Monitor,

@@ -327,7 +327,7 @@ def tracking_loop(gains: Gains, model: RobotModel) -> Loop:
 
     References: (1), (21) of ``reyes2019family``.
     """
-    from lyapcheck.robots import graph
+    from lyapcheck.lyapunov import graph
 
     n = model.n
     state, reference = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("r", 3 * n)

@@ -18,8 +18,6 @@ from lyapcheck.check.numbers.balls import precision
 from lyapcheck.cli.values import parse_m
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
-from lyapcheck.output.formats import Format
-from lyapcheck.output.text import Depth, View
 from tests.helpers.command import invoke
 from tests.oracle.numbers import supremum
 
@@ -147,59 +145,8 @@ def dh(m, x):
     return top / (1 + s ** (2 * m)) ** 2
 
 
-MEMBERS = (1, 2, 3, 40, 1000)
-
-
 def run(*arguments):
     return invoke("table", *arguments)
-
-
-@pytest.fixture(scope="module")
-def tails():
-    return build_table(MEMBERS, 25, with_asymptotes=True)
-
-
-def leading(m):
-    """As the notes under the table print them."""
-    root, log = mpmath.sqrt(2), mpmath.log
-    limit = root / mpmath.asinh(1)
-    kappa = (1 + limit) / 4
-    return {
-        "gamma": root * (1 - (1 + log(4 * m)) / (4 * m)),
-        "rho": m - mpmath.mpf(1) / 2 + mpmath.mpf(9) / (16 * m),
-        "L": limit * (1 - kappa * (1 + log(m / kappa)) / m),
-    }
-
-
-def test_leading_terms_and_rests_are_enclosed(tails):
-    rows = json.loads(tails.written("json"))["rows"]
-    with mpmath.workdps(45):
-        for row in rows:
-            for name, value in leading(row["m"]).items():
-                low, high = (
-                    mpmath.mpf(row["asymptotics"][name]["leading"][end]) for end in ("lower", "upper")
-                )
-                assert low <= value <= high
-                assert high - low < mpmath.mpf(10) ** -21
-                least, most = (
-                    mpmath.mpf(row["asymptotics"][name]["rest"][end]) for end in ("lower", "upper")
-                )
-                assert least <= mpmath.mpf(row[name]["upper"]) - value
-                assert mpmath.mpf(row[name]["lower"]) - value <= most
-
-
-def test_the_rests_shrink_as_fast_as_is_said():
-    """Ten times m: that of ρ a hundredth, those of γ and L a hundredth but for the logarithms."""
-    one, ten = build_table((1000, 10_000), 30, with_asymptotes=True).asymptotes
-    for name, most in (("gamma_rest", 60), ("rho_rest", 99), ("L_rest", 60)):
-        ratio = float(getattr(one, name).mid / getattr(ten, name).mid)
-        assert most < ratio < 101
-
-
-def test_a_leading_term_of_another_rate_would_be_noticed(tails):
-    """Without 9/(16m) the rest of ρ at m = 1000 would be 750 times as large."""
-    rest = tails.asymptotes[-1].rho_rest
-    assert abs(float(rest.mid)) < 1e-6 < 9 / 16_000 - 1e-6
 
 
 def test_the_slope_at_0_is_that_of_the_symbolic_derivative():
@@ -215,21 +162,6 @@ def test_the_slope_at_0_is_that_of_the_symbolic_derivative():
 def symbolic_slope(sp, m, x):
     s = sp.sinh(x)
     return sp.diff(s ** (2 * m - 1) * sp.cosh(x) / (1 + s ** (2 * m)), x).subs(x, 0)
-
-
-@pytest.mark.parametrize("name", Format)
-def test_every_format_shows_the_leading_terms(name, tails):
-    plain, full = (one.written(name, View(Depth.EXPLAINED)) for one in (build_table(MEMBERS, 25), tails))
-    assert len(full) > 1.3 * len(plain)
-    assert "39.5140625" in full
-    assert "39.5140625" not in plain
-
-
-def test_csv_has_both_ends_of_every_rest(tails):
-    rows = list(csv.DictReader(io.StringIO(tails.written("csv"))))
-    for row in rows:
-        assert Fraction(row["gamma_rest_lower"]) <= Fraction(row["gamma_rest_upper"])
-        assert Fraction(row["rho_rest_upper"]) < 0 < Fraction(row["L_rest_lower"])
 
 
 def test_printing_a_table_prints_what_the_command_prints():

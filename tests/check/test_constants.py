@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from lyapcheck.check.numbers.balls import bracketed_root, hyperbolic_constants, peak_of_h
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.asymptotes import gamma_less_than
+from lyapcheck.family.members.hyperbolic import gamma_less_than
 
 
 @pytest.fixture(autouse=True)
@@ -66,7 +66,7 @@ def test_gamma_less_than_decides_however_close_the_bound_is(m, exponent, sign):
 
 def test_equality_is_recognised_by_a_common_positive_root():
     """γ_m² is irrational for the m tried, so equality is planted: R vanishes at the peak of a stand-in."""
-    from lyapcheck.family import asymptotes as compared
+    from lyapcheck.family.members import hyperbolic as compared
 
     assert compared._has_positive_root(compared.fmpq_poly([-2, 0, 1]))
     assert not compared._has_positive_root(compared.fmpq_poly([1, 1]))

@@ -21,8 +21,7 @@ from lyapcheck.control.gains import read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, unphysical
-from lyapcheck.search.error_boxes import ErrorBoxes
-from lyapcheck.search.link_bounds import link_bounds, linked_proof
+from lyapcheck.search.link_bounds import ErrorBoxes, link_bounds, linked_proof
 from lyapcheck.search.sample import quadratic, sample
 from tests.helpers.shares import but
 

@@ -10,7 +10,7 @@ from flint import arb
 from lyapcheck import robots
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.errors import InputError
-from lyapcheck.robots import graph
+from lyapcheck.lyapunov import graph
 from lyapcheck.robots.dynamics import Chain, TooManyTerms
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.interval import Interval, cosine, sine

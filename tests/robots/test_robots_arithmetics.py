@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
-from lyapcheck.robots import graph
+from lyapcheck.lyapunov import graph
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.robot_cases import BUILT_IN
 

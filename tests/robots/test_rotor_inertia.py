@@ -19,7 +19,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.constants.arm import chain_constant
 from lyapcheck.errors import InputError
-from lyapcheck.robots import graph
+from lyapcheck.lyapunov import graph
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.urdf_texts import generic
 

@@ -107,7 +107,7 @@ def test_dV_is_the_derivative_of_V_along_the_motion(eps0):
     """By automatic differentiation of V of (12) along the graph of (11), not by the formula that is used."""
     import casadi as ca
 
-    from lyapcheck.robots import graph
+    from lyapcheck.lyapunov import graph
 
     model, gain_set = robots.load("buap3"), TABLE2[2]
     run = paper_run(gain_set, eps0)

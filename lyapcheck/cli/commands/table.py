@@ -25,8 +25,6 @@ def arguments(parser: Parser) -> None:
     parser.add_number("--digits", int, "Significant digits.", default=30)
     about = "Add the largest k_p + k_v that the motors of this arm allow, for each joint."
     add_robot(parser, about)
-    about = "Add the leading terms for m → ∞ and the remainders."
-    parser.add_argument("--asymptotics", action="store_true", help=about)
     add_certificates(parser, "Write the certificates of γ and ρ to this folder")
     add_format(parser, Format)
 
@@ -35,7 +33,6 @@ def run(
     m: str,
     digits: int,
     robot: str | None,
-    asymptotics: bool,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -55,7 +52,7 @@ def run(
 
     proofs = None if certificates is None else open_folder("--certificates", certificates)
     with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
-        table = build_table(members, digits, advance, with_asymptotes=asymptotics)
+        table = build_table(members, digits, advance)
     if robot is not None:
         from dataclasses import replace
 
