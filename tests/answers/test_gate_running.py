@@ -23,6 +23,7 @@ from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, varied
+from tests.helpers.arm_texts import arm_of
 from tests.helpers.command import invoke
 from tests.helpers.words_of_proof import left_over
 
@@ -184,10 +185,8 @@ def test_two_kilograms_that_the_controller_does_not_know(name: str, falls: set[i
 
 def pendulum(folder: Path, m: int, kp: str) -> Path:
     """Its link of 1 m has its centre of mass at the end."""
-    (folder / "arm.toml").write_text(
-        'title = "Pendulum"\ngravity = [0, 0, -10]\n[[links]]\nname = "pivot"\naxis = [0, 1, 0]\n'
-        "origin = [0, 0, 0]\nmass = 1\ncom = [0, 0, -1]\ninertia = 1\nviscous = 1\ntorque_limit = 100\n"
-    )
+    link = ("pivot", (0, 1, 0), (0, 0, 0), 1, (0, 0, -1), 1, 1, {"torque_limit": 100})
+    (folder / "arm.toml").write_text(arm_of(link, gravity=(0, 0, -10)))
     file = folder / "gains.toml"
     file.write_text(f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = {m}\nkp = [{kp}]\nkv = [0.1]\n')
     return file

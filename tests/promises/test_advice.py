@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.robots import load, names
+from tests.helpers.arm_texts import ONE_JOINT
 from tests.promises.draws import FAMILIES, arms, asked, drawn, invoke, near_the_border, results, shares
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -170,9 +171,7 @@ def test_what_tune_advises_leaves_gains(arm, words, advice, option):
 
 
 def test_tune_names_targets_where_there_is_no_friction(tmp_path):
-    joint = "axis = [0, 0, 1]\norigin = [0, 0, 0]\nmass = 1\ncom = [0.3, 0, 0]\ninertia = 0.1\n"
-    head = 'title = "x"\ngravity = [0, -9.81, 0]\n[[links]]\nname = "j1"\n'
-    text = f"{head}{joint}viscous = 0\ntorque_limit = 20\n"
+    text = ONE_JOINT.format(viscous=0, torque=20, more="")
     (tmp_path / "arm.toml").write_text(text, encoding="utf-8")
     words, out = ["tune", str(tmp_path / "arm.toml"), "--m", "1"], tmp_path / "gains.toml"
     assert "give targets, such as --overshoot 5" in text_of(words)

@@ -25,17 +25,17 @@ from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.decision import Decision
 from lyapcheck.control.conditions import Check
-from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
+from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
-from lyapcheck.report.build import build, render, write
+from lyapcheck.report.build import write
 from lyapcheck.report.document import evidence
 from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import done
-from lyapcheck.report.model import ClaimRow, EpsilonRow, RunRow, Subject, anchor, applies, published_notes
+from lyapcheck.report.model import ClaimRow, EpsilonRow, RunRow, anchor, applies, published_notes
 from lyapcheck.report.page import LETTERS, graph, layout, tied
 from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.text import span_words, witness_words
@@ -237,20 +237,6 @@ def epsilon_row(**about):
 )
 def test_published_epsilons_are_held_against_the_others(row, count):
     assert len(findings(NOTES, [], [row])) == count
-
-
-@pytest.mark.slow
-def test_a_report_on_ones_own_gains_is_about_these_alone(tmp_path):
-    path = tmp_path / "mine.toml"
-    path.write_text('robot = "pendulum1"\n[[gains]]\nname = "mine"\nm = 2\nkp = [3]\nkv = [0.2]\n')
-    own = build(Subject("pendulum1", (2,), (read_gain_file(path),), own=True))
-    page = str(render(own, ("html",))["index.html"])
-    assert not {row.id for row in own.claims} & {"16", "P", "T1.torque.m1.base"}
-    assert {row.id for row in own.claims} >= {"2.1", "10p.gains", "19.gains"}
-    assert [badge.subject for badge in badges(own)] == ["mine"]
-    assert own.versions.keys() >= {"lyapcheck", "casadi", "numpy", "python-flint"}
-    assert "printed proof" not in page.casefold()
-    assert all(text not in page for text in ("Fig. 4", "Table 2 "))
 
 
 def test_a_report_names_the_packages_that_its_computations_loaded():

@@ -14,6 +14,7 @@ from lyapcheck.lyapunov import graph
 from lyapcheck.robots.dynamics import Chain, TooManyTerms
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.interval import Interval, cosine, sine
+from tests.helpers.arm_texts import arm_of
 from tests.helpers.robot_cases import circle
 from tests.helpers.urdf_texts import generic
 
@@ -96,15 +97,15 @@ def test_doubles_and_graphs_agree_with_balls(arm):
 
 def test_parameters_enter_along_the_links_as_in_the_polynomials(tmp_path):
     """Four joints, the mass and the inertia of the last one uncertain."""
-    link = (
-        '[[links]]\nname = "j{}"\naxis = [{}]\norigin = [0.1, 0.2, 0.3]\nmass = {}\n'
-        "com = [0.1, 0, 0.2]\ninertia = {{ ixx = {}, iyy = 0.3, izz = 0.2 }}\nviscous = 1\n"
-    )
-    ranged = "{ value = 2, low = 1, high = 3 }", "{ value = 0.3, low = 0.25, high = 0.35 }"
-    axes = ("0, 0, 1", "0, 1, 0", "0.6, 0.8, 0", "1, 0, 0")
-    links = [link.format(k, axis, *(("1", "0.3") if k < 3 else ranged)) for k, axis in enumerate(axes)]
+    ranged = {"value": 2, "low": 1, "high": 3}, {"value": 0.3, "low": 0.25, "high": 0.35}
+    links = [
+        (f"j{k}", axis, (0.1, 0.2, 0.3), mass, (0.1, 0, 0.2), {"ixx": ixx, "iyy": 0.3, "izz": 0.2}, 1)
+        for k, (axis, (mass, ixx)) in enumerate(
+            zip(((0, 0, 1), (0, 1, 0), (0.6, 0.8, 0), (1, 0, 0)), (*[(1, 0.3)] * 3, ranged), strict=True)
+        )
+    ]
     file = tmp_path / "arm.toml"
-    file.write_text('title = "four"\nsource = "a test"\ngravity = [0, 0, -9.81]\n' + "".join(links))
+    file.write_text(arm_of(*links))
     arm = robots.load(file)
     assert set(arm.parameters) == {"j3_mass", "j3_ixx"}
     sin, cos = zip(*(circle(Fraction(k - 2, 3)) for k in range(4)), strict=True)

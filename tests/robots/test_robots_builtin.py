@@ -8,29 +8,10 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots.bodies import impossible_state
+from tests.helpers.arm_texts import PLANAR, arm_of
 from tests.helpers.robot_cases import BUILT_IN
 
 F = Fraction
-LINKS = """
-title = "two-joint arm from its links"
-gravity = [0, -9.81, 0]
-[[links]]
-name = "shoulder"
-axis = [0, 0, 1]
-origin = [0, 0, 0]
-com = [0, -0.091, 0]
-mass = 23.902
-inertia = 1.266
-viscous = 2.288
-[[links]]
-name = "elbow"
-axis = [0, 0, 1]
-origin = [0, -0.45, 0]
-com = [0, -0.048, 0]
-mass = 3.880
-inertia = 0.093
-viscous = 0.175
-"""
 
 
 def at_rest(n):
@@ -123,7 +104,7 @@ def test_two_joint_arm_is_the_print():
 def test_two_joint_print_agrees_with_its_links(tmp_path):
     """Each printed coefficient is the one of the links to less than one unit of its last digit."""
     file = tmp_path / "links.toml"
-    file.write_text(LINKS)
+    file.write_text(PLANAR)
     derived, printed = robots.load(file), robots.load("reyes-kelly2")
     unit = F("0.001")
     for row, print_row in zip(derived.mass, printed.mass, strict=True):
@@ -153,34 +134,11 @@ def test_paper_arm_inertia_is_a_chain_of_slender_links(tmp_path):
     assert robots.load(file).mass == robots.load("buap3").fixed().mass
 
 
-SLENDER = """
-title = "base and two slender links"
-gravity = [0, 0, -9.81]
-[[links]]
-name = "base"
-axis = [0, 0, 1]
-origin = [0, 0, 0]
-com = [0, 0, 0]
-mass = 1
-inertia = { ixx = 0.5, iyy = 0.5, izz = 0.5 }
-viscous = 1
-[[links]]
-name = "shoulder"
-axis = [0, -1, 0]
-origin = [0, 0, 0]
-com = [0, 0, -0.091]
-mass = 23.902
-inertia = { ixx = 1.266, iyy = 1.266, izz = 0 }
-viscous = 1
-[[links]]
-name = "elbow"
-axis = [0, -1, 0]
-origin = [0, 0, -0.45]
-com = [0, 0, -0.048]
-mass = 3.880
-inertia = { ixx = 0.093, iyy = 0.093, izz = 0 }
-viscous = 1
-"""
+SLENDER = arm_of(
+    ("base", (0, 0, 1), (0, 0, 0), 1, (0, 0, 0), {"ixx": 0.5, "iyy": 0.5, "izz": 0.5}, 1),
+    ("shoulder", (0, -1, 0), (0, 0, 0), 23.902, (0, 0, -0.091), {"ixx": 1.266, "iyy": 1.266, "izz": 0}, 1),
+    ("elbow", (0, -1, 0), (0, 0, -0.45), 3.880, (0, 0, -0.048), {"ixx": 0.093, "iyy": 0.093, "izz": 0}, 1),
+)
 
 
 def test_pendulum_swings_at_the_textbook_period():

@@ -27,40 +27,19 @@ from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.verdicts import Verdict
+from tests.helpers import arm_texts
 from tests.helpers.shares import but
 from tests.helpers.urdf_texts import ARMS, generic
 
-LEANING = """
-title = "three joints, no two of them parallel, one upside down"
-gravity = [0, 0, -9.81]
-
-[[links]]
-name = "first"
-axis = [0, 0, -1]
-origin = [0.1, 0, 0.2]
-viscous = 1
-mass = 2
-com = [0.05, 0.1, -0.2]
-inertia = { ixx = 0.03, iyy = 0.04, izz = 0.05, ixy = 0.01, iyz = -0.01 }
-
-[[links]]
-name = "second"
-axis = [0.6, 0, 0.8]
-origin = [0.3, 0.1, 0]
-viscous = 1
-mass = 1.5
-com = [0.2, -0.05, 0.1]
-inertia = { ixx = 0.02, iyy = 0.03, izz = 0.025, ixz = 0.005 }
-
-[[links]]
-name = "third"
-axis = [0.48, 0.6, 0.64]
-origin = [0, 0.4, 0.1]
-viscous = 1
-mass = 0.7
-com = [0.1, 0.1, 0.3]
-inertia = { ixx = 0.004, iyy = 0.005, izz = 0.006 }
-"""
+FIRST = {"ixx": 0.03, "iyy": 0.04, "izz": 0.05, "ixy": 0.01, "iyz": -0.01}
+SECOND = {"ixx": 0.02, "iyy": 0.03, "izz": 0.025, "ixz": 0.005}
+THIRD = {"ixx": 0.004, "iyy": 0.005, "izz": 0.006}
+LEANING = arm_texts.arm_of(
+    ("first", (0, 0, -1), (0.1, 0, 0.2), 2, (0.05, 0.1, -0.2), FIRST, 1),
+    ("second", (0.6, 0, 0.8), (0.3, 0.1, 0), 1.5, (0.2, -0.05, 0.1), SECOND, 1),
+    ("third", (0.48, 0.6, 0.64), (0, 0.4, 0.1), 0.7, (0.1, 0.1, 0.3), THIRD, 1),
+)
+"""No two of the joints are parallel, and one is upside down."""
 
 
 def arm_of(name, folder):
@@ -137,8 +116,8 @@ def test_no_state_lies_outside_and_some_come_close(name, tmp_path):
 def test_one_joint_has_its_moment_and_its_weight(tmp_path):
     """I + m l² and m g l."""
     file = tmp_path / "one.toml"
-    link = "mass = 2\nviscous = 1\naxis = [0, 1, 0]\norigin = [0, 0, 0]\ncom = [0.5, 0, 0]\ninertia = 0.1"
-    file.write_text(f'title = "one"\ngravity = [0, 0, -10]\n[[links]]\nname = "a"\n{link}\n')
+    link = ("a", (0, 1, 0), (0, 0, 0), 2, (0.5, 0, 0), 0.1, 1)
+    file.write_text(arm_texts.arm_of(link, gravity=(0, 0, -10)))
     chain = load(file).chain
     result = {name: storage_proof(chain, name).bound for name in ("lambda_min", "lambda_max", "k_g1")}
     assert float(result["lambda_min"]) == pytest.approx(0.6, rel=1e-6)

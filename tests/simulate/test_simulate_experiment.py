@@ -19,6 +19,7 @@ from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, set_up
 from lyapcheck.simulate.trial import experiment
+from tests.helpers.arm_texts import arm_of
 from tests.helpers.shares import but, one_in
 
 TABLE2 = (
@@ -92,30 +93,11 @@ def test_the_published_experiment_is_resolved(gain_set):
     assert any("2.5 ms" in note for note in run.notes)
 
 
-STIFF = """
-title = "A wrist of 1e-5 kg·m² on an arm of 0.02 kg·m²"
-gravity = [0, 0, -9.81]
-
-[[links]]
-name = "arm"
-axis = [0, 1, 0]
-origin = [0, 0, 0]
-mass = 1
-com = [0, 0, -0.1]
-inertia = 0.01
-viscous = 1
-coulomb = 1
-
-[[links]]
-name = "wrist"
-axis = [0, 1, 0]
-origin = [0, 0, -0.3]
-mass = 0.1
-com = [0, 0, -0.001]
-inertia = 1e-5
-viscous = 0.02
-coulomb = 0.1
-"""
+STIFF = arm_of(
+    ("arm", (0, 1, 0), (0, 0, 0), 1, (0, 0, -0.1), 0.01, 1, {"coulomb": 1}),
+    ("wrist", (0, 1, 0), (0, 0, -0.3), 0.1, (0, 0, -0.001), 1e-5, 0.02, {"coulomb": 0.1}),
+)
+"""A wrist of 1e-5 kg·m² on an arm of 0.02 kg·m²."""
 
 
 @pytest.mark.slow
