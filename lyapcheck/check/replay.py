@@ -1,4 +1,4 @@
-"""Points at which a statement fails, replayed in balls.
+"""Points at which a statement fails, replayed in balls, and exactly where these do not decide.
 
 References: ``johansson2017arb``.
 """
@@ -16,7 +16,6 @@ from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.expressions.signs import require_defined_at
 from lyapcheck.check.expressions.text import expression_text, number_text
-from lyapcheck.check.numbers.polynomials import ball_of
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import OfTerms, Point, Relation, Variable, Witness
 from lyapcheck.check.verify import Accepted, rule
@@ -83,9 +82,8 @@ def require_failure(
         require_defined_at(left, point)
         require_defined_at(right, point)
     with ctx.workprec(require_bits(bits)):
-        balls = {name: ball_of(value) for name, value in point.items()}
-        met = all(holds(hypothesis, balls) is True for hypothesis in hypotheses)
-        fails = met and holds(conclusion, balls) is False
+        met = all(holds(hypothesis, point) is True for hypothesis in hypotheses)
+        fails = met and holds(conclusion, point) is False
     shown = ", ".join(f"{name} = {value}" for name, value in point.items())
     require(fails, "point", shown, "is not shown to break the statement")
 

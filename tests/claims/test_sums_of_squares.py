@@ -67,6 +67,7 @@ TEXTBOOK = {
 PLANTED = {
     "the origin": implies(OF_REALS, [], x**2 - x * y + y**2 > 0),
     "the border of a half-plane": implies(OF_REALS, [x + y >= 1], x**2 + y**2 > expr("1/2")),
+    "thirds": implies(reals("a", "b", "c"), [a + b + c >= 1], a**2 + b**2 + c**2 > expr("1/3")),
     "equal numbers": implies(positive("a", "b", "c"), [], a**3 + b**3 + c**3 > 3 * a * b * c),
     "Motzkin": implies(OF_REALS, [], x**4 * y**2 + x**2 * y**4 + 1 > 3 * x**2 * y**2),
     "beyond": implies(OF_REALS, [], x**2 - expr("2.000001") * x * y + y**2 >= 0),

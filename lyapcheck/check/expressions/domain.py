@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import arb
+from flint import arb, fmpq
 
-from lyapcheck.check.expressions.expression import Tree, ball
+from lyapcheck.check.expressions.expression import ExactAlgebra, Tree, Unsupported, ball, evaluate
+from lyapcheck.check.numbers.polynomials import ball_of, rational
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,7 @@ POSITIVE = Interval(low=Fraction(0), open_low=True)
 NONNEGATIVE = Interval(low=Fraction(0))
 
 
-# --- Whether a comparison holds at a point, or fails there, in balls.
+# --- Whether a comparison holds at a point, or fails there, in balls, or exactly where they touch.
 #
 # References: ``johansson2017arb``.
 
@@ -50,16 +52,22 @@ Comparison = tuple[Tree, str, Tree]
 """``left operator right`` with the operator ``<=``, ``<`` or ``=``."""
 
 
-def holds(comparison: Comparison, point: Mapping[str, arb]) -> bool | None:
-    """Whether a comparison holds at a point; ``None`` where the balls do not decide it."""
+def holds(comparison: Comparison, point: Mapping[str, Fraction]) -> bool | None:
+    """Whether a comparison holds at a point; ``None`` where neither balls nor rational numbers decide it."""
     left, operator, right = comparison
-    return sign_holds(ball(right, point) - ball(left, point), operator)
+    balls = {name: ball_of(value) for name, value in point.items()}
+    result = sign_holds(ball(right, balls) - ball(left, balls), operator)
+    if result is None:
+        with suppress(Unsupported, ZeroDivisionError):
+            exact = {name: rational(value) for name, value in point.items()}
+            return sign_holds(evaluate(("add", right, ("neg", left)), exact, ExactAlgebra()), operator)
+    return result
 
 
-def sign_holds(gap: arb, operator: str) -> bool | None:
+def sign_holds(gap: arb | fmpq, operator: str) -> bool | None:
     """Whether a comparison holds whose sides differ by a gap; ``None`` where its ball does not decide it."""
     if operator == "=":
-        return False if gap > 0 or gap < 0 else True if gap.is_zero() else None
+        return False if gap > 0 or gap < 0 else True if gap == 0 else None
     strict = operator == "<"
     if gap > 0 or (not strict and gap >= 0):
         return True

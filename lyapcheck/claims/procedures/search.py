@@ -78,10 +78,10 @@ def doubtful(claim: Comparison, points: Sequence[Point]) -> list[Point]:
 def broken_sides(claim: Comparison, point: Point, hypotheses: Sequence[Comparison] = ()) -> Sides | None:
     """Both sides of a relation, if the point provably meets the hypotheses and breaks it."""
     with ctx.workprec(BITS):
-        balls = {name: ball_of(value) for name, value in point.items()}
-        met = all(holds(hypothesis, balls) is True for hypothesis in hypotheses)
-        if not met or holds(claim, balls) is not False:
+        met = all(holds(hypothesis, point) is True for hypothesis in hypotheses)
+        if not met or holds(claim, point) is not False:
             return None
+        balls = {name: ball_of(value) for name, value in point.items()}
         return Sides(*(Enclosure.from_arb(ball(side, balls)) for side in (claim[0], claim[2])))
 
 
