@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations, combinations_with_replacement, product
 from math import log2
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +37,7 @@ DENOMINATORS = (1, 2, 12, 120, 2520, 10**5, 10**7, 10**9)
 NO_MARGIN, INFEASIBLE = 1e-5, -1e-4
 DUAL, SMALL = (1e-2, 1e-4, 1e-6), (1e-5, 1e-3)
 """Where no margin is left, kernels belong to eigenvalues of the dual matrices above, or of G below."""
-KERNEL_DENOMINATOR = 60
+KERNEL_DENOMINATORS = 60, 400
 FACES, PROGRAMS = 4, 20
 """How often kernels are taken out, and how many programs are solved for a statement."""
 MOST_UNKNOWNS, MOST_ENTRIES = 2_500, 40
@@ -166,9 +166,11 @@ class _Search:
             return
         tried = [[block.vector for block in blocks]]
         negated = [-matrix for matrix in matrices]
-        for of, bound in (*((duals, bound) for bound in DUAL), *((negated, -bound) for bound in SMALL)):
+        choices = [*((duals, bound) for bound in DUAL), *((negated, -bound) for bound in SMALL)]
+        for (of, bound), denominator in product(choices, KERNEL_DENOMINATORS):
             kernels = [_eigenvectors(one, bound) for one in of]
-            vectors = [_without(block.vector, one) for block, one in zip(blocks, kernels, strict=True)]
+            pairs = zip(blocks, kernels, strict=True)
+            vectors = [_without(block.vector, one, denominator) for block, one in pairs]
             if vectors not in tried:
                 tried.append(vectors)
                 smaller = [replace(b, vector=left) for b, left in zip(blocks, vectors, strict=True) if left]
@@ -304,7 +306,7 @@ def _eigenvectors(matrix: Array, bound: float) -> Array:
     return np.array(vectors[:, values > bound].T)
 
 
-def _without(vector: Vector, kernel: Array) -> Vector:
+def _without(vector: Vector, kernel: Array, denominator: int) -> Vector:
     """What is left of a vector if the kernel of its matrix, rounded to short rationals, is taken out."""
     pivots: list[int] = []
     for r in range(len(kernel)):
@@ -317,7 +319,7 @@ def _without(vector: Vector, kernel: Array) -> Vector:
         pivots.append(column)
     result = []
     for column in (c for c in range(len(vector)) if c not in pivots):
-        short = (Fraction(float(x)).limit_denominator(KERNEL_DENOMINATOR) for x in kernel[:, column])
+        short = (Fraction(float(x)).limit_denominator(denominator) for x in kernel[:, column])
         taken = (vector[pivot] * rational(x) for pivot, x in zip(pivots, short, strict=True))
         result.append(vector[column] - sum(taken))
     return tuple(result)
