@@ -60,9 +60,9 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     (proofs, by_size), *parts, derived = (job.result().result for job in jobs)
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
-    for made in [*(one.certificates for one in proofs), *(part.certificates for part in parts)]:
+    for made in [*(made for _, made in proofs), *(part.certificates for part in parts)]:
         certificates |= made
-    rows = [row for part in proofs for row in part.rows]
+    rows = [row for some, _ in proofs for row in some]
     if subject.own:
         known = {row.certificate for row in rows}
         rows, fresh = as_the_gate_judges(rows, gate)

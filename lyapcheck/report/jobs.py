@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from fractions import Fraction
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,12 +48,8 @@ SHOWN = 6
 """Significant digits of what floating point computes."""
 
 
-@dataclass(frozen=True)
-class ProofData:
-    """The claims of a proof, row by row, and the certificates behind them by their paths in a report."""
-
-    rows: tuple[ClaimRow, ...]
-    certificates: Mapping[str, str]
+Claims = tuple[list[ClaimRow], dict[str, str]]
+"""The claims of a proof, row by row, and the certificates behind them by their paths in a report."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +78,7 @@ def done(work: Callable[..., Any], *arguments: Any) -> Done:
 
 def _claims(
     proof: str, ms: Sequence[int], robot: str, gains: GainFile, only: Sequence[str] = (), more: bool = False
-) -> ProofData:
+) -> Claims:
     """The claims of a proof, with what their verdicts rest on.
 
     Args:
@@ -108,10 +103,10 @@ def _claims(
         certificate = result.certificates.get(own := file_name(row.id, row.m))
         digest = certificate.digest if certificate else None
         rows.append(ClaimRow.of(row, result.name, result.title, paths.get(own), digest, name))
-    return ProofData(tuple(rows), {path: result.certificates[own].text() for own, path in paths.items()})
+    return rows, {path: result.certificates[own].text() for own, path in paths.items()}
 
 
-def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only: Sequence[str]) -> ProofData:
+def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only: Sequence[str]) -> Claims:
     """Some claims of a proof; those about gains for each gain set of an m, one set of each m at a time."""
     left = [one for one in gains.gains if one.m in ms]
     rows: list[ClaimRow] = []
@@ -121,16 +116,15 @@ def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only
         left = [one for one in left if one not in turn]
         asked = ms if not rows else [one.m for one in turn if one.m is not None]
         file = replace(gains, gains=tuple(turn) or gains.gains)
-        part = _claims(proof, asked, robot, file, only, more=bool(rows))
-        rows += part.rows
-        certificates |= part.certificates
+        fresh, made = _claims(proof, asked, robot, file, only, more=bool(rows))
+        rows, certificates = rows + fresh, certificates | made
     order = list(dict.fromkeys(row.id for row in rows))
-    return ProofData(tuple(sorted(rows, key=lambda row: order.index(row.id))), certificates)
+    return sorted(rows, key=lambda row: order.index(row.id)), certificates
 
 
 def proofs_job(
     ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool
-) -> tuple[list[ProofData], tuple[BySize, ...]]:
+) -> tuple[list[Claims], tuple[BySize, ...]]:
     """Every claim, those of the paper first.
 
     About an arm of one's own: only proofs that say something about it, and nothing about the paper.
@@ -144,7 +138,7 @@ def proofs_job(
         chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
         return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], ()
     proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
-    return proofs, _by_size(proofs[0].rows, ms)
+    return proofs, _by_size(proofs[0][0], ms)
 
 
 def _by_size(rows: Sequence[ClaimRow], ms: Sequence[int]) -> tuple[BySize, ...]:
@@ -157,100 +151,74 @@ def _by_size(rows: Sequence[ClaimRow], ms: Sequence[int]) -> tuple[BySize, ...]:
     for n in SIZES:
         for row in run_proof(PROOF, ms, n=n, only=only).claims:
             found.setdefault((row.id, row.m), {})[n] = row
-    changing = {
-        key: sizes for key, sizes in found.items() if len({row.verdict for row in sizes.values()}) > 1
-    }
     return tuple(
         BySize(claim, m, sizes[SIZES[0]].comment, {n: row.decision for n, row in sizes.items()})
-        for (claim, m), sizes in changing.items()
+        for (claim, m), sizes in found.items()
+        if len({row.verdict for row in sizes.values()}) > 1
     )
 
 
 def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     """The four ε₀ of one gain set, and the reference simulation."""
     from lyapcheck.answers.gate.friction import rest_errors
+    from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.robots import load
+    from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.task import PAPER_TASK
 
     gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
     model = load(robot)
     row, files = _epsilon(gain_set, model, seed)
-    eps0 = float(row.certified or row.scalar or 0.0)
-    run = _simulated(gain_set, model, eps0)
+    # the paper's experiment if the arm has its three joints, else a step of 45° in every joint
+    paper = (PAPER_TASK.q_d, PAPER_TASK.q0, PAPER_TASK.w0, PAPER_TASK.T)
+    task = paper if model.n == len(PAPER_TASK.q_d) else ([REST] * model.n,)
+    run = simulate(gain_set, model, *task, eps0=float(row.certified or row.scalar or 0.0), stop=False)
     errors = rest_errors(gain_set, model)  # how far off dry friction may hold a joint; none for anywhere
     rest = None if None in errors else max(math.degrees(e) for e in errors if e is not None)
-    return GainData(row, run, _run_row(run, rest), files)
+    facts = SetPointRuns((run,)).plain_data(run)
+    for size in ("accuracy", "energy_balance"):  # of rounding errors, which no two machines share
+        del facts[size]
+    facts |= {"top_speed": float(abs(run.w).max()), "rest": rest}
+    return GainData(row, run, RunRow(**_shortened(facts)), files)
 
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRow, dict[str, str]]:
     """The four ε₀, rounded to the safe side, and why one is missing; and their certificates."""
     from lyapcheck.answers.epsilon import Options, certificates, kept_epsilon
+    from lyapcheck.search.controlled_arm import ControlledArm
 
-    if lacking := without_friction(gain_set, model):
-        blank: dict[str, Any] = dict.fromkeys(field.name for field in fields(EpsilonRow))
-        blank |= {"name": gain_set.name, "m": gain_set.m, "robot": model.name, "seed": seed, "boxes": BOXES}
-        blank |= {"assumptions": model.assumptions, "reasons": dict.fromkeys(KINDS, lacking)}
-        return EpsilonRow(**blank | {"certificates": {}, "weighted": ()}), {}
+    own: dict[str, Any] = {
+        "name": gain_set.name,
+        "m": gain_set.m,
+        "robot": model.name,
+        "assumptions": model.assumptions,
+    }
+    own |= {"seed": seed, "boxes": BOXES}
+    try:
+        ControlledArm(gain_set, model).require_friction()
+    except InputError as refused:  # no ε₀ is certified on an arm that lacks friction
+        lacking = f"{model.name} {refused.problems[0].rule}"
+        return EpsilonRow(**own, reasons=dict.fromkeys(KINDS, lacking)), {}
     result = kept_epsilon(gain_set, model, Options(max_boxes=BOXES, seed=seed))
-    low, high = rounded(result.certified, up=False), rounded(result.falsified, up=True)
+    numbers = {kind: getattr(result, kind) for kind in KINDS}
+    shown: dict[str, Any] = {
+        kind: (at_most if kind == "falsified" else at_least)(value, DIGITS)
+        for kind, value in numbers.items()
+        if value is not None
+    }
     files = {f"certificates/epsilon/{name}": one.text() for name, one in certificates(result).items()}
     row = EpsilonRow(
-        name=result.name,
-        m=result.m,
-        robot=model.name,
+        **own,
+        **shown,
         certified_by=result.certified_by or None,
-        assumptions=model.assumptions,
-        seed=result.seed,
-        published=rounded(result.published, up=False),
-        scalar=rounded(result.scalar, up=False),
-        certified=low,
-        falsified=high,
-        ratio=f"{float(Fraction(low) / Fraction(high)):.{DIGITS}g}" if low and high else None,
-        boxes=BOXES,
-        reasons=dict(result.reasons),
+        ratio=None if result.ratio is None else at_least(result.ratio, DIGITS),
+        reasons={kind: text for kind, text in result.reasons.items() if kind not in shown},
         certificates={path.split(".")[-2]: path for path in files if path.split(".")[-2] in LINKED},
         weighted=tuple(at_least(x, DIGITS) for x in result.weighted.products) if result.weighted else (),
         promise=result.promise,
     )
-    known = {kind for kind in KINDS if row.eps0(kind) is not None}
-    return replace(
-        row, reasons={kind: text for kind, text in row.reasons.items() if kind not in known}
-    ), files
-
-
-def without_friction(gain_set: GainSet, model: RobotModel) -> str:
-    """Why no ε₀ is certified on an arm that lacks friction; empty where it has some, or h is unbounded."""
-    from lyapcheck.search.controlled_arm import ControlledArm
-
-    try:
-        ControlledArm(gain_set, model).require_friction()
-    except InputError as refused:
-        return f"{model.name} {refused.problems[0].rule}"
-    return ""
-
-
-def rounded(value: Fraction | None, up: bool) -> str | None:
-    """A positive number to ``DIGITS`` significant digits, not above it, or not below it with ``up``."""
-    if value is None:
-        return None
-    return (at_most if up else at_least)(value, DIGITS)
-
-
-def _simulated(gain_set: GainSet, model: RobotModel, eps0: float) -> Run:
-    """The paper's experiment where the arm has its three joints, else a step of 45° in every joint."""
-    from lyapcheck.simulate.closed_loop import simulate
-    from lyapcheck.simulate.task import PAPER_TASK
-
-    task, goal = PAPER_TASK, goal_of(model)
-    more = (task.q0, task.w0, task.T) if model.n == len(task.q_d) else ()
-    return simulate(gain_set, model, goal, *more, eps0=eps0, stop=False)
-
-
-def goal_of(model: RobotModel) -> list[float]:
-    """The goal of the runs: the paper's for an arm of three joints, else 45° in every joint; rad."""
-    from lyapcheck.simulate.task import PAPER_TASK
-
-    return list(PAPER_TASK.q_d) if model.n == len(PAPER_TASK.q_d) else [REST] * model.n
+    return row, files
 
 
 def derive_job(ms: Sequence[int], robot: str) -> Derivation:
@@ -261,20 +229,10 @@ def derive_job(ms: Sequence[int], robot: str) -> Derivation:
     return derivation([m for m in ms if m <= LARGEST_M], min(load(robot).n, MOST_JOINTS))
 
 
-def _run_row(run: Run, rest: float | None) -> RunRow:
-    from lyapcheck.answers.simulate.runs import SetPointRuns
-
-    facts = SetPointRuns((run,)).plain_data(run)
-    for name in ("accuracy", "energy_balance"):  # the size of rounding errors, which no two machines share
-        del facts[name]
-    facts |= {"top_speed": float(abs(run.w).max()), "rest": rest}
-    return RunRow(**shortened(facts))
-
-
-def shortened(value: Any) -> Any:
+def _shortened(value: Any) -> Any:
     """The same with every floating-point number to the digits that machines agree on."""
     if isinstance(value, float):
         return float(f"{value:.{SHOWN}g}")
     if isinstance(value, dict):
-        return {key: shortened(part) for key, part in value.items()}
-    return [shortened(part) for part in value] if isinstance(value, (list, tuple)) else value
+        return {key: _shortened(part) for key, part in value.items()}
+    return [_shortened(part) for part in value] if isinstance(value, (list, tuple)) else value

@@ -440,18 +440,18 @@ class EpsilonRow:
 
     name: str
     m: int | None
-    robot: str
-    certified_by: str | None
-    assumptions: tuple[str, ...]
-    seed: int
-    published: str | None
-    scalar: str | None
-    certified: str | None
-    falsified: str | None
-    ratio: str | None
-    boxes: int
-    reasons: Mapping[str, str]
-    certificates: Mapping[str, str]
+    robot: str = ""
+    certified_by: str | None = None
+    assumptions: tuple[str, ...] = ()
+    seed: int = 0
+    published: str | None = None
+    scalar: str | None = None
+    certified: str | None = None
+    falsified: str | None = None
+    ratio: str | None = None
+    boxes: int = 0
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    certificates: Mapping[str, str] = field(default_factory=dict)
     weighted: tuple[str, ...] = ()
     promise: Promise | None = None
 

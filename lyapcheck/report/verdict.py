@@ -67,20 +67,18 @@ def badges(report: Report) -> tuple[Badge, ...]:
     judged = [row for row in report.gate if applies(row)]
     passed = [row for row in judged if row.verdict == ACCEPTED]
     failed = [row for row in judged if row.verdict != ACCEPTED]
-    tone = "warn" if failed else "good"
-    slips = len(report.weighing("C"))
     parts = (passed, "passes", "pass"), (failed, "does not", "do not")
-    words = [f"{_members(rows)} {one if len(rows) == 1 else more}" for rows, one, more in parts if rows]
-    tables = Badge("tables", f"{', '.join(words)}; {slips} misprints", tone)
+    words = [
+        f"m = {and_list([str(row.m) for row in rows])} {one if len(rows) == 1 else more}"
+        for rows, one, more in parts
+        if rows
+    ]
+    said = f"{', '.join(words)}; {len(report.weighing('C'))} misprints"
+    tables = Badge("tables", said, "warn" if failed else "good")
     wrong = len(report.weighing("D"))
-    experiment = Badge("experiment", "nothing refuted", "open")
-    if wrong:
-        experiment = Badge("experiment", f"{wrong} statement{'s' if wrong > 1 else ''} refuted", "warn")
-    word, all_shown = sampled_word(report) or ("not asked", False)
-    computer = Badge(
-        "on a computer", word, "good" if all_shown else "open" if word == "not asked" else "warn"
-    )
-    return theorem, proof, tables, experiment, computer
+    refuted = f"{wrong} statement{'s' if wrong > 1 else ''} refuted"
+    experiment = Badge("experiment", *((refuted, "warn") if wrong else ("nothing refuted", "open")))
+    return theorem, proof, tables, experiment, Badge("on a computer", *_on_a_computer(report))
 
 
 def chain(report: Report) -> tuple[VerdictBox, ...]:
@@ -172,20 +170,20 @@ def _proof(report: Report) -> str:
 def _gains(report: Report) -> tuple[str, ...]:
     judged = [row for row in report.gate if applies(row)]
     others = [row.name for row in report.gate if not applies(row)]
-    passed = [row for row in judged if row.verdict == ACCEPTED]
-    failed = [row for row in judged if row.verdict == REJECTED]
-    parts = []
-    met: dict[str, list[GateResult]] = {}
-    for result in passed:
-        met.setdefault(and_list([f"({name})" for name in result.deciding]), []).append(result)
-    for ids_words, rows in met.items():
-        parts.append(f"{_named(rows)} meet{'s' if len(rows) == 1 else ''} {ids_words}")
-    broken: dict[str, list[GateResult]] = {}
-    for result in failed:
-        ids = dict.fromkeys(f"({check.id})" for check in result.failures if check.verdict == REJECTED)
-        broken.setdefault(and_list(list(ids)), []).append(result)
-    for ids_words, rows in broken.items():
-        parts.append(f"{_named(rows)} break{'s' if len(rows) == 1 else ''} {ids_words}")
+    met: dict[tuple[str, tuple[str, ...]], list[GateResult]] = {}
+    for row in judged:
+        if row.verdict == ACCEPTED:
+            met.setdefault(("meet", tuple(row.deciding)), []).append(row)
+    for row in judged:
+        if row.verdict == REJECTED:
+            ids = dict.fromkeys(check.id for check in row.failures if check.verdict == REJECTED)
+            met.setdefault(("break", tuple(ids)), []).append(row)
+    failed = any(verb == "break" for verb, _ in met)
+    parts = [
+        f"{and_list([f'{row.name} (m = {row.m})' for row in rows])} {verb}{'s' if len(rows) == 1 else ''} "
+        + and_list([f"({name})" for name in ids])
+        for (verb, ids), rows in met.items()
+    ]
     if not parts:
         return ()
     promises = {one.name: one.promise for one in report.epsilon if one.promise is not None}
@@ -194,30 +192,21 @@ def _gains(report: Report) -> tuple[str, ...]:
     limitless = [row.name for row in certified if not keeps_limits(row)]
     where = " at nominal numbers" if any(one.ranged for one in report.robot.numbers.values()) else ""
     tail = ""
-    if proved and len(proved) == len(judged):
-        tail = "; dV/dt < 0 at every state is proved for " + ("it" if len(proved) == 1 else "all of them")
-        tail += " on this arm" if report.own else ""
-        tail += where + (", so all are stable all the same" if failed and not report.own else "")
-    elif proved:
-        tail = f"; dV/dt < 0 at every state is proved for {and_list(proved)}{where}"
+    if proved:
+        every = len(proved) == len(judged)
+        whom = and_list(proved) if not every else "it" if len(proved) == 1 else "all of them"
+        arm = " on this arm" if every and report.own else ""
+        so = ", so all are stable all the same" if every and failed and not report.own else ""
+        tail = f"; dV/dt < 0 at every state is proved for {whom}{arm}{where}{so}"
     if limitless:
         what = "it is" if proved else "dV/dt < 0 at every state is"
         tail += (
             f"; of {and_list(limitless)} {what} proved for motors without a limit, and theirs may saturate"
         )
-    if tail:
-        tail = all_say((promises[row.name] for row in certified), tail)
+    tail = all_say((promises[row.name] for row in certified), tail) if tail else ""
     rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""
     subject = "" if report.own else "Gains of Table 2: "
     return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
-
-
-def _members(rows: Sequence[GateResult]) -> str:
-    return f"m = {and_list([str(row.m) for row in rows])}"
-
-
-def _named(rows: Sequence[GateResult]) -> str:
-    return and_list([f"{row.name} (m = {row.m})" for row in rows])
 
 
 def _of_gains(row: GateResult) -> Badge:
@@ -232,33 +221,30 @@ def _of_gains(row: GateResult) -> Badge:
 # --- The loop on a computer in a report: a tile, and a card with what its claims suppose.
 
 
-def sampled_rows(report: Report, *, members: bool = False) -> list[ClaimRow]:
-    """The claims, or only those about a member as the paper ran it."""
-    names = {f"sampled.m{m}" for m in report.ms}
-    rows = [row for row in report.others if row.proof == Path(SAMPLED).stem]
-    return [row for row in rows if row.id in names] if members else rows
-
-
-def sampled_word(report: Report) -> tuple[str, bool] | None:
-    """For which m it is proved as it was run, and whether for all; ``None`` without such claims."""
-    rows = sampled_rows(report, members=True)
+def _on_a_computer(report: Report) -> tuple[str, str]:
+    """For which m it is proved as it was run, and how good that is."""
+    known = {f"sampled.m{m}": str(m) for m in report.ms}
+    rows = [row for row in _sampled_rows(report) if row.id in known]
     shown = [row for row in rows if row.verdict is Verdict.PROVED]
     left = [row for row in rows if row not in shown]
     asked = [row.decision.promise.asked for row in shown if row.decision.promise is not None]
     periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
-    at, promises = " and".join(sorted(periods)), [row.decision.promise for row in shown]
-    stable = all_say(promises, f"stable{at} under suppositions") if shown else ""
-    parts = [f"{_suffixes(some)}: {word}" for some, word in ((shown, stable), (left, "open")) if some]
-    return ("; ".join(parts), not left) if rows else None
+    stable = _say(shown, f"stable{' and'.join(sorted(periods))} under suppositions") if shown else ""
+    parts = [
+        f"m = {and_list([known[row.id] for row in some])}: {word}"
+        for some, word in ((shown, stable), (left, "open"))
+        if some
+    ]
+    return "; ".join(parts) or "not asked", "open" if not rows else "warn" if left else "good"
 
 
-def _suffixes(rows: list[ClaimRow]) -> str:
-    return f"m = {and_list([row.id.removeprefix('sampled.m') for row in rows])}"
+def _sampled_rows(report: Report) -> list[ClaimRow]:
+    return [row for row in report.others if row.proof == Path(SAMPLED).stem]
 
 
 def sampled_section(report: Report) -> Iterator[Section]:
     """Each claim and what became of it, and what all of them suppose."""
-    rows = sampled_rows(report)
+    rows = _sampled_rows(report)
     if not rows:
         return
     first = next((row for row in rows if row.decision.granted), rows[0])

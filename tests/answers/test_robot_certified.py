@@ -8,7 +8,8 @@ import pytest
 
 from lyapcheck.answers.robot import build
 from lyapcheck.answers.robot.certified import bound_questions, certified
-from lyapcheck.answers.robot.properties import judged
+from lyapcheck.answers.robot.properties import answered, certificates
+from lyapcheck.claims.decision import judge_afresh
 from lyapcheck.constants import arm_constants
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
@@ -69,7 +70,9 @@ def test_of_a_chain_of_few_joints_forms_along_the_links_show_what_boxes_do_not(t
     (tmp_path / "arm.urdf").write_text(generic(3), encoding="utf-8")
     arm = load(tmp_path / "arm.urdf")
     constants = arm_constants(arm, 50, names=("lambda_min", "k_g2"))
-    ends = certified(judged(arm, bound_questions(arm, constants)), positive=True)
+    asked = list(bound_questions(arm, constants))
+    made = certificates(arm, asked)
+    ends = certified(answered(arm, asked, made, judge_afresh(made)), positive=True)
     model, rng = NumericModel(arm), np.random.default_rng(7)
     q = rng.uniform(-np.pi, np.pi, (500, arm.n))
     assert set(ends) == {"lambda_min", "k_g2"}

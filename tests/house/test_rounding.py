@@ -29,14 +29,14 @@ TAKING = ("cell", "format")
 BESIDE_PROOF = {
     "answers/bounds.py:_times": "degrees that the user gave, of simulated runs",
     "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
-    "answers/robot/answer.py:constant_data": "the gap of numeric ends, for programs",
+    "answers/robot/answer.py:data": "the gap of numeric ends, for programs",
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
 SEEN = {
     "answers/epsilon/answer.py:data": "seconds of computing",
     "answers/epsilon/answer.py:_every": "seconds of computing",
-    "answers/robot/answer.py:constant_data": "the gap of numeric ends",
-    "answers/robot/answer.py:_state_rows": "the angles of a witness, whole in the data",
+    "answers/robot/answer.py:data": "the gap of numeric ends",
+    "answers/robot/answer.py:states": "the angles of a witness, whole in the data",
     "answers/tune/response/trial.py:__post_init__": "the largest value that may be asked",
     "answers/simulate/simulation.py:motion": "times that the user gave or that were reached",
     "answers/simulate/simulation.py:plain": "simulated",

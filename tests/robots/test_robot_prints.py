@@ -1,10 +1,13 @@
 """C and g as a source prints them, compared with what M and the potential give."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lyapcheck.answers.robot import build
-from lyapcheck.answers.robot.properties import print_claims
+from lyapcheck.answers.robot.properties import answered, certificates, print_questions
+from lyapcheck.claims.decision import judge_afresh
 from lyapcheck.errors import InputError
 from lyapcheck.robots import load
 from lyapcheck.verdicts import Exit
@@ -27,6 +30,13 @@ def arm(folder, old="", new="", text=PRINTED):
     file = folder / "arm.toml"
     file.write_text(text + CHRISTOFFEL.replace(old, new) if old else text + CHRISTOFFEL, encoding="utf-8")
     return load(file)
+
+
+def print_claims(model):
+    asked = list(print_questions(model))
+    made = certificates(model, asked)
+    rows = answered(model, asked, made, judge_afresh(made))
+    return [replace(row, id=row.id.removeprefix("printed ")) for row in rows]
 
 
 def verdicts(model):

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lyapcheck._types import Progress
+from lyapcheck.answers.check.run import proposed_proof
 from lyapcheck.answers.robot.answer import RobotReport
 from lyapcheck.answers.robot.certified import bound_questions, certified
-from lyapcheck.answers.robot.properties import (
-    answered,
-    as_property,
-    certificates,
-    print_questions,
-    properties,
-    proposed_properties,
-)
+from lyapcheck.answers.robot.properties import IDS, answered, certificates, print_questions, properties
 from lyapcheck.check.verify import each_once
 from lyapcheck.claims.decision import file_name, judge_afresh
 from lyapcheck.constants import arm_constants
@@ -41,7 +37,7 @@ def build(
         constants = arm_constants(model, budget, on_progress=on_progress)
         if on_progress is not None:
             on_progress(1.0, "properties 2.1–2.8")
-        proposed = proposed_properties(model)
+        proposed = proposed_proof("published.py", [1], model, only=IDS)
     prints, bounds = list(print_questions(model)), list(bound_questions(model, constants))
     made = certificates(model, [*prints, *bounds])
     # one process for all, in which what several rest on is judged once
@@ -50,15 +46,16 @@ def build(
     positive = decided[0].verdict is Verdict.PROVED
     about_prints, about_bounds = answered(model, prints, made, judged), answered(model, bounds, made, judged)
     own = {
-        file_name(row.question.id, None): row.certificate
+        file_name(row.id, None): row.certificate
         for row in [*about_prints, *about_bounds]
         if row.certificate is not None
     }
+    shown = (replace(row, id=row.id.removeprefix("printed ")) for row in about_prints)
     return RobotReport(
         model,
         decided,
         constants,
-        tuple(map(as_property, about_prints)),
+        tuple(shown),
         certified(about_bounds, positive),
         {**of_properties, **own},
     )

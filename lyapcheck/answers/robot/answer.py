@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -86,6 +86,106 @@ JOINT = (
 
 
 @dataclass(frozen=True)
+class _Constant:
+    """A constant with the ends that certificates show, of an arm."""
+
+    of: ConstantResult
+    known: CertifiedBounds
+    model: RobotModel
+
+    @property
+    def symbol(self) -> str:
+        return SYMBOLS.get(self.of.name, self.of.name)
+
+    @property
+    def gap(self) -> Fraction:
+        """Of the certified ends, which users rely on; where one is missing, of the numeric ones."""
+        low, high = self.known.lower, self.known.upper
+        if low is None or high is None:
+            low, high = self.of.enclosure.lower, self.of.enclosure.upper
+        size = max(abs(low), abs(high))
+        return (high - low) / size if size else Fraction(0)
+
+    @property
+    def star(self) -> str:
+        """Where an end is not certified; that a norm is not negative needs no certificate."""
+        zero = self.of.name != "lambda_min" and self.known.upper == 0
+        return "" if zero or None not in (self.known.lower, self.known.upper) else "*"
+
+    def states(self) -> list[tuple[str, str]]:
+        """The angles; of k_c also the direction x."""
+        n, name = self.model.n, self.symbol
+        angles, x = (", ".join(f"{x:z.4f}" for x in part) for part in (self.of.state[:n], self.of.state[n:]))
+        return [(name, angles), *([(f"{name}: x", x)] if x else [])]
+
+    def wide(self) -> Iterator[str]:
+        """How wide the ends are if they are, and what might narrow them."""
+        advice, model = "try a larger --max-boxes", self.model
+        if model.n > FEW_JOINTS and model.fixed().chain is not None:
+            advice = "bounded by the best forms along the links, which more boxes do not change"
+        elif self.of.gap <= WIDE:
+            advice = "the numeric ends are nearer, and no certificate was found for what they say"
+        if self.gap > WIDE:
+            yield f"{self.symbol} is wide, {_percent(self.gap)} %: {advice}"
+
+    def data(self) -> dict[str, Any]:
+        """``lower`` and ``upper`` are the ends in floating point, like ``numeric``, and ``gap`` is theirs."""
+        of, n = self.of, self.model.n
+        numeric = dict(zip(("lower", "upper"), decimals(of.enclosure, DATA_DIGITS), strict=True))
+        known = {"lower": self.known.lower, "upper": self.known.upper}
+        certified = {end: None if x is None else decimal_text(x) for end, x in known.items()}
+        state = [repr(x) for x in of.state]
+        return {
+            "name": of.name,
+            "unit": of.unit,
+            **numeric,
+            "certified": certified,
+            "numeric": numeric,
+            "gap": f"{of.gap:.3e}",
+            "q": state[:n],
+            "x": state[n:] or None,
+            "boxes": of.boxes,
+        }
+
+
+def _percent(share: Fraction) -> str:
+    """Two significant digits, rounded up."""
+    return "0" if share == 0 else at_most(100 * share, 2)
+
+
+def _or_none(show: Callable[[Fraction], str]) -> Callable[[Fraction | None], str]:
+    return lambda end: NONE if end is None else show(end)
+
+
+SHORT = (
+    Field("", "symbol", "constant", align="l"),
+    Field("", "of.unit", "unit", align="l"),
+    Field("", "known.lower", "proved: above", _or_none(at_least)),
+    Field("", "known.upper", "proved: at most", _or_none(at_most)),
+    Field("", "gap", "gap [%]", _percent),
+)
+WHOLE = (
+    *SHORT[:2],
+    Field("", "known.lower", "certified: above", _or_none(decimal_text)),
+    Field("", "known.upper", "at most", _or_none(decimal_text)),
+    Field("", lambda row: decimals(row.of.enclosure, DIGITS)[0], "numeric: at least"),
+    Field("", lambda row: decimals(row.of.enclosure, DIGITS)[1], "at most"),
+    Field("", lambda row: f"{_percent(row.gap)}{' %' if row.gap else ''}{row.star}", "gap"),
+)
+"""The ends of a constant that certificates show: in four digits, or whole beside those of floating point."""
+
+
+def _constants(rows: Sequence[_Constant]) -> Section:
+    said = tuple(text for row in rows for text in row.wide())
+    states = Table(
+        ("constant", "shown at q [rad]"), tuple(x for row in rows for x in row.states()), align="ll"
+    )
+    notes = Paragraph(AT_NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if any(row.star for row in rows) else GAPS)
+    ends = table(WHOLE, [(row,) for row in rows])
+    return Section("Constants", (*notes, ends, *([Bullets(said)] if said else []), states))
+
+
+@dataclass(frozen=True)
 class RobotReport(Answer):
     """An arm with what was decided and certified about it; ``extent`` says for which of its values.
 
@@ -111,6 +211,12 @@ class RobotReport(Answer):
     path: str = ""
 
     @property
+    def rows(self) -> list[_Constant]:
+        """The constants, each with its certified ends."""
+        known = self.certified
+        return [_Constant(one, known.get(one.name, CertifiedBounds()), self.model) for one in self.constants]
+
+    @property
     def exit_code(self) -> Exit:
         """0 all properties proved, 1 one refuted, 3 one undecided."""
         return exit_code(row.verdict for row in self.properties)
@@ -125,17 +231,17 @@ class RobotReport(Answer):
             for what, row in judged
             if row.verdict is not Verdict.PROVED
         )
-        wide = (_wide(self, c) for c in self.constants if _gap(self, c) > WIDE)
-        remarks = (*wrong, *model.doubts, *wide, *model.remarks)
+        wide = (text for row in self.rows for text in row.wide())
+        remarks = (*wrong, *wide, *model.doubts, *model.remarks)
         left = len(remarks) - MOST_REMARKS
         said = remarks if left <= 0 else (*remarks[: MOST_REMARKS - 1], f"{left + 1} more remarks: add -v")
-        blocks: tuple[Block, ...] = (_ends(self), *([Bullets(said)] if said else []))
+        ends = table(SHORT, [(row,) for row in self.rows], drop=(1, 4))
         arm = self.path or model.name
         limits = all(number is not None for number in model.torque_limit)
         then = ("tune", *arm_words(arm), "--m", "1") if limits else ("robot", *arm_words(arm), "-v")
         return Document(
             _title(self),
-            blocks,
+            (ends, *([Bullets(said)] if said else [])),
             lead=_lead(self),
             details=tuple(_sections(self)),
             assumed=assumed_line(model, arm),
@@ -152,7 +258,7 @@ class RobotReport(Answer):
             "seed": SEED,
             "properties": [property_data(row, extent(row, model)) for row in self.properties],
             "prints": [property_data(row, extent(row, model)) for row in self.prints],
-            "constants": [constant_data(self, constant) for constant in self.constants],
+            "constants": [row.data() for row in self.rows],
             "joints": records(JOINT, model, model.n),
             "numbers": {name: _data(number) for name, number in model.numbers.items()},
             "parameters": list(model.parameters),
@@ -164,8 +270,7 @@ class RobotReport(Answer):
         judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
         entries = [(kind, property_data(row)) for kind, row in judged]
         rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]
-        for constant in self.constants:
-            result = constant_data(self, constant)
+        for result in (row.data() for row in self.rows):
             kept = {key: result[key] for key in ("unit", "certified", "numeric", "gap", "q")}
             rows.append({"kind": "constant", "id": result["name"], **kept, "x": result["x"] or []})
         return rows
@@ -219,27 +324,6 @@ def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
         "reason": finding.reason,
         "witness": finding.witness,
         "evidence": told(finding.promise, finding.evidence),
-    }
-
-
-def constant_data(report: RobotReport, constant: ConstantResult) -> dict[str, Any]:
-    """``lower`` and ``upper`` are the ends in floating point, as in ``numeric``, and ``gap`` is theirs."""
-    lower, upper = decimals(constant.enclosure, DATA_DIGITS)
-    n, known = report.model.n, report.certified.get(constant.name, CertifiedBounds())
-    return {
-        "name": constant.name,
-        "unit": constant.unit,
-        "lower": lower,
-        "upper": upper,
-        "certified": {
-            end: None if (shown := getattr(known, end)) is None else decimal_text(shown)
-            for end in ("lower", "upper")
-        },
-        "numeric": {"lower": lower, "upper": upper},
-        "gap": f"{constant.gap:.3e}",
-        "q": [repr(x) for x in constant.state[:n]],
-        "x": [repr(x) for x in constant.state[n:]] or None,
-        "boxes": constant.boxes,
     }
 
 
@@ -300,116 +384,47 @@ def _sections(report: RobotReport) -> list[Section]:
     assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
     numbers = [Section("Numbers", (_numbers(model),))] if model.numbers else []
     properties = _judged("Properties", "property", report.properties, report)
-    return [properties, *prints, _constants(report), *joints, *numbers, *assumed, *inertia_sections(model)]
+    return [
+        properties,
+        *prints,
+        _constants(report.rows),
+        *joints,
+        *numbers,
+        *assumed,
+        *inertia_sections(model),
+    ]
 
 
 def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: RobotReport) -> Section:
     """Verdicts with the arms that they are about, then what supports them."""
-    ranged = uncertain(report.model)
+    ranged = int(uncertain(report.model))  # a column of its own
     cells = tuple(
         (
             row.id,
             row.word,
-            *([extent(row, report.model) or NONE] if ranged else []),
+            *([extent(row, report.model) or NONE] * ranged),
             row.finding.grade.label,
             row.finding.says(row.statement),
         )
         for row in rows
     )
+    heads = (head, "verdict", *(["for"] * ranged), "grade", "statement")
     shown = tuple(f"{row.id}: {evidence(row)}" for row in rows)
-    heads = (head, "verdict", *(["for"] if ranged else []), "grade", "statement")
-    table = Table(heads, cells, align="l" * len(heads))
-    return Section(title, (table, Paragraph("Shown by:"), Bullets(shown)))
+    return Section(
+        title, (Table(heads, cells, align="l" * len(heads)), Paragraph("Shown by:"), Bullets(shown))
+    )
 
 
-def _ends(report: RobotReport) -> Table:
-    """Both ends of each constant as certificates show them, in four digits."""
+def _numbers(model: RobotModel, only: bool = False) -> Table:
+    """Every number with where it comes from, or the assumed ones with the reason; ranges if any has one."""
+    shown = {name: one for name, one in model.numbers.items() if one.assumed or not only}
+    ranged = only or any(one.ranged for one in shown.values())
     rows = []
-    for constant in report.constants:
-        shown, gap = report.certified.get(constant.name, CertifiedBounds()), _gap(report, constant)
-        low, high = shown.lower, shown.upper
-        ends = (NONE if low is None else at_least(low), NONE if high is None else at_most(high))
-        rows.append((_symbol(constant), constant.unit, *ends, "0" if gap == 0 else _percent(gap)))
-    heads = ("constant", "unit", "proved: above", "proved: at most", "gap [%]")
-    return Table(heads, tuple(rows), align="llrrr", keys=1, drop=(1, 4))
-
-
-def _constants(report: RobotReport) -> Section:
-    rows = [_constant_row(report, constant) for constant in report.constants]
-    states = [row for constant in report.constants for row in _state_rows(report, constant)]
-    heads = ("constant", "unit", "certified: above", "at most", "numeric: at least", "at most", "gap")
-    ends = Table(heads, tuple(rows), align="llrrrrr")
-    shown = Table(("constant", "shown at q [rad]"), tuple(states), align="ll")
-    said = [_wide(report, constant) for constant in report.constants if _gap(report, constant) > WIDE]
-    wide = [Bullets(tuple(said))] if said else []
-    starred = any(not _by_certificates(report, constant) for constant in report.constants)
-    notes = [Paragraph(AT_NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if starred else GAPS)]
-    return Section("Constants", (*notes, ends, *wide, shown))
-
-
-def _wide(report: RobotReport, constant: ConstantResult) -> str:
-    """How wide the ends are, and what might narrow them."""
-    advice, model = "try a larger --max-boxes", report.model
-    if model.n > FEW_JOINTS and model.fixed().chain is not None:
-        advice = "bounded by the best forms along the links, which more boxes do not change"
-    elif constant.gap <= WIDE:
-        advice = "the numeric ends are nearer, and no certificate was found for what they say"
-    return f"{_symbol(constant)} is wide, {_percent(_gap(report, constant))} %: {advice}"
-
-
-def _percent(share: Fraction) -> str:
-    """Two significant digits, rounded up."""
-    return at_most(100 * share, 2)
-
-
-def _gap(report: RobotReport, constant: ConstantResult) -> Fraction:
-    """Of the certified ends, which users rely on; where one is missing, of the numeric ones."""
-    shown = report.certified.get(constant.name)
-    if shown is None or shown.lower is None or shown.upper is None:
-        low, high = constant.enclosure.lower, constant.enclosure.upper
-    else:
-        low, high = shown.lower, shown.upper
-    size = max(abs(low), abs(high))
-    return (high - low) / size if size else Fraction(0)
-
-
-def _by_certificates(report: RobotReport, constant: ConstantResult) -> bool:
-    """Whether both ends are certified; that a norm is not negative needs no certificate."""
-    shown = report.certified.get(constant.name, CertifiedBounds())
-    zero = constant.name != "lambda_min" and shown.upper == 0
-    return zero or (shown.lower is not None and shown.upper is not None)
-
-
-def _constant_row(report: RobotReport, constant: ConstantResult) -> tuple[str, ...]:
-    """The ends that certificates show, those of floating point, rounded outward, and the gap."""
-    shown, gap = report.certified.get(constant.name, CertifiedBounds()), _gap(report, constant)
-    known = [NONE if end is None else decimal_text(end) for end in (shown.lower, shown.upper)]
-    cell = "0" if gap == 0 else f"{_percent(gap)} %"
-    star = "" if _by_certificates(report, constant) else "*"
-    ends = decimals(constant.enclosure, DIGITS)
-    return (_symbol(constant), constant.unit, *known, *ends, cell + star)
-
-
-def _state_rows(report: RobotReport, constant: ConstantResult) -> list[tuple[str, str]]:
-    """The angles; of k_c also the direction x."""
-    n, name = report.model.n, _symbol(constant)
-    angles, x = (", ".join(f"{x:z.4f}" for x in part) for part in (constant.state[:n], constant.state[n:]))
-    return [(name, angles), *([(f"{name}: x", x)] if x else [])]
-
-
-def _symbol(constant: ConstantResult) -> str:
-    return SYMBOLS.get(constant.name, constant.name)
-
-
-def _numbers(model: RobotModel) -> Table:
-    """Every number with where it comes from; its range where any has one."""
-    ranged = any(number.ranged for number in model.numbers.values())
-    rows = []
-    for name, number in model.numbers.items():
-        between = " and ".join(map(decimal_text, number.bounds)) if number.ranged else ""
-        origin = "assumed" if number.assumed else number.source
-        rows.append((name, with_unit(number.value, number.unit), *([between] * ranged), origin))
-    heads = ("number", "value", *(["between"] * ranged), "source")
+    for name, one in shown.items():
+        between = " and ".join(map(decimal_text, one.bounds)) if one.ranged else ""
+        origin = one.note or one.source if only else "assumed" if one.assumed else one.source
+        rows.append((name, with_unit(one.value, one.unit), *([between] * ranged), origin))
+    heads = ("number", "value", *(["between"] * ranged), "why" if only else "source")
     return Table(heads, tuple(rows), align="l" * len(heads))
 
 
@@ -439,22 +454,11 @@ class ArmAssumptions(Answer):
     def document(self) -> Document:
         """The assumed numbers as a table, the rest as sentences."""
         model = self.model
-        numbers = [(name, number) for name, number in model.numbers.items() if number.assumed]
-        rows = [
-            (
-                name,
-                with_unit(number.value, number.unit),
-                " … ".join(map(decimal_text, number.bounds)) if number.ranged else "",
-                number.note or number.source,
-            )
-            for name, number in numbers
-        ]
-        heads = ("number", "value", "range", "why")
-        others = (*model.remarks, *model.doubts)
-        table: list[Block] = [Table(heads, tuple(rows), align="llll")] if rows else []
-        title = f"{model.name}: {len(numbers)} of {len(model.numbers)} numbers are assumed"
+        numbers, others = _numbers(model, only=True), (*model.remarks, *model.doubts)
+        blocks: list[Block] = [numbers] if numbers.rows else []
+        title = f"{model.name}: {len(numbers.rows)} of {len(model.numbers)} numbers are assumed"
         then = command("robot", *arm_words(self.arm), "--export", "own_arm.toml")
-        return Document(title, (*table, *([Bullets(others)] if others else [])), next=then)
+        return Document(title, (*blocks, *([Bullets(others)] if others else [])), next=then)
 
     def data(self) -> dict[str, Any]:
         """``numbers: {name: {value, unit, …}}`` and ``assumptions``, one sentence each."""

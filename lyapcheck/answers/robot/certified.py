@@ -14,7 +14,7 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
-from lyapcheck.answers.robot.properties import DecidedProperty, PropertyQuestion
+from lyapcheck.answers.robot.properties import PropertyQuestion, PropertyResult
 from lyapcheck.asked import bound_of_constant
 from lyapcheck.check.kinds.chain import (
     ChainAbove,
@@ -107,47 +107,48 @@ def bound_questions(model: RobotModel, constants: Sequence[ConstantResult]) -> I
                 bound = _bound(arm, constant)
         except TooManyTerms:
             continue
-        sign = -1 if constant.name == "lambda_min" else 1
-        sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
+        sign = _sign(constant.name)
         outer = _outer(arm.robot.n, constant.name, bound, sign, chain)
         if outer is not None:
-            yield _question(nominal, constant.name, sides[0], sign, *outer)
-        inner = _inner(bound.seen, sign)
-        if inner > 0 or sign < 0:
-            result = _at_posture(bound.witness, bound.seen, inner, sign)
-            yield _question(nominal, constant.name, sides[1], sign, bound.state(inner), inner, result)
+            yield _question(nominal, constant.name, *outer)
+        yield from _inside(nominal, constant.name, bound.state, bound.witness, bound.seen)
 
 
 def _along_links(
     constant: ConstantResult, outside: BoundWithProof, nominal: RobotModel
 ) -> Iterator[PropertyQuestion]:
     """Both ends of a constant of a chain: its storage forms, and the posture."""
-    sign = -1 if constant.name == "lambda_min" else 1
-    sides = ("lower", "upper") if sign < 0 else ("upper", "lower")
     result = shown(outside.proof, outside.proof.rule)
-    yield _question(nominal, constant.name, sides[0], sign, outside.statement, outside.bound, result)
-    seen = constant.enclosure.lower if sign > 0 else constant.enclosure.upper
-    inner, n = _inner(seen, sign), len(outside.statement.links)
+    yield _question(nominal, constant.name, outside.statement, outside.bound, result)
+    ends, n = constant.enclosure, len(outside.statement.links)
+    seen = ends.lower if _sign(constant.name) > 0 else ends.upper
+    state = [Fraction(x).limit_denominator(10**7) for x in constant.state]
+    witness = PostureWitness(tuple(state[:n]), (), tuple(state[n:]))
+    yield from _inside(nominal, constant.name, outside.at_end, witness, seen)
+
+
+def _sign(name: str) -> int:
+    """1 where the bound for all angles is from above."""
+    return -1 if name == "lambda_min" else 1
+
+
+def _inside(
+    nominal: RobotModel,
+    name: str,
+    state: Callable[[Fraction], Statement],
+    witness: PostureWitness,
+    seen: Fraction,
+) -> Iterator[PropertyQuestion]:
+    """The end that a posture shows: a little to the safe side of it."""
+    sign = _sign(name)
+    inner = max(_rounded(seen * (1 - sign * Fraction(1, 10**6)), -sign), Fraction(0))
     if inner > 0 or sign < 0:
-        q, x = (
-            tuple(Fraction(v).limit_denominator(10**7) for v in part)
-            for part in (constant.state[:n], constant.state[n:])
-        )
-        witness = _at_posture(PostureWitness(q, (), x), seen, inner, sign)
-        yield _question(nominal, constant.name, sides[1], sign, outside.at_end(inner), inner, witness)
+        where = entries(q=witness.q, x=witness.x)
+        result = broken(witness, "a posture", failing(where, seen, "≤" if sign > 0 else ">", inner))
+        yield _question(nominal, name, state(inner), inner, result, inside=True)
 
 
-def _inner(seen: Fraction, sign: int) -> Fraction:
-    """A little to the safe side of what a posture shows."""
-    return max(_rounded(seen * (1 - sign * Fraction(1, 10**6)), -sign), Fraction(0))
-
-
-def _at_posture(witness: PostureWitness, seen: Fraction, inner: Fraction, sign: int) -> SearchResult:
-    operator = "≤" if sign > 0 else ">"
-    return broken(witness, "a posture", failing(entries(q=witness.q, x=witness.x), seen, operator, inner))
-
-
-def certified(answers: Sequence[DecidedProperty], positive: bool) -> dict[str, CertifiedBounds]:
+def certified(answers: Sequence[PropertyResult], positive: bool) -> dict[str, CertifiedBounds]:
     """The ends that the checker has accepted, by the name of the constant.
 
     Args:
@@ -157,10 +158,10 @@ def certified(answers: Sequence[DecidedProperty], positive: bool) -> dict[str, C
     """
     result: dict[str, CertifiedBounds] = {}
     for answer in answers:
-        name, _, side = answer.question.id.rpartition(".")
+        name, _, side = answer.id.rpartition(".")
         if answer.certificate is None or (name == "lambda_max" and side == "lower" and not positive):
             continue
-        value = _value(answer.question.statement)
+        value = _value(answer.certificate.statement)
         known = result.get(name, CertifiedBounds())
         result[name] = replace(known, lower=value) if side == "lower" else replace(known, upper=value)
     return result
@@ -177,17 +178,17 @@ def _value(statement: Statement) -> Fraction:
 def _question(
     nominal: RobotModel,
     name: str,
-    side: str,
-    sign: int,
     statement: Statement,
     value: Fraction,
     finding: SearchResult,
+    inside: bool = False,
 ) -> PropertyQuestion:
     """A bound; what is asked is about the arm and the number as it is printed."""
     grade = Grade.EXACT if isinstance(finding.proof, (HarmonicSizes, NoTorque)) else Grade.ENCLOSURE
-    printed = decimal_text(value)
-    words = f"{SYMBOLS.get(name, name)} {'<=' if sign > 0 else '>'} {printed}"
+    printed, above = decimal_text(value), _sign(name) > 0
+    words = f"{SYMBOLS.get(name, name)} {'<=' if above else '>'} {printed}"
     asked = bound_of_constant(name, nominal, Fraction(printed), isinstance(statement, OfLinks))
+    side = "upper" if above != inside else "lower"
     return PropertyQuestion(f"{name}.{side}", words, statement, replace(finding, grade=grade), asked)
 
 

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from flint import fmpq_mpoly
 
 from lyapcheck.answers.check import ProofResult
-from lyapcheck.answers.check.run import ProposedProof, proposed_proof
 from lyapcheck.asked import over_ranges
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.coriolis import CoriolisTorque, RateOfMass
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.statement import Monomials, Statement
-from lyapcheck.claims.decision import Decision, Judged, decided, judge_afresh, undecided
+from lyapcheck.claims.decision import Decision, Judged, decided, undecided
 from lyapcheck.claims.handover import Key
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.search_result import SearchResult
@@ -49,20 +48,29 @@ class PropertyQuestion:
 
 
 @dataclass(frozen=True)
-class DecidedProperty:
-    """The decision, the certificate if the checker has accepted one, and a promise about all ranges."""
+class PropertyResult:
+    """One property with what was found out about it.
 
-    question: PropertyQuestion
-    decision: Decision
-    certificate: Certificate | None
-    over: Promise | None
+    Args:
+        over: the promise that it holds for all values of the ranges; none where that is not shown.
+        certificate: none where the checker has accepted none.
+    """
 
+    id: str
+    statement: str
+    finding: Decision
+    over: Promise | None = None
+    certificate: Certificate | None = None
 
-def judged(model: RobotModel, questions: Iterable[PropertyQuestion]) -> list[DecidedProperty]:
-    """The decisions, in order."""
-    rows = list(questions)
-    made = certificates(model, rows)
-    return answered(model, rows, made, judge_afresh(made))
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict."""
+        return self.finding.verdict
+
+    @property
+    def word(self) -> str:
+        """The verdict as answers say it."""
+        return self.finding.word
 
 
 def certificates(model: RobotModel, questions: Iterable[PropertyQuestion]) -> dict[Key, Certificate]:
@@ -85,14 +93,14 @@ def answered(
     questions: Iterable[PropertyQuestion],
     made: Mapping[Key, Certificate],
     judged: Mapping[Key, Judged],
-) -> list[DecidedProperty]:
+) -> list[PropertyResult]:
     """The decisions of that process, in order."""
     answers = []
     for row in questions:
         decision = decided(row.finding, judged.get((row.id, None)), row.asked)
-        accepted = None if decision.certificate is None else made[row.id, None]
         over = about_ranges(row.asked, decision, model.parameters.values(), model)
-        answers.append(DecidedProperty(row, decision, accepted, over))
+        accepted = None if decision.certificate is None else made[row.id, None]
+        answers.append(PropertyResult(row.id, row.says, decision, over, accepted))
     return answers
 
 
@@ -113,35 +121,6 @@ def about_ranges(
         return decision.promise
     asked = over_ranges(stated, model)
     return None if asked is None else promised(asked, decision.promise.shown)[0]
-
-
-@dataclass(frozen=True)
-class PropertyResult:
-    """One property with what was found out about it.
-
-    Args:
-        over: the promise that it holds for all values of the ranges; none where that is not shown.
-    """
-
-    id: str
-    statement: str
-    finding: Decision
-    over: Promise | None = None
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict."""
-        return self.finding.verdict
-
-    @property
-    def word(self) -> str:
-        """The verdict as answers say it."""
-        return self.finding.word
-
-
-def proposed_properties(model: RobotModel) -> ProposedProof:
-    """What searches propose for the eight properties."""
-    return proposed_proof("published.py", [1], model, only=IDS)
 
 
 def properties(
@@ -174,43 +153,27 @@ def _without_friction(model: RobotModel, assumed: bool) -> str:
     return ", ".join(joint for joint, number in rows if number.value == 0 and number.assumed is assumed)
 
 
-def print_claims(model: RobotModel) -> tuple[PropertyResult, ...]:
-    """Same torque? Ṁ = C + Cᵀ? Same gravity? Empty where the source prints neither C nor g."""
-    return tuple(map(as_property, judged(model, print_questions(model))))
-
-
-def as_property(answer: DecidedProperty) -> PropertyResult:
-    """A claim about the print with its decision."""
-    name = answer.question.id.removeprefix("printed ")
-    return PropertyResult(name, answer.question.says, answer.decision, answer.over)
-
-
-def print_questions(model: RobotModel) -> list[PropertyQuestion]:
-    """The claims as statements, with what the search proposes."""
-    return [
-        PropertyQuestion(
-            f"printed {name}", SAYS[name], statement, _named(model, propose(statement)), statement
-        )
-        for name, statement in _statements(model).items()
-    ]
-
-
-def _statements(model: RobotModel) -> dict[str, Statement]:
+def print_questions(model: RobotModel) -> Iterator[PropertyQuestion]:
+    """Same torque? Ṁ = C + Cᵀ? Same gravity? Nothing where the source prints neither C nor g."""
     printed, ranges = model.printed, model.ranges
-    result: dict[str, Statement] = {}
+    stated: dict[str, Statement] = {}
     if printed is None:
-        return result
-    numbers = _numbers(model)
+        return
+    # the numbers of the arm as polynomials of its ring
+    numbers = {name: trig.constant(model.ring, number.value) for name, number in model.numbers.items()}
+    numbers |= dict(zip(model.parameters, model.ring.gens()[2 * model.n :], strict=True))
     if printed.coriolis:
         symbols = printed.symbols(model.ring, numbers, model.n)
         # each printed term has exactly one rate, so that nothing is left without
         C = tuple(tuple((*map(_terms, entry), ()) for entry in row) for row in symbols)
-        result["C torque"] = CoriolisTorque(model.mass_terms, ranges, C)
-        result["C rates"] = RateOfMass(model.mass_terms, ranges, C)
+        stated["C torque"] = CoriolisTorque(model.mass_terms, ranges, C)
+        stated["C rates"] = RateOfMass(model.mass_terms, ranges, C)
     if printed.gravity:
         weights = tuple(map(_terms, printed.weights(model.ring, numbers)))
-        result["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)
-    return result
+        stated["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)
+    for name, statement in stated.items():
+        finding = _named(model, propose(statement))
+        yield PropertyQuestion(f"printed {name}", SAYS[name], statement, finding, statement)
 
 
 def _terms(polynomial: fmpq_mpoly) -> Monomials:
@@ -227,9 +190,3 @@ def _named(model: RobotModel, finding: SearchResult) -> SearchResult:
         for name, value in finding.witness["point"].items()
     }
     return replace(finding, witness={**finding.witness, "point": point})
-
-
-def _numbers(model: RobotModel) -> dict[str, fmpq_mpoly]:
-    """The numbers of the arm as polynomials of its ring."""
-    known = {name: trig.constant(model.ring, number.value) for name, number in model.numbers.items()}
-    return known | dict(zip(model.parameters, model.ring.gens()[2 * model.n :], strict=True))
