@@ -65,11 +65,12 @@ def arm_constants(
         `lyapcheck.constants.constant` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
         and balls, see `lyapcheck.constants.storage`; the inside ends are bounds at the state given.
     """
-    fixed, makers = model.fixed(), _makers(model.n)
+    fixed = model.fixed()
     along = model.n > FEW_JOINTS and fixed.chain is not None
     arm = None if along else ArmHarmonics(fixed)
     enough = GAP if model.n <= FEW_JOINTS else GAP_OF_MANY
-    wanted = [name for name in makers if names is None or name in names]
+    every = ("lambda_min", "lambda_max", "k_c", "k_g", *(f"k_g{i + 1}" for i in range(model.n)))
+    wanted = [name for name in every if names is None or name in names]
     result = []
     for step, name in enumerate(wanted):
 
@@ -81,23 +82,18 @@ def arm_constants(
             result.append(chain_constant(fixed, name, progress))
         else:
             progress(0.0, "sampling")
-            result.append(makers[name](arm).solve(max_boxes, enough, progress))
+            result.append(_task(arm, name).solve(max_boxes, enough, progress))
     return tuple(result)
 
 
-def _makers(n: int) -> dict[str, Callable[[ArmHarmonics], SupremumTask]]:
-    """How each constant becomes a task, in the order in which they are reported."""
+def _task(arm: ArmHarmonics, name: str) -> SupremumTask:
+    tasks = {"lambda_min": lambda_min_task, "lambda_max": lambda_max_task, "k_c": coriolis_task}
+    return tasks[name](arm) if name in tasks else gravity_task(arm, name, joints_of(name, arm.n))
 
-    def component(i: int) -> Callable[[ArmHarmonics], SupremumTask]:
-        return lambda arm: gravity_task(arm, f"k_g{i + 1}", [i])
 
-    makers: dict[str, Callable[[ArmHarmonics], SupremumTask]] = {
-        "lambda_min": lambda_min_task,
-        "lambda_max": lambda_max_task,
-        "k_c": coriolis_task,
-        "k_g": lambda arm: gravity_task(arm, "k_g", range(arm.n)),
-    }
-    return makers | {f"k_g{i + 1}": component(i) for i in range(n)}
+def joints_of(name: str, n: int) -> Sequence[int]:
+    """The joints, from 0, whose torque of gravity a constant bounds: all for ``k_g``, one for ``k_g2``."""
+    return range(n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
 
 
 # --- The constants that certificates of stability need, once an arm.
@@ -150,9 +146,6 @@ def robot_constants(model: RobotModel, max_boxes: int | None = None) -> RobotCon
         lambda_min_at=smallest.state,
         lambda_max_at=largest.state,
     )
-
-
-# --- Constants of a chain of links of any length: a posture from one side, storage forms from the other.
 
 
 # --- The posture at which a constant of a chain is reached, as local searches find it; its value in balls.
@@ -217,7 +210,7 @@ def _merit(plant: RobotModel, name: str) -> tuple[int, Callable[..., tuple[float
         value = ca.dot(turned, turned) / square**2
     else:
         torque = graph.gravity(plant, q)
-        counted = torque if name == "k_g" else torque[int(name.removeprefix("k_g")) - 1]
+        counted = ca.vertcat(*(torque[i] for i in joints_of(name, n)))
         value = ca.dot(counted, counted)
     aim = -sign * value
     function = ca.Function("merit", [z], [aim, ca.densify(ca.gradient(aim, z))])
@@ -239,8 +232,7 @@ def _in_balls(
         posture = ChainInMotion(chain.links, chain.fall, sines, cosines, Algebra(to_arb))
         if name.startswith("k_g"):
             torque = posture.gravity()
-            counted = torque if name == "k_g" else [torque[int(name.removeprefix("k_g")) - 1]]
-            return Enclosure.from_arb(_norm(counted)).lower
+            return Enclosure.from_arb(_norm([torque[i] for i in joints_of(name, len(q))])).lower
         if name == "k_c":
             turned = _times(posture.coriolis(direction), direction)
             return Enclosure.from_arb(_norm(turned) / _norm(direction) ** 2).lower

@@ -15,7 +15,7 @@ References: dissipation inequalities and storage functions, willems1972dissipati
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
@@ -77,11 +77,6 @@ class StorageProblem:
 def energy_problem(chain: Chain, sign: int) -> StorageProblem:
     """λmax(M) with sign 1, λmin(M) with sign −1."""
     return StorageProblem(energy(chain.links, sign), 2, sign=sign)
-
-
-def weight_problem(chain: Chain, joints: Collection[int]) -> StorageProblem:
-    """sup (Σ g_i²)^½ over some joints, counted from 0."""
-    return StorageProblem(weight(chain.links, joints), 3, chain.fall)
 
 
 def rate_problem(chain: Chain, joint: int, sign: int) -> StorageProblem:
@@ -318,7 +313,8 @@ def _question(chain: Chain, name: str) -> tuple[StorageProblem, Bound]:
         return energy_problem(chain, 1), ChainBelow(chain.links, zero)
     joints = range(chain.n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
     counted = tuple(i + 1 for i in joints)
-    return weight_problem(chain, joints), ChainGravityBelow(chain.links, chain.fall, counted, zero)
+    problem = StorageProblem(weight(chain.links, joints), 3, chain.fall)
+    return problem, ChainGravityBelow(chain.links, chain.fall, counted, zero)
 
 
 def with_end(statement: Bound, value: Fraction) -> Bound:
@@ -332,6 +328,3 @@ def _above(kappa: Fraction) -> Fraction:
     """The nearest decimal of a few digits that is not below."""
     scale = Fraction(10) ** (_DIGITS - len(str(int(abs(kappa) * 10**6))) + 6)
     return Fraction(-((-kappa * scale) // 1)) / scale
-
-
-__all__ = ["storage_proof"]

@@ -105,14 +105,11 @@ class Conditions:
         n = limits.n
         torques = [torque for torque in limits.torque if torque is not None]
         self._norm = norms(_square(torques), _square(limits.gravity), n, gamma) if len(torques) == n else None
-        self._joints = [
-            None if torque is None else scaled(torque - gravity, n, gamma)
-            for torque, gravity in zip(limits.torque, limits.gravity, strict=True)
-        ]
-        self._single = [
-            None if torque is None else scaled(torque - gravity, 1, gamma, "<=")
-            for torque, gravity in zip(limits.torque, limits.gravity, strict=True)
-        ]
+        rows = list(zip(limits.torque, limits.gravity, strict=True))
+        self._joints, self._single = (
+            [None if torque is None else scaled(torque - k_g, count, gamma, sign) for torque, k_g in rows]
+            for count, sign in ((n, "<"), (1, "<="))
+        )
         self._damping = None if limits.viscous_min is None else scaled(limits.viscous_min, n, gamma)
 
     def check_10(self, gains: GainSet) -> list[Check]:
@@ -150,7 +147,8 @@ class Conditions:
     def all(self, gains: GainSet, deciding: Sequence[str] = ()) -> tuple[Check, ...]:
         """The checks of the paper's three, and of (10i) where it decides or (10p) fails."""
         joints = self.check_10p(gains)
-        single = self.check_10i(gains) if "10i" in deciding or _fails(joints) else []
+        fails = any(check.verdict == REJECTED and check.limit is not None for check in joints)
+        single = self.check_10i(gains) if "10i" in deciding or fails else []
         return (*self.check_10(gains), *joints, *single, *self.check_19(gains))
 
     def _sums(self, name: str, gains: GainSet, thresholds: Sequence[Threshold | None]) -> list[Check]:
@@ -178,10 +176,6 @@ class Conditions:
         largest = threshold.largest(places)
         passes = None if largest is None or result.shown == "proved" else threshold.judged(largest, places)
         return Check(name, joint, result, value, limit, largest, reason, admitted=passes, threshold=threshold)
-
-
-def _fails(checks: Sequence[Check]) -> bool:
-    return any(check.verdict == REJECTED and check.limit is not None for check in checks)
 
 
 def gamma_of(gain_set: GainSet, source: str = "true") -> Tree | None:

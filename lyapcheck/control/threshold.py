@@ -46,7 +46,9 @@ class Threshold:
 
     def __init__(self, budget: Tree, n: int, gamma: Tree | None, operator: str = "<") -> None:
         self.bounded, self.operator = gamma is not None, operator
-        self.limit = _quotient(budget, (root(Fraction(n)), gamma or ONE))
+        below = [factor for factor in (root(Fraction(n)), gamma or ONE) if factor != ONE]
+        product = below[0] if len(below) == 1 else ("mul", *below)
+        self.limit = ("div", budget, product) if below else budget
         self._known: dict[tuple[int, int], JudgedStatement] = {}
         self._near: dict[int, Enclosure] = {}
         self._largest: dict[int, Written | None] = {}
@@ -192,13 +194,6 @@ def _square_out(whole: int) -> tuple[int, int]:
 def number(value: Fraction) -> Tree:
     """A rational as a term."""
     return "num", f"{value.numerator}/{value.denominator}" if value.denominator > 1 else str(value.numerator)
-
-
-def _quotient(budget: Tree, factors: tuple[Tree, ...]) -> Tree:
-    below = [factor for factor in factors if factor != ONE]
-    if not below:
-        return budget
-    return "div", budget, below[0] if len(below) == 1 else ("mul", *below)
 
 
 def _proofs(places: int) -> Iterator[Proof]:

@@ -79,7 +79,9 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     errors = loop.start[count : count + n]
     signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
     parts |= {
-        "Lq": exact(Fraction(1) if loop.m == 1 else _four_digits(loop.member.L)),
+        "Lq": exact(
+            Fraction(1) if loop.m == 1 else Fraction(math.ceil(loop.member.L * 10**4 + Fraction(1, 4)), 10**4)
+        ),
         "rad": exact(Fraction(loop.radius).limit_denominator(10**6)),
         "signs": f"[{signs}]",
         "errors": _sides([(low - SLACK, high + SLACK) for low, high in errors]),
@@ -196,11 +198,6 @@ def _range(name: str, m: int | None) -> str:
     if m == 1:
         return f"{name}1_I"
     return f"{name}_R_{m}" if m in PIECES else f"({name}_I {m} 3)"
-
-
-def _four_digits(value: Fraction) -> Fraction:
-    """The bound in ``formal/Sharp.v`` of a number that is known better."""
-    return Fraction(math.ceil(value * 10**4 + Fraction(1, 4)), 10**4)
 
 
 def _size(loop: ClosedLoop, i: int, j: int) -> Fraction:

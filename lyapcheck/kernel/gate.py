@@ -12,14 +12,13 @@ from fractions import Fraction
 from math import floor, isqrt
 from typing import Any
 
-from flint import arb
-
 from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.kinds.gate_accepted import BrokenCondition, GateAccepted, GateParts, SaturatingState
 from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.members import member
+from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.kernel.terms import (
     NotPrinted,
@@ -208,7 +207,8 @@ def gate_refutation_script(statement: GateAccepted, proof: Proof) -> str:
         if any(turn.denominator != 1 for turn in proof.turns):
             raise NotPrinted("a posture of other angles than quarters of a turn")
         x = abs(proof.x)
-        low = Fraction(floor(Fraction(*_below(member("hyperbolic", m).h(to_arb(x)))) * FINE - 1), FINE)
+        below = Enclosure.from_arb(member("hyperbolic", m).h(to_arb(x))).lower
+        low = Fraction(floor(below * FINE - 1), FINE)
         turns = "; ".join(f"({turn.numerator})" for turn in proof.turns)
         up = "true" if proof.x > 0 else "false"
         numbers = f"{proof.joint} {rational(x)} {exact(low)} {exact_list(proof.parameters)} [{turns}]%Z {up}"
@@ -237,13 +237,6 @@ def gate_refutation_script(statement: GateAccepted, proof: Proof) -> str:
         f"apply (Gate.broken_{name} D ltac:(cbn; lia) {known[name]}) end; "
         "[reflexivity|cbn [family]; open_rationals; lra|vm_cast_no_check (eq_refl true)]."
     )
-
-
-def _below(value: arb) -> tuple[int, int]:
-    """A rational below a ball."""
-    from lyapcheck.check.numbers.polynomials import Enclosure
-
-    return Enclosure.from_arb(value).lower.as_integer_ratio()
 
 
 def _m(statement: GateAccepted) -> int:

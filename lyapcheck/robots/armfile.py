@@ -84,7 +84,7 @@ from lyapcheck.errors import InputError, file_error, nearest
 from lyapcheck.files.loop import read_loop
 from lyapcheck.files.reader import ARM
 from lyapcheck.files.toml import ARM as TOML_ARM
-from lyapcheck.files.toml import TomlFile, open_document, require_kind
+from lyapcheck.files.toml import open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import ChainPlan, check_positive_definite, read_chain
 from lyapcheck.robots.choice import Choice
@@ -101,20 +101,6 @@ from lyapcheck.robots.vary import (
     varied_numbers,
     with_rotors,
 )
-
-# --- Opening an arm file, and refusing what is none.
-
-
-def open_arm(path: Path, shown: str) -> TomlFile:
-    """The TOML document of an arm file; ``shown`` is the name that messages use.
-
-    Raises:
-        InputError: not a ``.toml`` file, missing, a folder, too large, not UTF-8 or not TOML.
-    """
-    if path.suffix.lower() != ".toml" and not path.is_dir():
-        raise file_error(shown, "is no arm file", "give the path of a .toml file")
-    return open_document(path, shown, ARM)
-
 
 EXACT = Fraction(0)
 Plan = ChainPlan | PrintedPlan
@@ -143,7 +129,10 @@ def read_arm(
     Raises:
         InputError: the file cannot be read or describes no arm; carries every problem found.
     """
-    document = open_arm(path, str(path) if shown is None else shown)
+    name = str(path) if shown is None else shown
+    if path.suffix.lower() != ".toml" and not path.is_dir():
+        raise file_error(name, "is no arm file", "give the path of a .toml file")
+    document = open_document(path, name, ARM)
     require_kind(document.name, document.data, TOML_ARM)
     source = document.data.get("source")
     notes = ArmNotes(document.name, document.line, source if isinstance(source, str) else "")

@@ -16,9 +16,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from flint import arb, ctx, fmpq, fmpz_mat
+from flint import arb, fmpz_mat
 
 from lyapcheck.check.loop.chain import UNIT
+from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.vectors import ZERO, Algebra
 from lyapcheck.robots.urdf.parts import Triple
 
@@ -124,25 +125,16 @@ def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction
 
 def _quarters(angle: Fraction) -> tuple[int, Fraction]:
     """The nearest multiple of π/2, and a rational within 10⁻⁴⁰ of what is left."""
-    previous = ctx.prec
-    ctx.prec = _BITS
-    try:
-        exact = arb(fmpq(angle.numerator, angle.denominator))
+    with precision(_BITS):
+        exact = to_arb(angle)
         count = round(float(exact / (arb.pi() / 2)))
         return count, _middle(exact - count * arb.pi() / 2)
-    finally:
-        ctx.prec = previous
 
 
 def _half_tangent(angle: Fraction) -> Fraction:
     """A rational with small denominator within 10⁻¹⁶ of tan(angle/2), for |angle| ≤ π/4 or so."""
-    previous = ctx.prec
-    ctx.prec = _BITS
-    try:
-        tangent = (arb(fmpq(angle.numerator, angle.denominator)) / 2).tan()
-        return _near(_middle(tangent))
-    finally:
-        ctx.prec = previous
+    with precision(_BITS):
+        return _near(_middle((to_arb(angle) / 2).tan()))
 
 
 def _middle(ball: arb) -> Fraction:
