@@ -31,11 +31,7 @@ def require_sampled(loop: LoopRecord, angles: str = "unwrapped") -> LoopRecord:
         "period": (loop.period, period > 0, "must be positive; give seconds"),
         "longest": (loop.longest, loop.stretch >= 1, "is below the period; give the longest interval"),
         "delay": (loop.delay, whole, f"must be whole samples to {MOST_DELAY}; round it up"),
-        "filter": (
-            taps,
-            few,
-            cut,
-        ),
+        "filter": (taps, few, cut),
         "velocity": (
             loop.velocity,
             loop.velocity == "difference",

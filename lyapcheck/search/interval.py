@@ -242,12 +242,11 @@ def unit_vector(e: Sequence[Interval]) -> list[Interval]:
 
     e_i/√(e_i² + rest) grows with e_i; for e_i > 0 it falls with the rest, for e_i < 0 it grows with it.
     """
-    return [_component(e, i) for i in range(len(e))]
-
-
-def _component(e: Sequence[Interval], i: int) -> Interval:
-    rest = _sum_of_squares([x for k, x in enumerate(e) if k != i])
-    return Interval(-_largest_share(-e[i].lo, rest), _largest_share(e[i].hi, rest))
+    rests = (_sum_of_squares([x for k, x in enumerate(e) if k != i]) for i in range(len(e)))
+    return [
+        Interval(-_largest_share(-x.lo, rest), _largest_share(x.hi, rest))
+        for x, rest in zip(e, rests, strict=True)
+    ]
 
 
 def _largest_share(x: Array, rest: Interval) -> Array:

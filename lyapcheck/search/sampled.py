@@ -231,11 +231,10 @@ def plant_of(statement: SampledStable | SampledFromRest) -> RobotModel:
 
 def corners(plant: RobotModel) -> Iterator[tuple[Fraction, ...]]:
     """The corners of the ranges of an arm, or both ends of all of them."""
-    ranges = [number.bounds for number in plant.parameters.values()]
-    if sum(low < high for low, high in ranges) <= MOST_RANGING:
-        yield from corners_of(ranges)
+    if sum(low < high for low, high in plant.ranges) <= MOST_RANGING:
+        yield from corners_of(plant.ranges)
     else:
-        yield from (tuple(pair[end] for pair in ranges) for end in (0, 1))
+        yield from (tuple(pair[end] for pair in plant.ranges) for end in (0, 1))
 
 
 def refuted_at(

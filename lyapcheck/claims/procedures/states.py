@@ -50,7 +50,6 @@ from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop.states import State
-    from lyapcheck.check.statement import Ends
     from lyapcheck.search.controlled_arm import ControlledArm
 
 
@@ -170,27 +169,19 @@ def controlled_arm_of(statement: Decreasing) -> ControlledArm:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
 
-    gains = GainSet(
-        name="gains",
-        m=statement.m,
-        family=statement.family,
-        kp=statement.kp,
-        kv=statement.kv,
-        angle_unit="rad",
-    )
-    # what the statement says of the arm
+    gains = GainSet("gains", statement.m, statement.kp, statement.kv, statement.family)
     n, (viscous, parameters) = len(statement.kp), _middles(statement)
     names = tuple(f"p{k + 1}" for k in range(len(parameters)))
     ring = trig.trig_ring(n, names)
     mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
-    plant = RobotModel(
+    ranging = Polynomials(mass, trig.constant(ring, 0), names)
+    arm = RobotModel(
         name="the arm",
         joints=tuple(f"joint {i + 1}" for i in range(n)),
-        dynamics=Polynomials(mass, trig.constant(ring, 0), names),
-        viscous=_numbers(viscous, statement.viscous),
-        parameters=dict(zip(names, _numbers(parameters, statement.parameters), strict=True)),
+        dynamics=ranging.fixed(dict(zip(names, parameters, strict=True))),
+        viscous=tuple(map(Number, viscous)),
     )
-    return ControlledArm(gains, plant.fixed())
+    return ControlledArm(gains, arm)
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
@@ -198,11 +189,6 @@ def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fractio
     ranges = (statement.viscous, statement.parameters)
     viscous, parameters = (tuple((low + high) / 2 for low, high in ends) for ends in ranges)
     return viscous, parameters
-
-
-def _numbers(middles: tuple[Fraction, ...], ranges: tuple[Ends, ...]) -> tuple[Number, ...]:
-    rows = zip(middles, ranges, strict=True)
-    return tuple(Number(middle, low=low, high=high) for middle, (low, high) in rows)
 
 
 # --- Gains on a computer: by (S), by an unstable goal, or from starts at rest by an energy that falls, (P).
