@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from lyapcheck.cli.show import open_folder, require_writable
 from lyapcheck.cli.values import LOOP, Complaints, loop_of
 from lyapcheck.errors import InputError, argument_error, argument_problem
 
 if TYPE_CHECKING:
-    from lyapcheck._types import Progress
-    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.many import Starts
@@ -92,34 +89,14 @@ def _degrees(word: str) -> float:
     return angle if abs(angle) <= MOST_DEGREES else math.nan
 
 
-@dataclass(frozen=True)
-class Eps0:
-    """What was asked for."""
-
-    number: float | None
-    """None where nothing was asked for, and where it is to be certified."""
-    certified: bool = False
-
-    def of(self, gain_set: GainSet, model: RobotModel, advance: Progress) -> float | None:
-        """The ε₀ of one gain set, rounded down; 0 if nothing was asked for, ``None`` if none is certified."""
-        if not self.certified:
-            return self.number or 0.0
-        from lyapcheck.answers.epsilon import epsilon
-        from lyapcheck.check.numbers.polynomials import Enclosure
-
-        advance(0.0, f"{gain_set.name}: what ε₀ is certified")
-        result = epsilon(gain_set, model, max_boxes=MAX_BOXES, weights=False).certified
-        return None if result is None else Enclosure(result, result).float_lower
-
-
-def eps0_of(text: str | None) -> Eps0:
-    """What ``--eps0`` asks for.
+def eps0_of(text: str | None) -> float | None:
+    """The number that ``--eps0`` asks for; ``None`` where it asks for none, or for `CERTIFIED`.
 
     Raises:
         InputError: neither a number nor ``certified``; a number out of range is refused with its task.
     """
     if text is None or text == CERTIFIED:
-        return Eps0(None, text is not None)
+        return None
     try:
         number = float(text)
     except ValueError:
@@ -127,7 +104,7 @@ def eps0_of(text: str | None) -> Eps0:
     if math.isnan(number):
         rule = f"must be a number or {CERTIFIED}"
         raise argument_error("--eps0", text, rule, f"write --eps0 0.01, or --eps0 {CERTIFIED}")
-    return Eps0(number)
+    return number
 
 
 def task_of(
@@ -152,19 +129,15 @@ def task_of(
     return wrong.result(_by_options(partial(task_for, model.n, q_d, q0, w0, seconds, eps0=eps0)))
 
 
-def band_of(band: float | None) -> float:
-    """The band of a tracking run in rad, from what the option says in degrees."""
-    return math.radians(BAND if band is None else band)
-
-
 def request_of(
     model: RobotModel,
     reference: Reference | None,
     start: str | None,
     velocity: str | None,
     time: float | None,
-    eps0: Eps0,
-    band: float | None,
+    eps0: float | None,
+    band: float,
+    certified: bool,
 ) -> Task:
     """The task along a reference that the options ask for; without one only its problems count.
 
@@ -174,12 +147,12 @@ def request_of(
     from lyapcheck.simulate.tracking import request_for
 
     wrong = Complaints()
-    if eps0.certified:
+    if certified:
         repair = "leave --eps0 out: one that is proved for (21) is taken"
         rule = "is for tasks without --reference"
         wrong.problems.append(argument_problem("--eps0", CERTIFIED, rule, repair))
     q0, rates = _begin(wrong, model, start, velocity)
-    made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0.number, band=band_of(band))
+    made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0, band=band)
     return wrong.result(_by_options(made))
 
 
@@ -249,18 +222,6 @@ def check_options(given: Collection[str]) -> None:
     ]
     if problems:
         raise InputError(problems)
-
-
-def check_places(csv: str | None, plot: Path | None) -> None:
-    """Refuse places that could not be written to at the end.
-
-    Raises:
-        InputError: the first of them.
-    """
-    if csv is not None and csv != "-":
-        require_writable("--csv", Path(csv))
-    if plot is not None:
-        open_folder("--plot", plot)
 
 
 def _begin(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -12,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress
 from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder, show, write_certificates, write_whole
+from lyapcheck.cli.show import open_folder, require_writable, show, write_certificates, write_whole
 from lyapcheck.cli.task import (
-    Eps0,
-    band_of,
+    BAND,
+    CERTIFIED,
+    MAX_BOXES,
     bench_of,
     check_options,
-    check_places,
     eps0_of,
     request_of,
     starts_of,
@@ -52,6 +53,10 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.run import Motion, Run
     from lyapcheck.simulate.task import Task
     from lyapcheck.simulate.tracking import TrackingRun
+
+
+OF_LOOP = tuple(name for name in LOOP if name not in ("velocity", "within"))
+"""Options of the loop; these two have other meanings here."""
 
 
 def plot_run(run: Motion, number: int, place: Path) -> None:
@@ -88,48 +93,20 @@ def file_stem(name: str, number: int) -> str:
 
 
 @dataclass(frozen=True)
-class Output:
-    """Where results go, and how."""
+class Job:
+    """The gain sets of a file on an arm, the progress of them all, and where results go."""
 
+    file: GainFile
+    model: RobotModel
+    eps0: float | None
+    """With which V is watched."""
+    certified: bool
+    """Whether it is to be certified, for each gain set."""
+    advance: Progress
     csv: str | None
     plot: Path | None
     form: str
     certificates: Path | None = None
-
-    def write_runs(self, answer: Simulation[Any]) -> Exit:
-        """The same of single runs, each also drawn where that is asked for."""
-        from lyapcheck.answers.simulate.samples import runs_csv
-
-        if self.plot is not None:
-            for number, run in enumerate(answer.results, start=1):
-                plot_run(run, number, self.plot)
-        return self.write(answer, lambda: runs_csv(answer.results))
-
-    def write(self, answer: Simulation[Any], samples: Callable[[], str]) -> Exit:
-        """Samples to their file or to standard output, else the answer there; what went wrong to the other.
-
-        Returns:
-            The exit code of the answer.
-        """
-        if self.csv is not None and self.csv != "-":
-            write_whole(Path(self.csv), samples())
-        if self.csv == "-":
-            sys.stdout.write(document_text(samples()))
-        else:
-            show(answer, self.form)
-        for sentence in answer.complaints():
-            print(sentence, file=sys.stderr)
-        return answer.exit_code
-
-
-@dataclass(frozen=True)
-class Job:
-    """The gain sets of a file on an arm, and the progress of them all."""
-
-    file: GainFile
-    model: RobotModel
-    output: Output
-    advance: Progress
     unfinished: list[Unfinished] = field(default_factory=list)
     varied: tuple[tuple[str, RobotModel], ...] = ()
     """The arm at other values of its numbers, each with what was changed."""
@@ -147,10 +124,11 @@ class Job:
             result += [(replace(gain_set, name=f"{gain_set.name}: {what}"), arm) for what, arm in self.varied]
         return result
 
-    def each(self) -> list[tuple[GainSet, Progress]]:
-        """Each gain set with its share of the progress of all."""
-        gains = self.file.gains
-        return [(one, _share_of(self.advance, done, len(gains), one.name)) for done, one in enumerate(gains)]
+    def each(self) -> Iterator[tuple[GainSet, RobotModel, Progress]]:
+        """Each case with its share of the progress of all."""
+        cases = self.cases
+        for done, (gain_set, arm) in enumerate(cases):
+            yield gain_set, arm, _share_of(self.advance, done, len(cases), gain_set.name)
 
     def fail(self, gain_set: GainSet, reason: str) -> None:
         """Keep why not all that was asked of a gain set could be found out."""
@@ -169,22 +147,48 @@ class Job:
                 self.fail(gain_set, failure.reason)
             return failure.partial
 
-    def watching(self, eps0: Eps0, gain_set: GainSet, progress: Progress) -> float:
-        """The ε₀ to watch V with; 0 where none is certified, which is noted."""
-        number = eps0.of(gain_set, self.model, progress)
-        if number is None:
+    def watching(self, gain_set: GainSet, progress: Progress) -> float:
+        """The ε₀ to watch V with, rounded down; 0 where nothing is asked, or none is certified."""
+        if not self.certified:
+            return self.eps0 or 0.0
+        from lyapcheck.answers.epsilon import epsilon
+        from lyapcheck.check.numbers.polynomials import Enclosure
+
+        progress(0.0, f"{gain_set.name}: what ε₀ is certified")
+        found = epsilon(gain_set, self.model, max_boxes=MAX_BOXES, weights=False).certified
+        if found is None:
             name = f"{gain_set.name} on {self.model.name}"
             self.fail(gain_set, f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
-        return number or 0.0
+            return 0.0
+        return Enclosure(found, found).float_lower
+
+    def write(self, answer: Simulation[Any], samples: Callable[[], str], *drawn: Motion) -> Exit:
+        """Samples to their file or to standard output, else the answer there; what went wrong to the other.
+
+        Returns:
+            The exit code of the answer.
+        """
+        for number, run in enumerate(drawn if self.plot is not None else (), start=1):
+            plot_run(run, number, self.plot or Path())
+        if self.csv is not None and self.csv != "-":
+            write_whole(Path(self.csv), samples())
+        if self.csv == "-":
+            sys.stdout.write(document_text(samples()))
+        else:
+            show(answer, self.form)
+        for sentence in answer.complaints():
+            print(sentence, file=sys.stderr)
+        return answer.exit_code
 
 
 def _share_of(advance: Progress, done: int, cases: int, name: str) -> Progress:
     return lambda fraction, note: advance((done + fraction) / cases, note or name)
 
 
-def regulate(job: Job, task: Task, *, eps0: Eps0, bench: Bench | None, stop: bool) -> Exit:
+def regulate(job: Job, task: Task, bench: Bench | None, stop: bool) -> Exit:
     """The set-point task, by the equations or as a computer runs it."""
     from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
+    from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.files.fields import file_stem
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.trial import experiment
@@ -192,20 +196,19 @@ def regulate(job: Job, task: Task, *, eps0: Eps0, bench: Bench | None, stop: boo
     runs: list[Run] = []
     broken: dict[str, Certificate] = {}
     mover = partial(experiment, bench=bench) if bench else partial(simulate, stop=stop)
-    for done, (gain_set, arm) in enumerate(job.cases):
-        told = _share_of(job.advance, done, len(job.cases), gain_set.name)
-        number = job.watching(eps0, gain_set, told)
-        way = (task.q_d, task.q0, task.w0, task.T)
+    way = (task.q_d, task.q0, task.w0, task.T)
+    for gain_set, arm, told in job.each():
+        number = job.watching(gain_set, told)
         runs.append(job.moved(gain_set, partial(mover, gain_set, arm, *way, eps0=number, on_progress=told)))
-        if job.output.certificates is not None and bench is None:
+        if job.certificates is not None and bench is None:
             certificate = breach_certificate(runs[-1], gain_set, arm)
             if certificate is not None and runs[-1].name == gain_set.name:
                 broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
-    if job.output.certificates is not None:
-        write_certificates(job.output.certificates, broken)
+    if job.certificates is not None:
+        write_certificates(job.certificates, broken)
     judged = {} if bench is None or job.varied else _judged(job, bench)
     answer = SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, job.arms, judged=judged)
-    return job.output.write_runs(answer)
+    return job.write(answer, lambda: runs_csv(answer.results), *runs)
 
 
 def _judged(job: Job, bench: Bench) -> dict[str, tuple[Check, ...]]:
@@ -219,38 +222,36 @@ def _judged(job: Job, bench: Bench) -> dict[str, tuple[Check, ...]]:
     return {result.name: runs_of(result) for result in results}
 
 
-def follow(
-    job: Job, reference: Reference, task: Task, *, eps0: float | None, band: float, stop: bool
-) -> Exit:
+def follow(job: Job, reference: Reference, task: Task, band: float, stop: bool) -> Exit:
     """The tracking scheme (21) along a reference."""
+    from lyapcheck.answers.simulate.samples import runs_csv
     from lyapcheck.answers.simulate.tracking import TrackingRuns
     from lyapcheck.simulate.tracking import track
 
     runs: list[TrackingRun] = []
-    mover = partial(track, eps0=eps0, band_rad=band, stop=stop)
-    for gain_set, told in job.each():
-        way = (gain_set, job.model, reference, task.q0, task.w0, task.T)
+    mover = partial(track, eps0=job.eps0, band_rad=band, stop=stop)
+    for gain_set, arm, told in job.each():
+        way = (gain_set, arm, reference, task.q0, task.w0, task.T)
         runs.append(job.moved(gain_set, partial(mover, *way, on_progress=told)))
-    return job.output.write_runs(
-        TrackingRuns(tuple(runs), tuple(job.unfinished), job.file, unsampled=job.unsampled)
-    )
+    answer = TrackingRuns(tuple(runs), tuple(job.unfinished), job.file, unsampled=job.unsampled)
+    return job.write(answer, lambda: runs_csv(answer.results), *runs)
 
 
-def spread_out(job: Job, task: Task, starts: Starts, *, eps0: Eps0) -> Exit:
+def spread_out(job: Job, task: Task, starts: Starts) -> Exit:
     """The set-point task from many random starts."""
     from lyapcheck.answers.simulate.samples import starts_csv
     from lyapcheck.answers.simulate.starts import RandomStarts
     from lyapcheck.simulate.many import sweep
 
     result: list[Sweep] = []
-    for gain_set, told in job.each():
-        number = job.watching(eps0, gain_set, told)
-        result.append(sweep(gain_set, job.model, task, starts, eps0=number, on_progress=told))
+    for gain_set, arm, told in job.each():
+        number = job.watching(gain_set, told)
+        result.append(sweep(gain_set, arm, task, starts, eps0=number, on_progress=told))
         left = starts.count - result[-1].finished
         if left:
-            job.fail(gain_set, f"{gain_set.name} on {job.model.name}: {left} of {starts.count} runs")
+            job.fail(gain_set, f"{gain_set.name} on {arm.name}: {left} of {starts.count} runs")
     answer = RandomStarts(tuple(result), tuple(job.unfinished), job.file, unsampled=job.unsampled)
-    return job.output.write(answer, lambda: starts_csv(result))
+    return job.write(answer, lambda: starts_csv(result))
 
 
 def arguments(parser: Parser) -> None:
@@ -259,7 +260,7 @@ def arguments(parser: Parser) -> None:
     add_robot(parser)
     about = "Run as on the paper's bench, at 2.5 ms without delay, with encoders and dry friction."
     parser.add_argument("--experiment", action="store_true", help=about)
-    add_loop(parser, [name for name in LOOP if name not in ("velocity", "within")])  # of other meanings here
+    add_loop(parser, OF_LOOP)
     about = "Follow the trajectory in this reference file by (21), instead of a goal."
     parser.add_argument("--reference", metavar="FILE", type=Path, help=about)
     parser.add_number("--time", float, "Duration in s. Default: 5, or the length of the reference.")
@@ -294,24 +295,11 @@ def arguments(parser: Parser) -> None:
 def run(
     file: Path,
     robot: str | None,
-    experiment: bool,
-    reference: Path | None,
-    time: float | None,
-    target: str | None,
-    start: str | None,
-    velocity: str | None,
-    eps0: str | None,
-    band: float | None,
-    runs: int | None,
-    spread: float | None,
-    seed: int | None,
-    vary: list[str] | None,
-    keep_going: bool,
     csv: str | None,
     plot: Path | None,
     certificates: Path | None,
     format: str,  # noqa: A002
-    **loop: str | None,
+    **options: Any,
 ) -> Exit:
     """Simulate the closed loop of every gain set in FILE and report its performance.
 
@@ -339,47 +327,56 @@ def run(
 
     gain_file, name, model = gains_on_arm(file, robot)
     wrong = Complaints()
-    watched = wrong.reading(eps0_of, eps0) or Eps0(None)
-    given = {
-        "--experiment": experiment or None,
-        **{f"--{name.replace('_', '-')}": value for name, value in loop.items()},
-        "--reference": reference,
-        "--target": target,
-        "--band": band,
-        "--runs": runs,
-        "--spread": spread,
-        "--seed": seed,
-        "--vary": vary,
-        "--keep-going": keep_going or None,
-        "--plot": plot,
-        "--certificates": certificates,
-    }
-    wrong.reading(check_options, [name for name, value in given.items() if value is not None])
-    wrong.reading(check_places, csv, plot)
-    bench = wrong.reading(bench_of, loop, experiment, gain_file, model)
-    ranges = wrong.reading(varies, vary) or ()
+    eps0, certified = wrong.reading(eps0_of, options["eps0"]), options["eps0"] == CERTIFIED
+    start, velocity, time = (options[key] for key in ("start", "velocity", "time"))
+    band = math.radians(BAND if options["band"] is None else options["band"])
+    loop = {key: options[key] for key in OF_LOOP}
+    written = {"plot": plot, "certificates": certificates, **options}
+    given = [
+        f"--{key.replace('_', '-')}"
+        for key, value in written.items()
+        if value not in (None, False) and (key in OF_LOOP or key not in LOOP)
+    ]
+    wrong.reading(check_options, given)
+    if csv is not None and csv != "-":
+        wrong.reading(require_writable, "--csv", Path(csv))
+    if plot is not None:
+        wrong.reading(open_folder, "--plot", plot)
+    bench = wrong.reading(bench_of, loop, options["experiment"], gain_file, model)
+    ranges = wrong.reading(varies, options["vary"]) or ()
     starts = path = task = None
-    if runs is not None:
-        starts = wrong.reading(starts_of, runs, spread, seed)
-    if reference is None:
-        task = wrong.reading(task_of, model, target, start, time, watched.number, velocity)
+    if options["runs"] is not None:
+        starts = wrong.reading(starts_of, options["runs"], options["spread"], options["seed"])
+    if options["reference"] is None:
+        task = wrong.reading(task_of, model, options["target"], start, time, eps0, velocity)
     else:
-        path = wrong.reading(read_reference, reference, model.n)
-        task = wrong.reading(request_of, model, path, start, velocity, time, watched, band)
+        path = wrong.reading(read_reference, options["reference"], model.n)
+        task = wrong.reading(request_of, model, path, start, velocity, time, eps0, band, certified)
     wrong.raise_all()
     ranged = load(name, vary=ranges) if ranges else model
     arms = tuple(corners(ranged, ranges)) if ranges else ()
     where = ", which lies outside the ranges," if outside(model, ranged) else ""
     text = f"the arm of the file{where} and {corners_text(ranged, ranges)}" if ranges else ""
     folder = None if certificates is None else open_folder("--certificates", certificates)
+    assert task is not None
+    stop = not options["keep_going"]
     with progress("simulate") as advance:
-        output, left_out = Output(csv, plot, format, folder), bench is not None
-        job = Job(gain_file, model, output, advance, varied=arms, arms=text, unsampled=left_out)
-        stop = not keep_going
-        if path is not None and task is not None:
-            code = follow(job, path, task, eps0=watched.number, band=band_of(band), stop=stop)
-        elif task is not None and starts is not None:
-            code = spread_out(job, task, starts, eps0=watched)
-        elif task is not None:
-            code = regulate(job, task, eps0=watched, bench=bench, stop=stop)
-    return code
+        job = Job(
+            gain_file,
+            model,
+            eps0,
+            certified,
+            advance,
+            csv,
+            plot,
+            format,
+            folder,
+            varied=arms,
+            arms=text,
+            unsampled=bench is not None,
+        )
+        if path is not None:
+            return follow(job, path, task, band, stop)
+        if starts is not None:
+            return spread_out(job, task, starts)
+        return regulate(job, task, bench, stop)
