@@ -308,7 +308,7 @@ def export(
             raise argument_error("gains", gains.name, rule, "choose numbers of a usual size") from None
         (judged,) = gate(replace(gain_file, gains=(gains,)), robot)
         period = _certified_period(gains, replace(limits, model=model), loop, gain_file.bounds.viscous_min)
-        proofs = {name: one.digest for name, one in certificates([judged]).certificates.items()}
+        proofs = {name: one.digest for name, one in certificates([judged])[0].items()}
         result.append(Exported(controller, rounding, judged, proofs, controller.texts(), *period))
     return Export(tuple(result), gain_file, model, robot or gain_file.robot or "")
 

@@ -11,8 +11,8 @@ import pytest
 
 from lyapcheck import load_robot, named_family
 from lyapcheck.answers.gate import GateAnswer, gate
+from lyapcheck.answers.gate.answer import remarks
 from lyapcheck.answers.gate.certificates import certificates
-from lyapcheck.answers.gate.remarks import remarks
 from lyapcheck.check.certificate import read
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.loop.proof import proves
@@ -64,7 +64,7 @@ def test_what_dry_friction_does_is_what_the_checker_accepts(tmp_path):
     path = gain_file(tmp_path / "g.toml", 'robot = "buap3"', "[0.1, 0.1, 0.1]")
     path.write_text(path.read_text().replace("kp = [1, 1]", "kp = [0.025, 60, 5]"))
     answer = gate(read_gain_file(path))
-    made = certificates(answer).certificates
+    made, _ = certificates(answer)
     anywhere, rest = made["a.held.base.json"], made["a.rest.json"].statement
     assert isinstance(rest, Resting)
     for one in (anywhere, made["a.rest.json"]):

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lyapcheck.answers.gate.shown import shown_gravity
+from lyapcheck.answers.gate.promises import shown_gravity
 from lyapcheck.check.kinds.chain import ChainGravityBelow, OwnLevers
 from lyapcheck.check.kinds.gravity import GravityBelow, Levers
 from lyapcheck.check.loop.chain import RigidLink

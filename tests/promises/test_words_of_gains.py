@@ -8,7 +8,7 @@ import pytest
 
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.answers.gate.otherwise import positive
-from lyapcheck.answers.gate.shown import shown_gravity
+from lyapcheck.answers.gate.promises import shown_gravity
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm

@@ -42,7 +42,7 @@ NOTES = (
 )
 LEGEND = "proved: |e_i| at every state of rest is at most this, for dry friction up to what is stated."
 CORNERS = "simulated: the worst of one run at {}, which proves nothing of what lies between"
-NOT_IN_RECORDS = ("assumptions", "vary", "unvaried")
+NOT_IN_RECORDS = ("assumptions", "vary")
 
 
 @dataclass(frozen=True)
@@ -187,7 +187,6 @@ def _remarks(result: BoundsComparison, many: bool) -> Iterator[str]:
 def _table(rows: Sequence[tuple[BoundsComparison, int]], many: bool) -> Table:
     shown_if = {
         "gain set": many,
-        "without --vary [°]": any(result.unvaried is not None for result, _ in rows),
         "with unknown gravity [°]": any(result.unknown for result, _ in rows),
     }
     fields = [field for field in JOINTS if shown_if.get(field.head, True)]
@@ -208,7 +207,6 @@ JOINTS = (
     Field("", lambda row: [row.gains.name] * len(row.joints), "gain set", align="l"),
     Field("", "joints", "joint", align="l"),
     Field("", "rest_degrees", "proved [°]", angle_up),
-    Field("", "unvaried.rest_degrees", "without --vary [°]", angle_up),
     Field("", "unknown_degrees", "with unknown gravity [°]", angle_up),
     Field("", "simulated_rest", "simulated [°]", _seen),
     Field("", "simulated_largest", "peak, simulated [°]", _seen),
@@ -242,7 +240,6 @@ def comparison_data(result: BoundsComparison) -> dict[str, Any]:
         },
         "assumptions": list(result.model.assumptions),
         "vary": list(result.varies),
-        "unvaried": None if result.unvaried is None else comparison_data(result.unvaried),
     }
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck import asked
-from lyapcheck._types import Array, Progress, part, silent
+from lyapcheck._types import Array, Progress, silent
 from lyapcheck.answers.running import HoldsCheck, holds_checks
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, resting
@@ -61,7 +61,6 @@ class BoundsComparison:
             inside the bound of rest.
         varies: the ranges over which the bounds hold, as typed.
         corners: at which of their corners runs were made; the worst of them counts.
-        unvaried: the same without these ranges, where something varies.
         unknown: what gravity that the controller does not know makes of them, where a record says so.
     """
 
@@ -77,7 +76,6 @@ class BoundsComparison:
     simulated_rest: tuple[float, ...]
     varies: tuple[str, ...] = ()
     corners: str = ""
-    unvaried: BoundsComparison | None = None
     unknown: tuple[Check, ...] = ()
 
     @property
@@ -145,9 +143,6 @@ def compare(
     if not named(gain_set.family, gain_set.m).bounded:
         rule = f"{gain_set.name} has an unbounded h, of which no error at rest is judged"
         raise argument_error("gains", gain_set.name, rule, "choose gains of a bounded family")
-    unvaried = None
-    if varied is not None:
-        unvaried = compare(gain_set, model, task, delta, dry, on_progress=part(progress, 0, 0.4))
     whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
     known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
     most = tuple(known_most if dry is None else dry)
@@ -157,7 +152,7 @@ def compare(
     errors = _errors(promise, model.n)
     runs = []
     for index, arm in enumerate(arms):
-        progress((0 if varied is None else 0.4) + 0.6 * index / len(arms), "simulation")
+        progress(index / len(arms), "simulation")
         runs.append(_run(gain_set, arm, task, delta, dry, errors))
     times, largest, last = zip(*runs, strict=True)
     return BoundsComparison(
@@ -173,7 +168,6 @@ def compare(
         simulated_rest=tuple(np.max(last, axis=0).tolist()),
         varies=() if varied is None else tuple(one.text for one in varied[1]),
         corners="" if varied is None else corners_text(*varied),
-        unvaried=unvaried,
         unknown=()
         if record is None or record.knows_gravity
         else holds_checks(gain_set, whole, record, known if len(known) == len(most) else None),

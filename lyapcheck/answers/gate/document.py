@@ -7,9 +7,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.assumed import arm_words, assumed_line, file_words
+from lyapcheck.answers.gate.answer import accepting, proved_otherwise, remarks, without_19
 from lyapcheck.answers.gate.friction import farthest, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
-from lyapcheck.answers.gate.remarks import accepting, proved_otherwise, remarks, without_19
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
 from lyapcheck.answers.running import INFINITE, SampledCheck, farthest_unknown, open_as_run
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check

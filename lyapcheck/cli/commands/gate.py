@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.show import show
+from lyapcheck.cli.show import open_folder, show, write_certificates
 from lyapcheck.cli.values import add_certificates, add_format, add_loop, add_robot, add_vary, loop_of, varies
 
 if TYPE_CHECKING:
@@ -78,11 +78,7 @@ def run(
     from lyapcheck.errors import InputError, Problem
     from lyapcheck.robots.choice import named
 
-    folder = None
-    if certificates is not None:
-        from lyapcheck.cli.show import open_folder
-
-        folder = open_folder("--certificates", certificates)
+    folder = None if certificates is None else open_folder("--certificates", certificates)
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, Limits] = {}
@@ -103,21 +99,15 @@ def run(
     answer.problems = tuple(problems)
     if answer:
         if folder is not None:
-            _write_certificates(folder, answer)
+            from lyapcheck.answers.gate.certificates import certificates as certificates_of
+
+            made, granted = certificates_of(answer)
+            write_certificates(folder, made)
+            for sentence in granted:
+                print(f"note: {sentence}", file=sys.stderr)
         show(answer, format)
     if problems:
         unusable = InputError(problems)
         unusable.told = bool(answer)
         raise unusable
     return answer.exit_code
-
-
-def _write_certificates(folder: Path, answer: GateAnswer) -> None:
-    """One file for each check that was decided."""
-    from lyapcheck.answers.gate.certificates import certificates
-    from lyapcheck.cli.show import write_certificates
-
-    made = certificates(answer)
-    write_certificates(folder, made.certificates)
-    for sentence in made.granted:
-        print(f"note: {sentence}", file=sys.stderr)
