@@ -43,7 +43,7 @@ def flow(statement, random):
 def _start(statement, at, n, random):
     """A start that the conclusion is about."""
     for _ in range(1000):
-        radius = 3.0 if statement.radius is None else float(at(statement.radius, [0.0] * n)) ** 0.5
+        radius = 3.0 if statement.radius is None else abs(at(statement.radius, [0.0] * n)) ** 0.5
         x = np.array([random.gauss(0, 1) for _ in range(n)])
         x *= random.uniform(0.3, 1) * radius / np.linalg.norm(x)
         if statement.conclusion != "nearby" or at(statement.energy, x) <= at(statement.level, x):

@@ -27,13 +27,19 @@ from tests.statement_fuzz.generators.expressions import (
 
 PROOFS = Path(__file__).parents[3] / "proofs"
 SCRIPTS = (
+    "adaptive_pd",
+    "bounded_filter",
+    "computed_torque",
     "feedforward",
+    "flexible_joints",
+    "kelly_filter",
     "kelly_gravity",
     "kelly_santibanez",
     "kelly_tanh",
     "pd_plus",
     "pid",
     "slotine_li",
+    "slotine_li_adaptive",
     "takegaki_arimoto",
     "tomei",
 )
@@ -103,6 +109,16 @@ def _kind(argument, random):
         ),
         lambda: replace(argument, system=replace(system, desired=not system.desired)),
     ]
+    if argument.steps:
+        steps = random.sample(argument.steps, random.randint(1, len(argument.steps)))
+        states = (*system.moving, *(name for one in argument.steps for name in one.still))
+        moved = replace(
+            steps[0],
+            still=tuple(random.sample(states, random.randint(0, 2))),
+            against=tuple((random.choice(system.moving), x) for _, x in steps[0].against),
+        )
+        changes += [lambda: replace(argument, steps=tuple(steps))] * 2
+        changes += [lambda: replace(argument, steps=(moved, *argument.steps[1:]))] * 4
     return random.choice(changes)()
 
 
