@@ -94,27 +94,17 @@ class Recheck(Answer):
     def _table(self, rows: Sequence[Checked]) -> Table:
         """The verdict on each, and what it states or why it is not accepted; first reasons are remarks."""
         kernel = {one.file: one.axioms or one.reason for one in self.kernel}
-        heads = (
-            "",
-            "file",
-            "verdict",
-            "grade",
-            *(["axioms in Coq, or why not"] if kernel else []),
-            "statement",
-        )
-        cells = [
-            (
-                SIGNS[one.status],
-                one.file,
-                one.verdict if one.accepted else one.status,
-                one.grade if one.accepted else "",
-                *([kernel.get(one.file, "")] if kernel else []),
-                _begin(one.finding.statement if one.accepted else one.reason)
-                if one.accepted or number >= MOST_REASONS - 1
-                else "see below",
-            )
-            for number, one in enumerate(rows)
-        ]
+        coq = ["axioms in Coq, or why not"] if kernel else []
+        heads = ("", "file", "verdict", "grade", *coq, "statement")
+        cells = []
+        for number, one in enumerate(rows):
+            said = one.finding.statement if one.accepted else one.reason
+            said = said if len(said) <= CELL else f"{said[: CELL - 1]}…"  # the details have all
+            if not one.accepted and number < MOST_REASONS - 1:
+                said = "see below"
+            verdict = (one.verdict, one.grade) if one.accepted else (one.status, "")
+            axioms = [kernel.get(one.file, "")] if kernel else []
+            cells.append((SIGNS[one.status], one.file, *verdict, *axioms, said))
         return Table(heads, tuple(cells), align="l" * len(heads), keys=4)
 
     def data(self) -> dict[str, Any]:
@@ -161,7 +151,10 @@ class Recheck(Answer):
                 if one.status == "undecided" and one.finding.statement:
                     said.append(_open_statement(one))
                 if one.status != "refused" and one.finding.statement:
-                    said.append(_words(one))
+                    result = one.finding
+                    member = f" (m = {result.m})" if result.m is not None else ""
+                    words = f"the author's words: {result.label}{member}: “{result.says}”"
+                    said.append(f"statement {result.statement_digest[:12]}; {words}")
                 yield Section(f"{sign} {one.file}: {one.verdict or status}", (Bullets(tuple(said)),))
 
     def _with(self, status: str) -> list[Checked]:
@@ -192,19 +185,6 @@ class Recheck(Answer):
             rests = Paragraph(f"With all that these import, {len(code['modules'])} modules:")
             blocks = (rules, rests, Bullets(tuple(code["modules"])))
             yield Section(f"Trusted for all that is {verdict}", blocks)
-
-
-def _begin(text: str) -> str:
-    """What a cell has room for; the details have all."""
-    return text if len(text) <= CELL else f"{text[: CELL - 1]}…"
-
-
-def _words(one: Checked) -> str:
-    """The mark of the statement, and what its author calls it."""
-    result = one.finding
-    member = f" (m = {result.m})" if result.m is not None else ""
-    mark = result.statement_digest[:12]
-    return f"statement {mark}; the author's words: {result.label}{member}: “{result.says}”"
 
 
 def _open_statement(one: Checked) -> str:

@@ -137,7 +137,7 @@ def _show_problems(words: Sequence[str], error: InputError) -> None:
     named += [after for word, after in pairwise(words) if word == "--format"]
     if named and named[-1] in FOR_PROGRAMS:
         from lyapcheck.cli.show import show
-        from lyapcheck.output.unusable import Unusable
+        from lyapcheck.output.answer import Unusable
 
         show(Unusable(words[0], error.problems), named[-1])
 

@@ -9,7 +9,7 @@ from enum import StrEnum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from lyapcheck.output.document import Document
+from lyapcheck.output.document import Bullets, Document
 from lyapcheck.output.escapes import document_text
 
 if TYPE_CHECKING:
@@ -119,3 +119,23 @@ class Answer(ABC):
 
     def _repr_html_(self) -> str:
         return self.written("html")
+
+
+class Unusable(Answer):
+    """The answer of a command whose input cannot be used: its problems, for every format of a program."""
+
+    def __init__(self, command: str, problems: Sequence[Problem]) -> None:
+        self.schema = f"lyapcheck/{command}/problems/1"  # type: ignore[misc]
+        self.problems = tuple(problems)
+
+    def document(self) -> Document:
+        """A sentence a problem."""
+        return Document("! the input cannot be used", (Bullets(tuple(map(str, self.problems))),))
+
+    def data(self) -> dict[str, Any]:
+        """No results; what every format of a program adds is ``problems``."""
+        return {"results": []}
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a problem."""
+        return [problem.data() for problem in self.problems]

@@ -19,10 +19,9 @@ from lyapcheck.computing import main_unnamed
 from lyapcheck.errors import argument_error
 from lyapcheck.files.reader import holds
 from lyapcheck.process_tree import pending, temporary_folder, work_in
-from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
-from lyapcheck.report.findings import findings, own_findings
+from lyapcheck.report.findings import as_the_gate_judges, findings, own_findings
 from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import redirect

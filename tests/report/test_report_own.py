@@ -9,8 +9,8 @@ import pytest
 from lyapcheck.answers.gate.judge import judged_sets
 from lyapcheck.control.gains import GainFile, GainSet, read_gain_file
 from lyapcheck.report import build as building
-from lyapcheck.report.at_hand import as_the_gate_judges
 from lyapcheck.report.build import build, render
+from lyapcheck.report.findings import as_the_gate_judges
 from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.verdict import badges, sentences
 from lyapcheck.robots import load
