@@ -259,15 +259,12 @@ class SetPoint(Course[Run]):
         super().__init__(setup, loop, [*setup.task.q0, *setup.task.w0], points)
 
     def goal(self, t: Array) -> Array:
-        """See `Course.goal`."""
         return np.tile(self._still, (t.size, 1))
 
     def at(self, time: float) -> Array:
-        """See `Course.at`; asked for at every step, and always the same."""
         return self._still
 
     def run(self, path: Trajectory, accuracy: float) -> Run:
-        """See `Course.run`."""
         n, setup, t, y = self.loop.n, self.setup, path.t, path.y
         tau, energy = self.signals(path)
         L2, whole, q = l2_of(y[-1, -1], t[-1]), path.failure is None, y[:, :n]
@@ -282,7 +279,6 @@ class SetPoint(Course[Run]):
 
     @staticmethod
     def monitors(run: Run) -> Sequence[Monitor]:
-        """See `Course.monitors`."""
         bound = bound_monitor("the bound (9)", run.promises.torque_bound)
         joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
         return rate_monitor, fall_monitor, limit_monitor, joints, bound

@@ -111,14 +111,12 @@ class Sine(Reference):
         self._pace = 2.0 * math.pi * np.array([float(x) for x in frequency])
 
     def at(self, t: Array) -> Array:
-        """See `Reference.at`."""
         turn = np.multiply.outer(t, self._pace) + self._shift
         sine, cosine = np.sin(turn), np.cos(turn)
         rows = (self._middle + self._size * sine, self._size * self._pace * cosine)
         return np.stack((*rows, -self._size * self._pace**2 * sine), axis=-2)
 
     def suprema(self) -> Suprema:
-        """See `Reference.suprema`; v_d is exact where all frequencies agree."""
         with precision(BITS):
             rates = [self._peak(i, 1) for i in range(self.n)]
             pushes = [self._peak(i, 2) for i in range(self.n)]
@@ -131,7 +129,6 @@ class Sine(Reference):
 
     @property
     def sentence(self) -> str:
-        """See `Reference.sentence`."""
         pace = ", ".join(f"{float(f):g}" for f in self.frequency)
         return f"sine of {angles(self.amplitude)} at ({pace}) Hz about {angles(self.offset)}"
 
@@ -184,7 +181,6 @@ class MinimumJerk(Reference):
         self._step = np.radians([float(b - a) for a, b in zip(start, end, strict=True)])
 
     def at(self, t: Array) -> Array:
-        """See `Reference.at`."""
         T = float(self.seconds)
         s = np.clip(t / T, 0.0, 1.0)
         share = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
@@ -195,7 +191,6 @@ class MinimumJerk(Reference):
         return np.asarray(moved)
 
     def suprema(self) -> Suprema:
-        """See `Reference.suprema`; both norms are exact, as all joints move alike."""
         with precision(BITS):
             T = to_arb(self.seconds)
             fast, acceleration_norm = arb(15) / 8 / T, 10 / arb(3).sqrt() / T**2
@@ -208,7 +203,6 @@ class MinimumJerk(Reference):
 
     @property
     def sentence(self) -> str:
-        """See `Reference.sentence`."""
         return f"minimum jerk from {angles(self.start)} to {angles(self.end)} in {float(self.seconds):g} s"
 
 

@@ -399,7 +399,6 @@ class Tracking(Course[TrackingRun]):
         super().__init__(setup, tracking_loop(gains, model), [*start[0], *start[1]], points)
 
     def goal(self, t: Array) -> Array:
-        """See `Course.goal`."""
         return self.reference.at(t).reshape(t.size, -1)
 
     def watched(self, path: Trajectory) -> Array:
@@ -407,7 +406,6 @@ class Tracking(Course[TrackingRun]):
         return np.hstack((self.signals(path)[0], path.y[:, : self.loop.n]))
 
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
-        """See `Course.run`."""
         n, t, y, setup = self.loop.n, path.t, path.y, self.setup
         goal, speed, acceleration = np.split(self.goal(t), 3, axis=1)
         tau, energy = self.signals(path)
@@ -438,7 +436,6 @@ class Tracking(Course[TrackingRun]):
 
     @staticmethod
     def monitors(run: TrackingRun) -> Sequence[Monitor]:
-        """See `Course.monitors`."""
         torque = None if run.promise.torque is None else tuple(map(float, run.promise.torque.total))
         joints = joint_monitor("its bound for (21)", torque)
         return rate_monitor, fall_monitor, form_monitor(run.bound), joints, limit_monitor

@@ -48,7 +48,7 @@ SEEN = {
     "answers/simulate/starts.py:module": "quantiles",
     "answers/simulate/starts.py:_task": "angles and times that the user gave",
     "answers/simulate/tracking.py:module": "simulated",
-    "answers/simulate/tracking.py:joint_table": "the band that the user gave",
+    "answers/simulate/simulation.py:by_joint": "the band that the user gave",
     "answers/tune/answer.py:effect_section": "simulated",
     "answers/tune/answer.py:_six": "simulated",
     "answers/tune/answer.py:module": "simulated",

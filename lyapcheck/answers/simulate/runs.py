@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.running import running_sentences
@@ -50,6 +51,10 @@ def _falls(rises_at: float | None) -> str:
     return "never rose" if rises_at is None else f"ROSE at {shown(rises_at, '.4g')} s"
 
 
+def _printed(key: str, one: Run) -> Any:
+    return (_paper(one) or {}).get(key)
+
+
 def _paper(one: Run) -> dict[str, Any] | None:
     paper = printed_for(one)
     if paper is None:
@@ -61,11 +66,6 @@ def _paper(one: Run) -> dict[str, Any] | None:
 def _loop_text(loop: LoopRecord) -> str:
     unknown = "" if loop.knows_gravity else f", unknown {loop.unknown_text}"
     return loop.text + unknown
-
-
-def _printed(name: str) -> Callable[[Run], Any]:
-    """What the paper prints of a run, if it does."""
-    return lambda one: (_paper(one) or {}).get(name)
 
 
 FIELDS = (
@@ -107,9 +107,10 @@ FIELDS = (
     Field("accuracy", "accuracy", to=plain),
     Field("energy_balance", "energy_balance", to=plain),
     Field("printed", _paper, csv=None),
-    Field("", _printed("L2"), csv="printed_L2"),
-    Field("", _printed("settling"), each=True, csv="printed_settling"),
-    Field("", _printed("final_error"), each=True, csv="printed_final_error"),
+    *(
+        Field("", partial(_printed, key), each=key != "L2", csv=f"printed_{key}")
+        for key in ("L2", "settling", "final_error")
+    ),
     Field("loop", "loop", to=_loop_text),
     Field("unrest", "unrest", to=vars, csv=None),
     Field("", "unrest.sentence", csv="unrest"),
@@ -122,6 +123,7 @@ class SetPointRuns(Simulation[Run]):
     """Runs from a start to a set point, with their indices beside what theory promises."""
 
     fields = FIELDS
+    legend = (SETTLED, TORQUES)
     promised = "V falls, ‖τ‖ stays within the bound (9), every motor within its limit"
 
     @property
@@ -167,10 +169,6 @@ class SetPointRuns(Simulation[Run]):
     def watches(self, name: str) -> bool:
         """Only runs by the equations are held against theory."""
         return any(one.name == name and one.kind != EXPERIMENT for one in self.results)
-
-    def legend(self) -> Sequence[str]:
-        """Settling, and the bound of the torque."""
-        return SETTLED, TORQUES
 
     def motions(self) -> Sequence[str]:
         """From where to where; whole runs and those that were cut short apart."""

@@ -81,6 +81,8 @@ class Simulation(Answer, Generic[Result]):
     """The bounds of theory, in words."""
     fields: ClassVar[tuple[Field, ...]]
     """What is said of a gain set, and of each joint of it."""
+    legend: ClassVar[tuple[str, ...]]
+    """What the tables mean."""
 
     @property
     def exit_code(self) -> Exit:
@@ -115,7 +117,7 @@ class Simulation(Answer, Generic[Result]):
         """What went wrong, then the run joint by joint, or all gain sets; in detail each by itself."""
         wrong, one = self.complaints(), len(self.results) == 1
         overview = [self.overview()] if self.results else []
-        short: list[Block] = [self.joint_table(self.results[0])] if one else list(overview)
+        short: list[Block] = [self.by_joint(self.results[0])] if one else list(overview)
         said = [*wrong[:MOST_REMARKS]]
         if len(wrong) > MOST_REMARKS:
             said[-1] = f"{len(wrong) - MOST_REMARKS + 1} more complaints; -v lists them"
@@ -131,7 +133,7 @@ class Simulation(Answer, Generic[Result]):
         return Document(
             self._title(),
             tuple(short),
-            (*self.legend(), NUMERIC, *self._notes()),
+            (*self.legend, NUMERIC, *self._notes()),
             tuple(filter(None, (how, *self.motions(), f"simulated on {self.arms}" if self.arms else ""))),
             details,
             next=then,
@@ -156,14 +158,11 @@ class Simulation(Answer, Generic[Result]):
         whole = [one for one in self.fields if not one.each]
         return fields.table([*whole, mark], [(one,) for one in self.results])
 
-    def by_joint(self, one: Result, **words: Any) -> Table:
+    def by_joint(self, one: Result) -> Table:
         """A row a joint of a gain set."""
         parts = [field for field in self.fields if field.each]
-        return fields.table(parts, [(one, i) for i in range(len(one.joints))], **words)
-
-    def joint_table(self, one: Result) -> Table:
-        """The same with the words that its heads need."""
-        return self.by_joint(one)
+        band = f"{math.degrees(getattr(one, 'band', 0)):g}°"
+        return fields.table(parts, [(one, i) for i in range(len(one.joints))], band=band)
 
     @abstractmethod
     def section(self, one: Result) -> Section:
@@ -179,10 +178,6 @@ class Simulation(Answer, Generic[Result]):
 
     def opening(self) -> Sequence[Block]:
         """What all gain sets have in common."""
-        return ()
-
-    def legend(self) -> Sequence[str]:
-        """What the tables mean."""
         return ()
 
     @property
@@ -211,7 +206,7 @@ class Simulation(Answer, Generic[Result]):
     def _title(self) -> str:
         names = self._names()
         levels = [self.level(name) for name in names]
-        robots = ", ".join(_unique(one.robot for one in self.results)) or "simulation"
+        robots = ", ".join(dict.fromkeys(one.robot for one in self.results)) or "simulation"
         left_out = any(one.without_dry_friction for one in self.results)
         ideal = ", without the dry friction of the file" if left_out else ""
         ideal += ", at an infinite rate in place of the [loop] of the file" if self.unsampled else ""
@@ -226,7 +221,7 @@ class Simulation(Answer, Generic[Result]):
         return f"{'!' if self.far_off else '✓'} {robots}: no limit cycle seen in {count}"
 
     def _notes(self) -> list[str]:
-        return _unique(note for one in self.results for note in one.notes)
+        return list(dict.fromkeys(note for one in self.results for note in one.notes))
 
     def _annotation(self, name: str) -> Annotation:
         breach = self._breaches().get(name)
@@ -241,10 +236,6 @@ class Simulation(Answer, Generic[Result]):
 def breach_record(breach: Breach | None) -> dict[str, Any]:
     """A violated bound as the part of a row; empty cells without one."""
     return {key: None if breach is None else breach.data[key] for key in BREACH_KEYS}
-
-
-def _unique(texts: Iterable[str]) -> list[str]:
-    return list(dict.fromkeys(texts))
 
 
 def headline(one: Motion, way: str) -> str:

@@ -58,6 +58,7 @@ class RandomStarts(Simulation[Sweep]):
     """Quantiles of the indices over runs from random starts to a set point."""
 
     fields = FIELDS
+    legend = (SETTLED, WITHOUT)
     promised = "V falls, every motor stays within its limit"
 
     def motions(self) -> Sequence[str]:
@@ -74,10 +75,6 @@ class RandomStarts(Simulation[Sweep]):
     def complaints(self) -> list[str]:
         """What went wrong, and these doubts."""
         return [*super().complaints(), *(f"undecided: {_doubt(one)}" for one in self.results if _doubt(one))]
-
-    def legend(self) -> Sequence[str]:
-        """Settling, and the last column."""
-        return SETTLED, WITHOUT
 
     def section(self, one: Sweep) -> Section:
         """A row a quantity; why runs did not reach their end."""

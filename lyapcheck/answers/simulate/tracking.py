@@ -23,7 +23,7 @@ from lyapcheck.answers.simulate.simulation import (
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import NONE, at_most
-from lyapcheck.output.document import Block, Bullets, Paragraph, Section, Table
+from lyapcheck.output.document import Block, Bullets, Paragraph, Section
 from lyapcheck.output.fields import Field, data, records
 from lyapcheck.simulate.tracking import TrackingRun
 
@@ -123,6 +123,7 @@ class TrackingRuns(Simulation[TrackingRun]):
     """Runs along a reference, with their indices beside what theory promises."""
 
     fields = FIELDS
+    legend = (ESTIMATED,)
     promised = "dV/dt stays below −zᵀΘ'z, each |τ_i| within its bound for (21), every motor within its limit"
 
     def about(self) -> str:
@@ -136,19 +137,10 @@ class TrackingRuns(Simulation[TrackingRun]):
             for text in dict.fromkeys(one.reference.sentence for one in self.results)
         ]
 
-    def legend(self) -> Sequence[str]:
-        """What is estimated."""
-        return (ESTIMATED,)
-
-    def joint_table(self, one: TrackingRun) -> Table:
-        """With the band in degrees."""
-        return self.by_joint(one, band=f"{math.degrees(one.band):g}°")
-
     def section(self, one: TrackingRun) -> Section:
         """A row a joint, and what is estimated beside what was seen."""
-        table = self.joint_table(one)
         head = headline(one, f"from {row(np.round(np.degrees(one.q[0]), 9))}°")
-        return Section(f"{self.mark(one.name)} {head}".strip(), (table, Bullets(_facts(one))))
+        return Section(f"{self.mark(one.name)} {head}".strip(), (self.by_joint(one), Bullets(_facts(one))))
 
 
 def _facts(one: TrackingRun) -> tuple[str, ...]:
