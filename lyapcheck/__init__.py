@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, paper_gain_file, read_gain_file
     from lyapcheck.control.limits import Limits, limits_for
     from lyapcheck.errors import InputError, Problem
-    from lyapcheck.export.torque import torque
     from lyapcheck.family.base import Family
     from lyapcheck.family.base import named as named_family
     from lyapcheck.family.members.hyperbolic import gamma_less_than
@@ -55,6 +54,7 @@ if TYPE_CHECKING:
         export_controller,
         read_certificates,
         simulate_motion,
+        torque,
         tune_for_targets,
     )
     from lyapcheck.verdicts import Exit, Grade, Verdict
@@ -193,7 +193,7 @@ _HOMES = {
     "run_tracking": "simulate.tracking:track",
     "simulate_motion": "tasks",
     "sweep": "answers.sweep",
-    "torque": "export.torque",
+    "torque": "tasks",
     "tune_for_targets": "tasks",
     "tune_gains": "answers.tune.tuning:tune",
 }
