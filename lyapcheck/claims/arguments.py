@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from functools import partial
 from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING
 
@@ -234,12 +235,15 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:
     arm = Arm(bounds.mass, bounds.viscous, energy)
     known = {name: exact_value(value) for name, value in gains.items() if name not in rows}
     known |= {"mu": bounds.guessed_floor(), "beta": bounds.beta, "kc": bounds.kc}
+    wanted = sorted(set().union(*(variables(one.gap) for one in stable.argument.where)))
     for name, slopes in (
-        ("kg", hessian(energy, robot.n)),
-        ("km", slopes_of_mass(bounds.mass)),
-        ("kc2", slopes_of_symbols(bounds.mass)),
+        ("kg", partial(hessian, energy, robot.n)),
+        ("km", partial(slopes_of_mass, bounds.mass)),
+        ("kc2", partial(slopes_of_symbols, bounds.mass)),
     ):
-        sizes = (size_of(by_parameters(slope, robot.n), ()) for slope in slopes)
+        if name not in wanted:  # of seven joints they take minutes
+            continue
+        sizes = (size_of(by_parameters(slope, robot.n), ()) for slope in slopes())
         known[name] = above(sqrt(total(expr(size) ** 2 for size in sizes)))
     for name, values in (rows | {"B": bounds.viscous}).items():
         squares = total(expr(value) ** 2 for value in values)
@@ -255,7 +259,6 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:
             reach, secant = above(sqrt(robot.n)) * (f.member.gamma or 1), f.member.secant
             known[f"{f.name}_reach"] = reach
             known[f"{f.name}_share"] = reach * secant / (reach + secant) if f.bounded else secant
-    wanted = sorted(set().union(*(variables(one.gap) for one in stable.argument.where)))
     if lost := [name for name in wanted if name not in known]:
         raise ValueError(f"at_arm: the conditions need numbers for {', '.join(lost)}")
     return StableArm(stable.argument, arm, tuple(rows.items()), tuple((name, known[name]) for name in wanted))
