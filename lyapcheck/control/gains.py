@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.family.base import LARGEST_M, names
@@ -31,15 +31,7 @@ KNOWN = ("10", "10p", "10i", "19", *CERTIFICATES, *RUNNING)
 """Every condition that may decide."""
 
 
-class Conditioned(Protocol):
-    """A gain set that may name its conditions."""
-
-    @property
-    def condition(self) -> tuple[str, ...]:
-        """The conditions; empty where the set names none."""
-
-
-def deciding_for(gains: Conditioned, asked: Sequence[str] | None = None) -> tuple[str, ...]:
+def deciding_for(gains: GainSet, asked: Sequence[str] | None = None) -> tuple[str, ...]:
     """Return the conditions that decide about a gain set.
 
     Args:
@@ -170,7 +162,8 @@ def read_gain_file(path: str | Path, robot: str | None = None, *, undamped: bool
     own = beside(top.text("robot") or None, Path(path))
     condition = conditions_of(top)
     tables = top.tables("gains", required=True)
-    joints = _joints(named(robot, own)) if any(_by_name(table) for table in tables) else None
+    by_name = any(isinstance(table.data.get(key), dict) for table in tables for key in ("kp", "kv"))
+    joints = _joints(named(robot, own)) if by_name else None
     sets = [gain_set_of(table, index, condition, joints, undamped) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds, loop = _bounds(top.table("bounds")), read_loop(top.table("loop"))
@@ -199,10 +192,6 @@ def conditions_of(table: Fields) -> tuple[str, ...]:
     elif len(set(value)) < len(value):
         table.fail("condition", "has a condition twice", "give each once")
     return () if wrong else tuple(dict.fromkeys(value))
-
-
-def _by_name(table: Fields) -> bool:
-    return any(isinstance(table.data.get(key), dict) for key in ("kp", "kv"))
 
 
 def _joints(robot: str | None) -> tuple[str, ...]:

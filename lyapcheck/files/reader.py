@@ -90,7 +90,8 @@ def read_text(path: str | Path, bound: Bound, shown: str | None = None, newline:
     try:
         return io.TextIOWrapper(io.BytesIO(content), encoding="utf-8-sig", newline=newline).read()
     except UnicodeDecodeError:
-        raise not_utf8(sayable(str(path) if shown is None else shown)) from None
+        name = sayable(str(path) if shown is None else shown)
+        raise file_error(name, "is not UTF-8 text", "save it as UTF-8") from None
 
 
 def holds(path: Path, content: bytes) -> bool:
@@ -99,11 +100,6 @@ def holds(path: Path, content: bytes) -> bool:
         return read_bytes(path, Bound(len(content), "")) == content
     except InputError:
         return False
-
-
-def not_utf8(name: str) -> InputError:
-    """The error for a file of text that is none."""
-    return file_error(name, "is not UTF-8 text", "save it as UTF-8")
 
 
 def sayable(name: str) -> str:

@@ -108,12 +108,9 @@ def _compiled(one: Checked, coq: Coq, progress: Callable[[str], None]) -> Kernel
     except (OSError, ValueError) as error:
         return Kernel(one.file, False, plain(str(error)))
     theorem = text.split("Theorem claim : ", 1)[1].split(".\nProof.", 1)[0]
-    return Kernel(one.file, True, theorem=theorem, axioms=script_axioms(text), seconds=seconds_in(printed))
-
-
-def script_axioms(text: str) -> str:
-    """The shorter golden list, if no tactic of the proof computes with intervals; Coq has the last word."""
-    return "float" if COMPUTES.search(text) else "real"
+    # the shorter golden list, if no tactic of the proof computes with intervals; Coq has the last word
+    axioms = "float" if COMPUTES.search(text) else "real"
+    return Kernel(one.file, True, theorem=theorem, axioms=axioms, seconds=seconds_in(printed))
 
 
 def _module(one: Checked) -> str:

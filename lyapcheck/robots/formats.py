@@ -8,7 +8,6 @@ of MuJoCo's doubles. Gravity, damping, dry friction and the limits of the motors
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -22,16 +21,6 @@ from lyapcheck.robots.urdf import read_urdf
 from lyapcheck.robots.urdf.xml import Element, parse_xml
 
 _HERE = (1.0, 0.0, 0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class Compiled:
-    """A model as URDF elements, with what URDF has no place for."""
-
-    robot: Element
-    gravity: tuple[Number, ...]
-    remarks: tuple[str, ...]
-    source: str
 
 
 def read_mjcf(path: Path, shown: str, root: Element) -> Compiled:
@@ -51,7 +40,7 @@ def read_mjcf(path: Path, shown: str, root: Element) -> Compiled:
     except ValueError as error:
         said = " ".join(str(error).split())[:300]
         raise file_error(shown, f"is MJCF that MuJoCo refuses: {said}", "correct that") from None
-    return _Reading(mujoco, model, path.name, _lines(root)).compiled()
+    return Compiled(mujoco, model, path.name, _lines(root))
 
 
 def _lines(root: Element) -> dict[str, int]:
@@ -66,8 +55,8 @@ def _lines(root: Element) -> dict[str, int]:
     return result
 
 
-class _Reading:
-    """One compiled model; ``m`` is MuJoCo's."""
+class Compiled:
+    """A compiled model, ``m`` of MuJoCo's, as URDF elements, with what URDF has no place for."""
 
     def __init__(self, mujoco: Any, m: Any, file: str, lines: dict[str, int]) -> None:
         self.mujoco, self.m, self.lines = mujoco, m, lines
@@ -75,13 +64,14 @@ class _Reading:
         self.bodies = [self._name("body", i) for i in range(m.nbody)]
         self.joints = [self._name("joint", i) for i in range(m.njnt)]
 
-    def compiled(self) -> Compiled:
+    def robot(self) -> Element:
         m = self.m
         name = str(m.names[: m.names.find(b"\0")], "utf-8", "replace") or "model"
         parts = [part for body in range(m.nbody) for part in self._body(body)]
-        robot = Element("robot", {"name": name, "version": "1.1"}, 1, parts)
-        gravity = tuple(Number(_exact(x), "m/s²", self.source) for x in m.opt.gravity)
-        return Compiled(robot, gravity, tuple(self._remarks()), self.source)
+        return Element("robot", {"name": name, "version": "1.1"}, 1, parts)
+
+    def gravity(self) -> tuple[Number, ...]:
+        return tuple(Number(Fraction(_text(x)), "m/s²", self.source) for x in self.m.opt.gravity)
 
     def _name(self, kind: str, index: int) -> str:
         of = getattr(self.mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
@@ -107,7 +97,8 @@ class _Reading:
             yield Element("link", {"name": below}, line)
             yield self._joint(j, above, below, at, turn_at)
             above, place, turn = below, -m.jnt_pos[j], _HERE
-        yield self._fixed(f"{name}/body", line, above, name, place, turn)
+        parts = self._ends(line, above, name, place, turn)
+        yield Element("joint", {"name": f"{name}/body", "type": "fixed"}, line, parts)
 
     def _zero(self, j: int) -> Any:
         """The turn of a hinge from the pose that the file describes back to where its angle is 0."""
@@ -134,10 +125,6 @@ class _Reading:
         if any((x, y, z)):
             words["quat_xyzw"] = " ".join(map(_text, (x, y, z, w)))
         return Element("origin", words, line)
-
-    def _fixed(self, name: str, line: int, above: str, below: str, place: Any, turn: Any) -> Element:
-        parts = self._ends(line, above, below, place, turn)
-        return Element("joint", {"name": name, "type": "fixed"}, line, parts)
 
     def _ends(self, line: int, above: str, below: str, place: Any, turn: Any) -> list[Element]:
         parent, child = Element("parent", {"link": above}, line), Element("child", {"link": below}, line)
@@ -182,7 +169,7 @@ class _Reading:
             limits.append(min(abs(end) for end in m.actuator_ctrlrange[a]) * abs(m.actuator_gainprm[a][0]))
         return min(limits) * abs(m.actuator_gear[a][0]) if limits else None
 
-    def _remarks(self) -> Iterator[str]:
+    def remarks(self) -> Iterator[str]:
         m = self.m
         springs = [self.joints[j] for j in range(m.njnt) if m.jnt_stiffness[j].any()]
         if springs:
@@ -193,10 +180,6 @@ class _Reading:
         for count, what in ((m.neq, "equality constraints"), (m.ntendon, "tendons")):
             if count:
                 yield f"Not part of the arm: {count} {what} of the model"
-
-
-def _exact(value: float) -> Fraction:
-    return Fraction(_text(value))
 
 
 def _text(value: float) -> str:
@@ -243,8 +226,8 @@ def read_robot(
         raise argument_error("xacro", names, f"{shown} is no xacro file", "leave the arguments out")
     if root.tag == "mujoco":
         compiled = read_mjcf(path, shown, root)
-        fall, remarks = gravity or compiled.gravity, compiled.remarks
-        return read_urdf(compiled.robot, path, shown, choice, fall, remarks, compiled.source)
+        fall, remarks = gravity or compiled.gravity(), tuple(compiled.remarks())
+        return read_urdf(compiled.robot(), path, shown, choice, fall, remarks, compiled.source)
     if root.tag == "sdf":
         new = path.with_suffix(".urdf").name
         repair = f"convert it: pip install rod && rod -f {path.name} -o {new}"

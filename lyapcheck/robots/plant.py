@@ -199,8 +199,7 @@ class RobotModel:
     @cached_property
     def doubts(self) -> tuple[str, ...]:
         """What looks like a template or another unit; no verdict rests on it."""
-
-        return doubts(self)
+        return (*_templates(self), *_units(self))
 
 
 # --- What makes the numbers of an arm doubtful: templates and wrong units; no verdict rests on it.
@@ -212,11 +211,6 @@ LIGHTEST, STEEPEST = 1, 30
 """m/s² of free fall, from the moon to a large planet."""
 SAME = 2
 """So many joints with the same limit and friction are doubted; either alone with twice as many."""
-
-
-def doubts(model: RobotModel) -> tuple[str, ...]:
-    """A sentence on everything that looks like a template or another unit."""
-    return (*_templates(model), *_units(model))
 
 
 def _templates(model: RobotModel) -> Iterator[str]:

@@ -209,7 +209,8 @@ def falsify_corners(
 
 def worst_corner(model: RobotModel, at: ControlledArm, witness: RisingState) -> RobotModel:
     """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
-    states = _states(witness)
+    state = witness.state
+    states = States(*(np.array([[float(x) for x in part]]) for part in (state.q, state.e, state.w)))
     corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
     chosen, merit = at.model, _merit(at, states)
     for moved in _moves(model, corner):
@@ -244,11 +245,6 @@ def _moves(model: RobotModel, corner: Corner) -> Iterator[Corner]:
         for end in number.bounds:
             if number.ranged:
                 yield {f"viscous {i}": end}
-
-
-def _states(witness: RisingState) -> States:
-    parts = (witness.state.q, witness.state.e, witness.state.w)
-    return States(*(np.array([[float(x) for x in part]]) for part in parts))
 
 
 def _merit(controlled: ControlledArm, states: States) -> float:
