@@ -137,6 +137,7 @@ def test_initial_rates_are_degrees_a_second():
     assert [float(x) for x in first[6:9]] == pytest.approx([np.pi / 2, 0, -np.pi])
 
 
+@pytest.mark.slow
 def test_random_starts_tell_how_the_indices_spread():
     words = ("--runs", 15, "--spread", 30, "--time", 1, "--target", "45,45", "--format", "json")
     done = lyapcheck(SMALL, "--seed", 7, *words)

@@ -83,7 +83,7 @@ kv = [0.02]
 FILES = {"saturating.toml": SATURATING, "own.toml": OWN, "plan.toml": PLAN}
 TALL = 24
 """Lines for three joints."""
-SLOW = ("explain, undecided", "tune, targets")
+SLOW = ("explain, undecided", "explain, the list", "simulate, at the bench", "tune, targets")
 SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted")
 
 

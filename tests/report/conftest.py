@@ -50,7 +50,7 @@ def report(subject, tmp_path_factory):
     def kept(proof, ms, robot=None, n=None, gains=None, only=()):
         if n is not None:  # the study of n, about no arm
             return run_proof(proof, ms, n=n, only=only)
-        assert (robot, tuple(ms)) == (small_proofs.ROBOT, (small_proofs.MEMBER,))
+        assert (getattr(robot, "name", robot), tuple(ms)) == (small_proofs.ROBOT, (small_proofs.MEMBER,))
         return run_proof(proof, ms, robot, n, gains, only) if only else small_proof(tmp_path_factory, proof)
 
     def made():

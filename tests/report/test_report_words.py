@@ -27,7 +27,10 @@ def test_every_word_of_proof_in_a_report_is_a_promise(report):
     written |= {text for row in rows for text in row.decision.rules} | set(report.certificates)
     written |= {box.title for box in (*report.notes.chain, *report.notes.route)}
     for finding in report.findings:
-        written |= {*values(vars(finding)), *(f"{term}: {text}" for term, text in finding.about.items())}
+        written |= {
+            *values(vars(finding) | vars(finding.note)),
+            *(f"{term}: {text}" for term, text in finding.about.items()),
+        }
     with promises_as_seen():
         left = {text for text in said(ReportAnswer(report)) if words_of_proof(text)} - written
     assert not left
