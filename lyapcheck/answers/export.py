@@ -125,12 +125,12 @@ class Exported:
     def running(self) -> str:
         """The same in a sentence."""
         if self.sampled is None:
-            return f"as run: open for every period, because {self.reason}"
+            return f"as run: no period is proved, {self.reason}"
         asked = self.certificate.statement
         what = "stable" if asked.conclusion == "goal" else "comes to rest"
         apart = f", no interval above {decimal_text(asked.stretch)} times it" if asked.stretch > 1 else ""
-        words = f"as run: {what} for every period up to {time_text(asked.period)}{apart}"
-        return self.sampled.says(f"{words}, exact readings, no saturated motor")
+        words = f"as run: {what} at periods up to {time_text(asked.period)}{apart}"
+        return self.sampled.says(f"{words}, exact readings, no motor saturated")
 
     @property
     def covered(self) -> bool:
