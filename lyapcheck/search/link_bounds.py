@@ -27,7 +27,9 @@ from lyapcheck.search.interval import Interval
 from lyapcheck.search.interval_arm import dh_range, h_range
 
 SHARES = tuple(Fraction(n, 100) for n in (30, 60, 75, 85, 90, 93, 95, 97))
-"""Shares of the falsified ε₀ that are tried one after the other; then the middle below the one that fails."""
+"""Shares of the falsified ε₀ that are tried one after the other; then middles below the one that fails."""
+GAP = Fraction(2, 100)
+"""The shares that remain unknown between one that is proved and one that is not."""
 MAX_BOXES = 40_000
 """Of one share: as many as the checker judges in a quarter of a minute."""
 MORE = 1.01
