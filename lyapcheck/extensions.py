@@ -12,6 +12,7 @@ import os
 TYPE_CHECKING = False  # typing takes longer to import than a short command to run
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
 VARIABLE = "LYAPCHECK_PATH"
 
@@ -21,6 +22,15 @@ def folders(package: str) -> list[str]:
     inner = package.split(".")[1:]
     roots = os.environ.get(VARIABLE, "").split(os.pathsep)
     return [os.path.join(os.path.abspath(root), *inner) for root in roots if root]
+
+
+def shipped(name: str) -> Path:
+    """A folder that travels with lyapcheck: inside an installed package, or at the top of a checkout."""
+    from pathlib import Path
+
+    package = Path(__file__).parent
+    inside = package / name
+    return inside if inside.is_dir() else package.parent / name
 
 
 def modules(path: Iterable[str]) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ from lyapcheck.check import certificate as read
 from lyapcheck.check.certificate import certificate_of, judge
 from lyapcheck.check.refusal import Refused
 from lyapcheck.computing import shared_between
-from lyapcheck.control.gains import proofs_folder
+from lyapcheck.extensions import shipped
 from lyapcheck.process_tree import pending
 
 OFF = "LYAPCHECK_NO_STORE"
@@ -142,7 +142,7 @@ def _spelled(subject: Any) -> str:
 def source_digest() -> str:
     """Of every file of lyapcheck and of the proofs that come with it."""
     whole = hashlib.sha256()
-    for root in (Path(__file__).parent, proofs_folder()):
+    for root in (Path(__file__).parent, shipped("proofs")):
         for path in sorted(root.rglob("*")):
             if path.is_file() and "__pycache__" not in path.parts:
                 whole.update(

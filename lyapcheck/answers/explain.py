@@ -19,7 +19,7 @@ from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
 from lyapcheck.claims.script import SHIPPED, ask, check_ids, find_script
 from lyapcheck.claims.search_result import procedure_of
 from lyapcheck.claims.statements import Missing
-from lyapcheck.control.gains import proofs_folder
+from lyapcheck.extensions import shipped
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import PROSE
@@ -318,7 +318,7 @@ def _meant(claim_id: str, ids: Collection[str]) -> str | None:
 
 def _cited(reference: str) -> str:
     """Authors and year, where the bibliography has a work under that key; else the reference as it is."""
-    works = (proofs_folder() / "references.bib").read_text(encoding="utf-8")
+    works = (shipped("proofs") / "references.bib").read_text(encoding="utf-8")
     entry = re.search(rf"^@\w+\{{{re.escape(reference)},(.*?)^\}}", works, re.DOTALL | re.MULTILINE)
     fields = {} if entry is None else dict(re.findall(r"(\w+) *= \{(.*)\}", entry[1]))
     if "author" not in fields:

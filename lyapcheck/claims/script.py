@@ -19,8 +19,8 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.claims.claim import Proof, in_order
 from lyapcheck.claims.decision import command, environment
 from lyapcheck.claims.handover import Handover, ScriptRequest, read
-from lyapcheck.control.gains import proofs_folder
 from lyapcheck.errors import InputError, Problem, nearest
+from lyapcheck.extensions import shipped
 from lyapcheck.files.reader import SCRIPT, read_bytes
 from lyapcheck.process_tree import run_apart, temporary_folder
 
@@ -46,9 +46,9 @@ def find_script(name: str) -> Path:
         raise InputError(Problem(name, None, "PROOF", name, rule, "give the path of a .py file"))
     if os.path.lexists(path):
         return path  # what is no regular file is refused as what it is, where it is read
-    shipped = proofs_folder() / path.name
-    if path.parent in (Path(), Path("proofs")) and shipped.is_file():
-        return shipped
+    own = shipped("proofs") / path.name
+    if path.parent in (Path(), Path("proofs")) and own.is_file():
+        return own
     repair = "give the path of a proof script, or published.py for the paper's own proof"
     raise InputError(Problem(name, None, "PROOF", name, "no such proof script", repair))
 

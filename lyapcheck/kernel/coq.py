@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-import lyapcheck
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.computing import Spent, run_within
 from lyapcheck.errors import argument_error
+from lyapcheck.extensions import shipped
 from lyapcheck.files.reader import holds
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
@@ -96,7 +96,7 @@ class Coq:
         self.library.mkdir(parents=True, exist_ok=True)
         fresh = True
         for name in sources():
-            text = (formal() / name).read_bytes()
+            text = (shipped("formal") / name).read_bytes()
             path = self.library / name
             same = holds(path, text) and path.with_suffix(".vo").exists()
             fresh = fresh and same  # what comes later rests on what comes before
@@ -125,16 +125,9 @@ def require_coq() -> str:
     return program
 
 
-def formal() -> Path:
-    """The folder of Coq's library: inside an installed package, at the top level of a checkout."""
-    package = Path(lyapcheck.__file__).parent
-    inside = package / "formal"
-    return inside if inside.is_dir() else package.parent / "formal"
-
-
 def sources() -> list[str]:
     """The files of the library, in an order in which they can be compiled."""
-    lines = (formal() / "_CoqProject").read_text(encoding="utf-8").split()
+    lines = (shipped("formal") / "_CoqProject").read_text(encoding="utf-8").split()
     return [line for line in lines if line.endswith(".v")]
 
 
@@ -167,7 +160,7 @@ def seconds_in(printed: str) -> float:
 
 def golden(name: str) -> frozenset[str]:
     """The axioms of a golden list, ``real`` or ``float``; the second has those of the first as well."""
-    own = frozenset((formal() / f"axioms.{name}").read_text(encoding="utf-8").split())
+    own = frozenset((shipped("formal") / f"axioms.{name}").read_text(encoding="utf-8").split())
     return own if name == "real" else own | golden("real")
 
 
@@ -217,5 +210,5 @@ def _record() -> dict[str, str]:
 
 
 def _definitions() -> str:
-    pages = sorted(formal().glob("*Definitions.v"))
+    pages = sorted(shipped("formal").glob("*Definitions.v"))
     return hashlib.sha256(b"".join(page.read_bytes() for page in pages)).hexdigest()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.check.proof import ClaimResult, refuted_by_source
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
-from lyapcheck.control.gains import proofs_folder
+from lyapcheck.extensions import shipped
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Notes:
 
 def published_notes() -> Notes:
     """Those on the paper."""
-    result = tomllib.loads((proofs_folder() / "published.toml").read_text(encoding="utf-8"))
+    result = tomllib.loads((shipped("proofs") / "published.toml").read_text(encoding="utf-8"))
     chain, route = (
         tuple(Box(**one | {"claims": tuple(one["claims"])}) for one in result[name])
         for name in ("chain", "route")

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.errors import argument_error, nearest
-from lyapcheck.extensions import folders
+from lyapcheck.extensions import folders, shipped
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.toml import key_of, open_document, quoted
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
@@ -97,10 +97,8 @@ def _builtin(name: str, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
 
 def _examples() -> dict[str, Path]:
     """Arm files of the examples by name, which travel with lyapcheck."""
-    package = Path(__file__).parents[1]
-    inside = package / "examples"
-    folder = inside if inside.is_dir() else package.parent / "examples"
-    return {file.stem: file for file in folder.glob("*.toml") if not file.stem.endswith(("_gains", "_plan"))}
+    files = shipped("examples").glob("*.toml")
+    return {file.stem: file for file in files if not file.stem.endswith(("_gains", "_plan"))}
 
 
 def _arms() -> dict[str, Path]:

@@ -30,8 +30,9 @@ from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.errors import InputError
+from lyapcheck.extensions import shipped
 from lyapcheck.kernel import coq
-from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, formal, golden, sources
+from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, golden, sources
 from lyapcheck.kernel.judge import HEAD, judged, theorem_file
 from lyapcheck.kernel.loops import sampled_script
 from lyapcheck.kernel.statements import proposition
@@ -70,8 +71,8 @@ def test_a_folder_that_cannot_take_the_files_is_named(tmp_path: Path) -> None:
 
 def test_nothing_of_the_library_is_left_out_or_assumed() -> None:
     forbidden = re.compile(r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|bypass_check|Unset)\b")
-    assert {path.name for path in formal().glob("*.v")} == {*sources(), "Headlines.v"}
-    assert not [name for name in sources() if forbidden.search((formal() / name).read_text(encoding="utf-8"))]
+    assert {path.name for path in FORMAL.glob("*.v")} == {*sources(), "Headlines.v"}
+    assert not [name for name in sources() if forbidden.search((FORMAL / name).read_text(encoding="utf-8"))]
 
 
 def test_the_golden_lists_are_coqs_and_no_longer() -> None:
@@ -103,7 +104,7 @@ def shown(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, CompletedProc
         library = place / "library"
         library.mkdir()
         for name in sources():
-            shutil.copy(formal() / name, library)
+            shutil.copy(FORMAL / name, library)
             (library / name).with_suffix(".vo").write_bytes(b"compiled from something else")
         command = ["lyapcheck", "recheck", "--kernel", "--kernel-files", str(place), "--format", "json"]
         file = str(GOOD / "ext.V-is-positive-definite.json")
@@ -179,6 +180,7 @@ def faulty(one: Certificate) -> dict[str, Certificate]:
     }
 
 
+FORMAL = shipped("formal")
 ONE = certificate_of((OWN / "reyes-kelly2.m1.certified.json").read_bytes())[0]
 
 
