@@ -15,7 +15,7 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
-from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
+from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants, precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
@@ -40,9 +40,9 @@ LIMITS = (
 )
 GROWS = (
     "As m grows h goes flat at 0, like x^(2m−1), and γ rises: less torque near the goal, a slower end, "
-    "farther rest under dry friction, and less k_p within (10p); lyapcheck tune ROBOT shows it in runs."
+    "farther rest under dry friction, and less k_p within (10p); lyapcheck simulate shows it in runs."
 )
-_GUARD_DIGITS = 6
+_GUARD_DIGITS, _GUARD_BITS = 6, 32
 PROOF = "table"
 PRECISIONS = (128, 512, 2048)
 """Bits."""
@@ -240,3 +240,29 @@ def _shown(statement: NormBound) -> tuple[Accepted, Supremum] | None:
             proof = Supremum(numbers)
             return verify(statement, proof), proof
     return None
+
+
+def torque_budget(robot: str, table: Table) -> Budget:
+    """(τmax − k_g)/(√n γ_m) of each joint and each row of a table, N·m, as tight as the table is.
+
+    A joint without a torque limit, or whose gravity torque reaches it, has ``None``.
+
+    Raises:
+        InputError: no such arm.
+
+    References: the tuning rule of Section 4, reyes2019family.
+    """
+    from lyapcheck.control.limits import arm_limits
+
+    limits = arm_limits(robot)
+
+    def row(gamma: Enclosure) -> Iterator[Enclosure | None]:
+        for torque, gravity in zip(limits.torque, limits.gravity, strict=True):
+            if torque is None or torque <= gravity:
+                yield None
+            else:
+                scale = to_arb(limits.n).sqrt() * gamma.to_arb()
+                yield Enclosure.from_arb(to_arb(torque - gravity) / scale)
+
+    with precision(4 * table.digits + _GUARD_BITS):
+        return Budget(robot, limits.joints, tuple(tuple(row(one.gamma)) for one in table.rows))

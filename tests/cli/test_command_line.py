@@ -130,8 +130,6 @@ BAD = [
     ("tune buap3 --torque 1,2", ["--torque = 1,2: has 2 values for 3 joints"]),
     ("tune buap3 --kv-min x", ["--kv-min = x: is not a decimal number"]),
     ("tune buap3 --out none/x.toml", ["--out = none/x.toml: there is no directory none"]),
-    ("tune pelican2 --compare TABLE2", [f"tau_m{m} has gains for 3 joints" for m in (1, 2, 3)]),
-    ("tune buap3 --compare none.toml", ["none.toml: file: cannot be read"]),
     ("report --m 0", ["--m = 0: m must be at least 1"]),
     ("report --m 1:21", ["a report covers at most 20 members"]),
     ("report --format html,docx", ["'docx' is not a format"]),

@@ -5,21 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.table import Budget, Table
 from lyapcheck.answers.tune.largest import GainRange
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.check.numbers.balls import Constants, precision, to_arb
-from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for, varied_limits
 from lyapcheck.files.decimals import decimal_text, round_down
-from lyapcheck.robots import load
 from lyapcheck.robots.choice import split
 
 if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
-
-_GUARD_BITS = 32
 
 
 def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[Vary, ...] = ()) -> Limits:
@@ -36,33 +30,6 @@ def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[V
     return limits_for(
         GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds or Bounds()), None, arms
     )
-
-
-def torque_budget(robot: str, table: Table) -> Budget:
-    """(τmax − k_g)/(√n γ_m) of each joint and each row of a table, N·m, as tight as the table is.
-
-    A joint without a torque limit, or whose gravity torque reaches it, has ``None``.
-
-    Raises:
-        InputError: no such arm.
-
-    References: the tuning rule of Section 4, reyes2019family.
-    """
-    limits = arm_limits(robot, load(robot).n)
-    bits = 4 * table.digits + _GUARD_BITS
-    return Budget(robot, limits.joints, tuple(_row(row, limits, bits) for row in table.rows))
-
-
-def _row(row: Constants, limits: Limits, bits: int) -> tuple[Enclosure | None, ...]:
-    result: list[Enclosure | None] = []
-    with precision(bits):
-        scale = to_arb(limits.n).sqrt() * row.gamma.to_arb()
-        for torque, gravity in zip(limits.torque, limits.gravity, strict=True):
-            if torque is None or torque <= gravity:
-                result.append(None)
-            else:
-                result.append(Enclosure.from_arb(to_arb(torque - gravity) / scale))
-    return tuple(result)
 
 
 def unknown(limits: Limits) -> list[str]:

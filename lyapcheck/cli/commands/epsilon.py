@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress, part
 from lyapcheck.cli.progress import progress
@@ -46,14 +46,7 @@ def arguments(parser: Parser) -> None:
     parser.add_number(
         "--max-boxes", int, "Largest number of boxes in branch and bound.", default=400_000, least=1
     )
-    parser.add_number(
-        "--jobs",
-        int,
-        "Number of processes.",
-        default=2,
-        least=1,
-        most=64,
-    )
+    parser.add_number("--jobs", int, "Number of processes.", default=2, least=1, most=64)
     about = "Prove ε₀ for all values of the uncertain numbers of the arm."
     parser.add_argument("--ranges", action="store_true", help=about)
     about = "Give every number without a range this range in ± percent. Implies --ranges."
@@ -77,18 +70,14 @@ def run(
     file: Path,
     robot: str | None,
     m: str | None,
-    max_boxes: int,
-    jobs: int,
     ranges: bool,
     spread: float | None,
     vary: list[str] | None,
-    seconds: float | None,
     weights: bool,
-    starts: int,
-    seed: int,
     certificates: Path | None,
     timings: bool,
     format: str,  # noqa: A002
+    **numbers: Any,
 ) -> Exit:
     """Bound ε₀ of the Lyapunov function from both sides, and compare with the published and the scalar ε₀.
 
@@ -111,9 +100,8 @@ def run(
     folder = None if certificates is None else open_folder("--certificates", certificates)
     from lyapcheck.answers.epsilon import EpsilonResults, Options
 
-    options = Options(
-        max_boxes, jobs, ranges or spread is not None or bool(ranged), weights or None, seconds, starts, seed
-    )
+    ranges = ranges or spread is not None or bool(ranged)
+    options = Options(ranges=ranges, weights=weights or None, **numbers)
     with progress("epsilon") as advance:
         results, times = _each(chosen, own, model, options, advance)
     if folder is not None:

@@ -56,7 +56,7 @@ def run(
     if robot is not None:
         from dataclasses import replace
 
-        from lyapcheck.answers.tune.limits import torque_budget
+        from lyapcheck.answers.table import torque_budget
 
         table = replace(table, budget=torque_budget(robot, table))
     if proofs is not None:
