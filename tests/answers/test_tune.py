@@ -16,7 +16,7 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.gain_file import gain_file_text
 from lyapcheck.answers.tune.largest import best_units, binding, damping_of, propose
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.answers.tune.tuning import _for_each_joint, _limits, _rooms, tune
+from lyapcheck.answers.tune.tuning import _limits, _rooms, tune
 from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.control.gains import Bounds, read_gain_file
 from lyapcheck.files.decimals import decimal_text
@@ -199,7 +199,7 @@ def largest_of(function):
 
 def gain_ranges(robot="buap3", m=2, **targets):
     model = load(robot)
-    wanted = _for_each_joint(Targets(**targets), model.n)
+    wanted = Targets(**targets).for_joints(model.n)
     limits, _ = _limits(robot, model, wanted, Bounds())
     return _rooms(m, model, limits, wanted)
 

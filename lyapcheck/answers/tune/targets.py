@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text
@@ -74,6 +75,26 @@ class Targets:
             return Fraction(1 if self.kv_min is None else 0)
         return self.kv_share[joint]
 
+    def for_joints(self, n: int) -> Targets:
+        """The same with one value per joint.
+
+        Raises:
+            InputError: one problem for every target that no gains could mean.
+        """
+        rule = f"must be from 0 to {MOST_DIGITS}"
+        wrong = Problem("argument", None, "--digits", str(self.digits), rule, "write --digits 3")
+        problems = [] if 0 <= self.digits <= MOST_DIGITS else [wrong]
+        each: dict[str, Any] = {}
+        tops = {"peak_share": Fraction(1), "kv_share": Fraction(1), "kv_min": None, "damping": None}
+        for name, top in tops.items():
+            values = getattr(self, name)
+            if values is not None:
+                problems += _complaints(f"--{name.replace('_', '-')}", values, top, n)
+                each[name] = tuple(values) * n if len(values) == 1 else tuple(values)
+        if problems:
+            raise InputError(problems)
+        return replace(self, **each)
+
     def text(self) -> str:
         """What is asked for, in one line."""
         parts = [f"{self.digits} decimal places"]
@@ -103,34 +124,6 @@ def _exact_one(number: object) -> Fraction:
     if not isinstance(number, Number):
         raise TypeError(f"{number!r} is not exact; write it as text, such as '0.8'")
     return Fraction(number)
-
-
-def joint_values(values: Sequence[Fraction], n: int) -> tuple[Fraction, ...]:
-    """One value a joint."""
-    return tuple(values) * n if len(values) == 1 else tuple(values)
-
-
-def require_usable(targets: Targets, n: int) -> None:
-    """Refuse targets that no gains could mean.
-
-    Raises:
-        InputError: one problem for every target that cannot be used.
-    """
-    problems = [] if 0 <= targets.digits <= MOST_DIGITS else [_digits(targets.digits)]
-    for option, values, top in (
-        ("--peak-share", targets.peak_share, Fraction(1)),
-        ("--kv-share", targets.kv_share, Fraction(1)),
-        ("--kv-min", targets.kv_min, None),
-        ("--damping", targets.damping, None),
-    ):
-        problems += [] if values is None else _complaints(option, values, top, n)
-    if problems:
-        raise InputError(problems)
-
-
-def _digits(digits: int) -> Problem:
-    rule = f"must be from 0 to {MOST_DIGITS}"
-    return Problem("argument", None, "--digits", str(digits), rule, "write --digits 3")
 
 
 def _complaints(option: str, values: Sequence[Fraction], top: Fraction | None, n: int) -> list[Problem]:

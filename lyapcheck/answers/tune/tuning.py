@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.words import advice
@@ -28,7 +28,7 @@ from lyapcheck.answers.tune.largest import (
     propose,
 )
 from lyapcheck.answers.tune.limits import arm_limits, impossible, obstacle, unknown
-from lyapcheck.answers.tune.targets import Targets, joint_values, require_usable
+from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.conditions import ACCEPTED, gamma_of
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits
@@ -80,21 +80,11 @@ def tune(
         ...
     """
     model = load(robot)
-    wanted = targets or Targets()
-    require_usable(wanted, model.n)
-    wanted = _for_each_joint(wanted, model.n)
+    wanted = (targets or Targets()).for_joints(model.n)
     limits, repeated = _limits(robot, model, wanted, bounds or Bounds(), varies)
     found = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
     sets = _confirmed(found, robot, repeated, loop)
     return Tuning(robot, model.title, wanted, limits, repeated, sets, loop)
-
-
-def _for_each_joint(targets: Targets, n: int) -> Targets:
-    given = {name: getattr(targets, name) for name in ("peak_share", "kv_share", "kv_min", "damping")}
-    each: dict[str, Any] = {
-        name: joint_values(values, n) for name, values in given.items() if values is not None
-    }
-    return replace(targets, **each)
 
 
 def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:

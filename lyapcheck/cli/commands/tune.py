@@ -256,7 +256,6 @@ def _targets_of(wrong: Complaints, options: dict[str, Any]) -> Targets:
 
 def _bounds_of(wrong: Complaints, robot: str, targets: Targets, options: dict[str, Any]) -> Bounds:
     """The limits given on the command line; these and the targets are held against the joints of the arm."""
-    from lyapcheck.answers.tune.targets import require_usable
     from lyapcheck.control.gains import Bounds
     from lyapcheck.robots import load
 
@@ -265,7 +264,7 @@ def _bounds_of(wrong: Complaints, robot: str, targets: Targets, options: dict[st
     friction = wrong.reading(parse_decimal, "--viscous-min", options["viscous_min"])
     model = wrong.reading(load, robot)
     if model is not None:
-        wrong.reading(require_usable, targets, model.n)
+        wrong.reading(targets.for_joints, model.n)
     n = None if model is None else model.n
     wrong.reading(_require_limits, "--torque", torques, n, True)
     wrong.reading(_require_limits, "--gravity", gravities, n, False)

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 IN_WORDS = {BY_19: "(19)", BY_PROOF: "proof"}
 STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}
 """The condition of a set that shows stability, in words."""
-OVERVIEW = ("", "gains", "m", "stable by", "worst", "overshoot", "settles", "torque", "friction leaves")
 NONE = "—"
 MOST_REMARKS = 3
 MOST_NAMED = 3
@@ -274,23 +273,23 @@ class BenchTuning(Answer):
         return result
 
     def _overview(self) -> Table:
-        rows = []
-        for one in self.sets:
-            trial, worst = one.trial, one.trial.worst(self.bench.wishes)
-            rows.append(
-                (
-                    self._mark if self.met(one) else "✗" if one.stable else "?",
-                    one.gains.name,
-                    NONE if one.gains.m is None else str(one.gains.m),
-                    one.stable or NONE,
-                    _times(worst),
-                    _share(_most(trial.overshoot)),
-                    _seconds(_most(trial.settled, none_is_worst=True)),
-                    _share(100 * _most(trial.share)),
-                    _degrees(float(max(trial.rest))),
-                )
-            )
-        return Table(OVERVIEW, tuple(rows), align="llrlrrrrr", keys=2)
+        """All sets, of each the worst joint."""
+
+        def sign(one: Candidate) -> str:
+            return self._mark if self.met(one) else "✗" if one.stable else "?"
+
+        fields = (
+            Field("", sign, " ", align="l"),
+            Field("", "gains.name", "gains", align="l"),
+            Field("", "gains.m", "m"),
+            Field("", lambda one: one.stable or NONE, "stable by", align="l"),
+            Field("", lambda one: one.trial.worst(self.bench.wishes), "worst", _times),
+            Field("", lambda one: _most(one.trial.overshoot), "overshoot [%]", _up),
+            Field("", lambda one: _most(one.trial.settled, none_is_worst=True), "settles [s]", _seconds),
+            Field("", lambda one: _most(one.trial.share), "torque share", _up),
+            Field("", lambda one: float(max(one.trial.rest)), "friction leaves [°]", _degrees),
+        )
+        return table(fields, [(one,) for one in self.sets], keys=2)
 
     def _section(self, one: Candidate) -> Section:
         rows = table(self._fields, [(one, i) for i in range(len(self.joints))])
@@ -397,15 +396,11 @@ def _times(ratio: float) -> str:
     return at_most(float(ratio), 3) if ratio < FAR else f"> {FAR}"
 
 
-def _share(value: float) -> str:
-    return NONE if math.isnan(value) else f"{at_most(value, 2)} %"
-
-
 def _seconds(value: float) -> str:
-    return "no" if math.isnan(value) else f"{at_most(value, 3)} s"
+    return "no" if math.isnan(value) else at_most(value, 3)
 
 
 def _degrees(value: float) -> str:
     if math.isnan(value) or not value:
         return NONE
-    return "anywhere" if math.isinf(value) else f"{at_most(value)}°"
+    return "anywhere" if math.isinf(value) else at_most(value)
