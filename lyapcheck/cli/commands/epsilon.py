@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,7 @@ from lyapcheck.cli.values import (
     add_robot,
     add_vary,
     gains_on_arm,
+    parse_m,
     require_joints,
     varies,
 )
@@ -25,8 +27,6 @@ from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from lyapcheck.answers.epsilon import EpsilonResult, Options
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
@@ -99,14 +99,13 @@ def run(
     require_joints([gain_file], model)
     folder = None if certificates is None else open_folder("--certificates", certificates)
     from lyapcheck.answers.epsilon import EpsilonResults, Options
+    from lyapcheck.answers.epsilon import certificates as certificates_of
 
     ranges = ranges or spread is not None or bool(ranged)
     options = Options(ranges=ranges, weights=weights or None, **numbers)
     with progress("epsilon") as advance:
         results, times = _each(chosen, own, model, options, advance)
     if folder is not None:
-        from lyapcheck.answers.epsilon import certificates as certificates_of
-
         write_certificates(folder, *map(certificates_of, results))
     show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
     missing = any(result.certified is None for result in results)
@@ -115,8 +114,6 @@ def run(
 
 def _share(spread: float | None) -> Fraction:
     """A percentage as a share, exactly as it was written."""
-    from fractions import Fraction
-
     if spread is None:
         return Fraction(0)
     if not 0 < spread < 100:
@@ -128,15 +125,11 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
     """The gain sets of the members asked for."""
     if m is None:
         return list(gain_file.gains)
-    from lyapcheck.cli.values import parse_m
-
     members = parse_m(m)
     chosen = [gain_set for gain_set in gain_file.gains if gain_set.m in members]
     if not chosen:
-        known = ", ".join(str(gain_set.m) for gain_set in gain_file.gains if gain_set.m is not None)
-        raise argument_error(
-            "--m", m, f"{gain_file.path} has no such gain set", f"choose from {known or 'none'}"
-        )
+        known = ", ".join(str(one.m) for one in gain_file.gains if one.m is not None) or "none"
+        raise argument_error("--m", m, f"{gain_file.path} has no such gain set", f"choose from {known}")
     return chosen
 
 
