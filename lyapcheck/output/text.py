@@ -133,10 +133,12 @@ class _Writer:
         widths = [max(map(_width, column)) for column in shown]
         excess = sum(widths) + len(GAP) * (len(widths) - 1) - self.width
         words = [i for i, side in enumerate(align) if side == "l"]
-        if excess > 0 and words and self.depth < Depth.VERBOSE:
+        while excess > 0 and words and self.depth < Depth.VERBOSE:
             widest = max(words, key=lambda i: widths[i])
             most = max(widths[widest] - excess, 8)
             shown[widest] = [x if _width(x) <= most else f"{x[: most - 1]}…" for x in shown[widest]]
+            words.remove(widest)
+            excess -= widths[widest] - most
         return shown
 
     def _sheet(self, columns: Sequence[Sequence[str]], align: str) -> Iterator[str]:
