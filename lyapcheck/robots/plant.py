@@ -263,6 +263,11 @@ def _units(model: RobotModel) -> Iterator[str]:
 
 
 def _of_a_body(inertia: Sequence[Sequence[Fraction]]) -> bool:
-    """Whether ∫ x xᵀ dm = tr(I)/2 − I is positive semidefinite, as for every distribution of mass."""
+    """Whether ∫ x xᵀ dm = tr(I)/2 − I is positive semidefinite, as for every distribution of mass.
+
+    An inertia about one axis alone is a planar one, where nothing more is said of the body.
+    """
+    if sum(bool(inertia[i][i]) for i in range(3)) < 2:
+        return True
     half = sum((inertia[i][i] for i in range(3)), Fraction(0)) / 2
     return is_positive_semidefinite([[half * (i == j) - inertia[i][j] for j in range(3)] for i in range(3)])
