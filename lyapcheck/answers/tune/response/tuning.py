@@ -10,10 +10,10 @@ from lyapcheck._types import part, silent
 from lyapcheck.answers.gate import gate
 from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
 from lyapcheck.answers.running import runs_of
-from lyapcheck.answers.tune.limits import arm_limits, impossible, unknown
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, Trials
+from lyapcheck.answers.tune.tuning import arm_limits, impossible, unknown
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.control.limits import varied_limits
