@@ -35,7 +35,7 @@ MORE = {
     "--version": 0,
     "--help": 0,
 }
-LACKING = {"epsilon one.toml": "numpy", "tune buap3": "cvxpy", "simulate one.toml --plot drawn": "numpy"}
+LACKING = {"epsilon one.toml": "numpy", "tune buap3": "numpy", "simulate one.toml --plot drawn": "numpy"}
 ALSO = {
     "--completion bash": "shtab",
     "bounds one.toml --target 10": "numpy",
