@@ -84,7 +84,7 @@ def test_what_is_printed_answers_the_five_questions():
             "  (16), term 9 of Reyes-Cortés et al. (2019); claimed in published.py\n",
             "What is decided, for m = 2, n = 3\n",
             "How it is decided\n",
-            "Upper bounds for every n by norms",
+            "Upper bounds for every n: each term in words",
             "What it uses\n",
             "\n2.6    a constant k_c gives ‖C(q,x)y‖ ≤ k_c ‖x‖ ‖y‖\n",
             "What uses it\n",

@@ -180,7 +180,7 @@ COMMANDS = {
     f"bounds one.toml {SHORT} --friction 0.01": JudgedFormat,
     "robot arm.toml --max-boxes 20": JudgedFormat,
     "robot arm.urdf --max-boxes 20": JudgedFormat,
-    "tune arm.toml --compare gains.toml": Format,
+    "tune arm.toml": Format,
 }
 
 
@@ -211,7 +211,7 @@ def test_no_format_obeys_a_name(words, folder, monkeypatch, capsys):
         f"simulate gains.toml {SHORT} --csv -",
         f"simulate gains.toml {SHORT} --runs 2 --csv -",
         "simulate gains.toml --reference reference.toml --csv -",
-        "tune arm.toml --compare gains.toml --format toml",
+        "tune arm.toml --format toml",
     ],
 )
 def test_no_file_for_programs_obeys_a_name(words, folder, monkeypatch, capsys):
@@ -312,7 +312,6 @@ def test_what_does_not_print_is_refused_in_urdf_files(key, text, tmp_path, monke
             *(f"gate ? --format {form}" for form in ("text", "json", "markdown", "junit", "sarif", "github")),
             *(f"simulate ? {SHORT} --format {form}" for form in ("json", "sarif", "junit", "github")),
             "epsilon ? --max-boxes 20 --starts 1",
-            "tune arm.toml --compare ?",
             *(f"robot ? --format {form}" for form in ("text", "sarif", "junit", "github")),
         ],
     ),
