@@ -109,7 +109,7 @@ def test_any_member_and_any_double(m, x, form):
     assert worst(m, form, np.array([x]), value) <= limit(m)
 
 
-@pytest.mark.parametrize("m", [1001, 10_000, pytest.param(100_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("m", [1001, pytest.param(10_000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("form", FORMS)
 def test_the_largest_members_overflow_nowhere(m, form):
     x = np.concatenate([np.geomspace(5e-324, 1.7e308, 2000), np.linspace(0, 3, 2000), neighbours(BORDER)])
