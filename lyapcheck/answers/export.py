@@ -172,6 +172,8 @@ class Export(Answer):
 
     def document(self) -> Document:
         """The verdicts, then a set joint by joint, or all sets."""
+        if not self.sets:
+            return Document("no gain sets in C", next=command("init", "bench"))
         one, several = self.sets[0], len(self.sets) > 1
         period = time_text(one.controller.loop.period or Fraction(0))
         open_ = [each.controller.gains.name for each in self.sets if not each.covered]
