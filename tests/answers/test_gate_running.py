@@ -338,6 +338,8 @@ NOT_FROM_REST = [
     ("reyes-kelly2", DRY, {"filter": (Fraction(1, 2), Fraction(1, 2))}, "without a filter"),
     ("reyes-kelly2", DRY, {"gravity_error": Fraction(1, 20)}, "knows g(q)"),
     ("reyes-kelly2", DRY, {"delay": 7}, "delays to 6"),
+    ("reyes-kelly2", DRY, {"within": Fraction(4000)}, "starts to 3600"),
+    ("reyes-kelly2", DRY, {"within": Fraction(-5)}, "starts to 3600"),
 ]
 
 
@@ -346,6 +348,6 @@ def test_from_rest_what_is_not_shown_is_undecided(
     tmp_path: Path, name: str, removed: str, loop: dict[str, Any], reason: str
 ) -> None:
     file, loop = by_proof(tmp_path, name, removed), {"period": MS} | loop
-    result = judged(file, LoopEntry(within=Fraction(90), **loop), ("sampled",))
+    result = judged(file, LoopEntry(**({"within": Fraction(90)} | loop)), ("sampled",))
     assert result.verdict == "undecided"
     assert reason in only(result, "sampled")[0].reason

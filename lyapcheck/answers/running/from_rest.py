@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.folder import shown_by
 from lyapcheck.asked import sampled_from_rest, viscous_of
-from lyapcheck.check.kinds.sampled_from_rest import MOST_DELAY, SampledFromRest
+from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, SampledFromRest
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.sampling import ONE
 from lyapcheck.errors import PACKAGES, installed, repair
@@ -97,5 +97,7 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
         "supposes that the controller knows g(q)": record.knows_gravity,
+        f"speaks of starts to {FARTHEST}° from the goal": record.within is None
+        or 0 < record.within <= FARTHEST,
     }
     return next((f"(P) {rule}" for rule, fits in rules.items() if not fits), "")
