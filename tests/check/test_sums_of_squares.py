@@ -112,24 +112,3 @@ def test_a_statement_just_beyond_the_truth_is_refused(name):
         yes = accepted(changed)
         assert not yes or shows(changed, Random(1))
         assert not yes or not oracle.objection(from_json(Statement, changed["statement"], "statement"))
-
-
-@pytest.mark.parametrize("name", ["form", "gains", "lift"])
-def test_where_both_sides_can_be_equal_the_relation_is_not_strict(name):
-    assert not accepted(put(GOOD[name], ("statement", "conclusion", "operator"), "<"))
-
-
-@pytest.mark.parametrize("name", ["given", "origin", "half-plane", "region"])
-def test_without_a_strict_hypothesis_the_conclusion_is_not_strict(name):
-    document = GOOD[name]
-    for k in range(len(document["statement"]["hypotheses"])):
-        document = put(document, ("statement", "hypotheses", k, "operator"), "<=")
-    assert not accepted(document)
-    assert accepted(put(document, ("statement", "conclusion", "operator"), "<="))
-
-
-def test_an_end_that_can_be_reached_excludes_nothing():
-    document = GOOD["above-two"]
-    assert not accepted(put(document, ("statement", "variables", 1, "strict"), False))
-    moved = put(document, ("statement", "variables", 1, "low"), "-1/2")
-    assert not accepted(moved)

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from lyapcheck.answers.epsilon import epsilon
-from lyapcheck.check.kinds.decreasing import BoxTree, StateWitness, statement_of
+from lyapcheck.check.kinds.decreasing import BoxTree, statement_of
 from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused
@@ -101,29 +100,12 @@ def test_P_over_boxes_holds_P_with_weights():
                     assert float(P[i][j].lower()) <= exact[i, j] <= float(P[i][j].upper())
 
 
-def test_larger_weights_are_refused_for_the_same_tree():
-    proof = weighted(0).proof
-    assert isinstance(proof.by, BoxTree)
-    loop = proof.loop
-    assert proves(loop, proof.by.tree)
-    for factors in ((2, 1), (1, 2), (2, 2)):
-        coupling = tuple(x * f for x, f in zip(loop.Lambda, factors, strict=True))
-        assert not proves(replace(loop, coupling=coupling), proof.by.tree)
-
-
 def test_certificates_hold_the_weights():
     proof = weighted(0).proof
     assert verify(proof.statement, proof.certificate).verdict == "proved"
     for coupling in ((F(1),), (F(-1), F(1)), (F(0), F(1))):
         with pytest.raises(Refused):
             verify(statement_of(replace(proof.loop, coupling=coupling)), proof.certificate)
-
-
-def test_states_are_about_no_weights():
-    loop, nothing = weighted(0).proof.loop, (F(0), F(0))
-    witness = StateWitness((F(1), F(1)), (), nothing, (F(1), F(1)), nothing)
-    with pytest.raises(Refused):
-        verify(statement_of(loop), witness)
 
 
 def test_epsilon_seeks_weights_unless_told_not_to():

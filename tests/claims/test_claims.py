@@ -330,13 +330,6 @@ def test_a_lower_bound_of_a_variable_is_used_and_respected():
     assert propose(implies(nonnegative("a"), (), expr("0.5") <= a)).verdict is Verdict.REFUTED
 
 
-def test_what_is_not_defined_at_an_end_is_not_proved_there():
-    closed = propose(for_all(sinh(x) / x >= 1, 0))
-    assert closed.verdict is Verdict.UNDECIDED
-    assert "sinh(x)/x: is not shown to have a value" in closed.reason
-    assert propose(for_all(sinh(x) / x >= 1, 0, open_low=True)).verdict is Verdict.PROVED
-
-
 def test_what_is_written_where_a_number_belongs_is_that_number_or_is_refused():
     assert exact_value(expr(2) * 3 / 4) == Fraction(3, 2)
     assert exact_value(sqrt(4) + sqrt(2) * sqrt(2) - gamma(1)) == 3

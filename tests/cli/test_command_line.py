@@ -255,20 +255,6 @@ def test_a_proof_script_cannot_choose_the_exit_code(script, run, tmp_path, monke
     assert "SystemExit" in err
 
 
-def test_a_claim_cannot_choose_the_exit_code(run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    script = (
-        "from lyapcheck.claims import Proof\n"
-        "proof = Proof('mine', 'Mine')\n"
-        "@proof.claim('a', 'nothing')\n"
-        "def a():\n    raise SystemExit(0)\n"
-    )
-    Path("mine.py").write_text(script, encoding="utf-8")
-    code, out, err = run("check", "mine.py")
-    assert (code, out) == (2, "")
-    assert "mine.py:5: a: its statement raises SystemExit" in err
-
-
 @pytest.mark.parametrize("arguments", [("table", "--m", "1:2"), ("gate", TABLE2), ("table", "--m", "1:300")])
 def test_a_reader_that_went_away_is_no_verdict_and_no_traceback(arguments):
     reader, writer = os.pipe()

@@ -9,7 +9,6 @@ import pytest
 from lyapcheck import gate, robots
 from lyapcheck.answers.tune.response.trial import Trials, Wishes, tried
 from lyapcheck.cli import main as cli
-from lyapcheck.control.gains import read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.registry import arm_text
@@ -94,26 +93,6 @@ def test_examples_are_known_by_name_and_lean_on_nothing_else():
 
 def test_gate_takes_a_path():
     assert [one.verdict for one in gate(ROOT / "examples" / "ur5_gains.toml")] == ["accepted"] * 3
-
-
-@pytest.mark.parametrize(
-    ("body", "line", "said"),
-    [
-        ('m = "1"\nkp = [1, 1, 1]\nkv = [1, 1, 1]', 4, 'm = "1": must be a whole number'),
-        ("m = 1\nkp = [1, 1, 1\nkv = [1, 1, 1]", 5, "Unclosed array"),
-        ("m = 1\nkv = [1, 1, 1]\nkp = [1, 1, 1", 6, "Unclosed array"),
-        ("m = 1\nkp = [1, 1]\nkv = [1, 1, 1]", 6, "give both as many gains as the arm has joints"),
-        ("m = 1\nkp = 25\nkv = [1, 1, 1]", 5, "write kp = [25, 25] for two joints"),
-    ],
-)
-def test_messages_name_the_line_the_value_as_written_and_the_repair(tmp_path, body, line, said):
-    path = tmp_path / "g.toml"
-    path.write_text(f'robot = "buap3"\n[[gains]]\nname = "a"\n{body}\n')
-    with pytest.raises(InputError) as refused:
-        read_gain_file(path)
-    (problem,) = refused.value.problems
-    assert problem.line == line
-    assert said in str(problem)
 
 
 def test_a_robot_that_is_not_there_names_the_examples():

@@ -11,7 +11,7 @@ from mpmath import mpf
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.numbers.balls import hyperbolic_constants, precision, to_arb
 from lyapcheck.check.verify import verify
-from lyapcheck.control.conditions import Conditions, check_10p, check_19, gamma_of
+from lyapcheck.control.conditions import Conditions, gamma_of
 from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.threshold import root
@@ -40,10 +40,6 @@ def limits_of(torque, gravity, friction):
 def checked(gains, limits, gamma=None):
     bound = gamma_of(gains) if gamma is None else gamma
     return {(check.id, check.joint): check for check in Conditions(limits, bound).all(gains, ("10i",))}
-
-
-def check_10(gains, limits, gamma):
-    return Conditions(limits, gamma).check_10(gains)
 
 
 # --- an independent computation ------------------------------------------------------------------
@@ -131,17 +127,6 @@ def test_the_conditions_agree_with_an_independent_computation(gammas, case):
             assert not on_border or check.margin == 0
 
 
-# --- on the border ---------------------------------------------------------------------------------
-
-
-def test_10_at_the_printed_bound():
-    """(21 − 0)/(√4 · 1.05) = 10, though 1.05 is no binary fraction."""
-    limits = limits_of(["21", "0", "0", "0"], ["0"] * 4, None)
-    gains = gains_of(["9.5"] * 4, ["0.5"] * 4)
-    (check,) = check_10(gains, limits, gamma_of(gains, "printed"))
-    assert (check.verdict, check.margin, check.largest_admissible) == ("accepted", 0, 10)
-
-
 # --- what cannot be decided ------------------------------------------------------------------------
 
 
@@ -184,13 +169,6 @@ def test_the_printed_bounds_are_those_of_the_paper():
 def test_the_paper_prints_no_other_bound(m, family):
     with pytest.raises(InputError, match="prints no γ"):
         gamma_of(gains_of(["1"], ["1"], m, family), "printed")
-
-
-@pytest.mark.parametrize("check", [check_10, check_10p, check_19])
-def test_a_verdict_is_exact_for_the_largest_member(check):
-    gains = gains_of(["1.5"] * 3, ["0.1"] * 3, 10_000)
-    limits = limits_of(["50", "150", "15"], ["0", "40.28", "1.81"], "0.406")
-    assert {result.verdict for result in check(gains, limits, gamma_of(gains))} <= {"accepted", "rejected"}
 
 
 def test_the_largest_member_is_decided_and_the_next_is_none():

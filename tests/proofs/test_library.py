@@ -1,5 +1,6 @@
 """The library of published proofs: what each proves and refuses, and faults planted in every one of them."""
 
+import re
 import runpy
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import pytest
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.claim import Case
 from lyapcheck.claims.procedures import propose
-from lyapcheck.claims.script import find_script
+from lyapcheck.claims.script import SHIPPED, find_script
 from tests.helpers.script_cases import rewriter
 from tests.helpers.shares import but, one_in
 
@@ -186,3 +187,9 @@ def test_a_planted_fault_is_not_proved(tmp_path, name, right, wrong):
 
 def test_faults_are_planted_in_each():
     assert {name for name, faults in FAULTS.items() if len(faults) >= 3} == set(REFUSED)
+
+
+def test_no_verdict_is_written_in_a_script():
+    for script in (*SHIPPED, *(f"{name}.py" for name in REFUSED)):
+        text = Path(find_script(script)).read_text(encoding="utf-8")
+        assert re.findall(r"\b(proved|refuted|undecided|Verdict|Decision)\b", text) == [], script

@@ -130,40 +130,11 @@ def compare(arm: robots.RobotModel, other: Arm) -> None:
 
 # The chain -------------------------------------------------------------------------------------------------
 
-BRANCH = """\
-  <link name="camera"/>
-  <joint name="pan" type="{kind}">
-    <parent link="base"/>
-    <child link="camera"/>
-    <limit effort="1" velocity="1"/>
-  </joint>
-</robot>
-"""
-
-
-def with_branch(kind: str) -> str:
-    return TWO.replace("</robot>\n", BRANCH.format(kind=kind))
-
-
-def test_the_longest_chain_is_taken_and_the_rest_held(tmp_path: Path) -> None:
-    arm = load(tmp_path, with_branch("revolute"))
-    assert arm.joints == ("shoulder", "elbow")
-    assert "held, at zero where nothing else is said: pan (revolute);" in "".join(arm.assumptions)
-
 
 def test_a_tip_on_the_way_holds_what_is_behind_it(tmp_path: Path) -> None:
     short = load(tmp_path, TWO, "upper")
     assert short.joints == ("shoulder",)
     assert at_zero(short)[0][0][0] == at_zero(load(tmp_path, TWO))[0][0][0]
-
-
-def test_two_longest_chains_are_told_with_their_tips(tmp_path: Path) -> None:
-    text = TWO.replace('type="continuous"', 'type="fixed"')
-    text = text.replace("</robot>\n", BRANCH.format(kind="revolute"))
-    with pytest.raises(
-        InputError, match="has 2 arms of 1 joint, to the tips upper, camera; choose one: --tip upper"
-    ):
-        load(tmp_path, text)
 
 
 def test_a_tip_is_for_urdf_files_only() -> None:
