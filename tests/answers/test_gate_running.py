@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from lyapcheck.answers.running.holds import HoldsCheck
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.limits import arm_limits
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.robots.numeric import NumericModel
@@ -330,7 +332,6 @@ def test_from_rest_at_exactly_one_period(tmp_path: Path, name: str, monkeypatch:
 
 
 NOT_FROM_REST = [
-    pytest.param("buap3", "$^", {}, "no proof from rest within 90° over", marks=pytest.mark.slow),
     ("reyes-kelly2", "$^", {}, "without dry friction"),
     ("reyes-kelly2", r"torque_limit = 1.*\n|" + DRY, {}, "no motor saturates"),
     pytest.param("reyes-kelly2", DRY, {"period": 8 * MS}, "no proof", marks=pytest.mark.slow),
@@ -351,3 +352,17 @@ def test_from_rest_what_is_not_shown_is_undecided(
     result = judged(file, LoopEntry(**({"within": Fraction(90)} | loop)), ("sampled",))
     assert result.verdict == "undecided"
     assert reason in only(result, "sampled")[0].reason
+
+
+@pytest.mark.slow
+def test_an_arm_with_ranges_is_shown_from_rest_at_its_nominal_inertia(tmp_path: Path) -> None:
+    """The shipped arm has wide ranges, over which nothing is shown: asked for by --vary they decide."""
+    file, loop = by_proof(tmp_path, "buap3", DRY), LoopEntry(period=MS, within=Fraction(90))
+    (check,) = only(judged(file, loop, ("sampled",)), "sampled")
+    assert (check.verdict, check.nominal) == ("accepted", True)
+    assert check.narrow == "at exactly 1 ms, from rest within 90°, at the nominal inertia"
+    robot = read_gain_file(file).robot
+    assert robot is not None
+    over = judged(file, loop, ("sampled",), arms={robot: replace(arm_limits(robot), varied=True)})
+    assert over.verdict == "undecided"
+    assert "no proof from rest within 90° over" in only(over, "sampled")[0].reason

@@ -63,6 +63,7 @@ class SampledCheck(Check):
         named: whether the period of the record is one that somebody asked about.
         counts: whether (10i) or (10p) holds.
         from_rest: that the arm, but for its dry friction, comes to each goal from rest at exactly the period.
+        nominal: whether that is shown at the nominal inertia of an arm with ranges, not over these.
     """
 
     record: LoopRecord = UNSAID
@@ -72,11 +73,21 @@ class SampledCheck(Check):
     named: bool = True
     counts: bool = True
     from_rest: Promise | None = None
+    nominal: bool = False
 
     @property
     def narrow(self) -> str:
         """From where and at which period it is accepted, where not from everywhere at each shorter one."""
-        return "" if self.from_rest is None or self.promise is None else from_where(self.from_rest)
+        return "" if self.promise is None else self._from_where
+
+    @property
+    def _from_where(self) -> str:
+        """The period, the starts and the inertia of what (P) shows; empty where it shows nothing."""
+        if self.from_rest is None:
+            return ""
+        asked: SampledFromRest = self.from_rest.asked  # type: ignore[assignment]
+        of_arm = ", at the nominal inertia" if self.nominal else ""
+        return f"at exactly {time_text(asked.period)}, from rest within {decimal_text(asked.within)}°{of_arm}"
 
     @property
     def most(self) -> Fraction | None:
@@ -99,7 +110,7 @@ class SampledCheck(Check):
             said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
         if self.from_rest is not None:
             without = ", without the dry friction of the arm" if self.rests else ""
-            words = f"as run ({self.record.how}): proved {from_where(self.from_rest)}, to come to the goal"
+            words = f"as run ({self.record.how}): proved {self._from_where}, to come to the goal"
             said.append(self.from_rest.says(f"{words}{without}{inside}"))
         if self.refuted is not None and not (told and self.verdict == REJECTED):
             said.append(unstable_text(self.refuted, self.rests))
@@ -110,12 +121,6 @@ def periods_text(shown: SampledStable) -> str:
     """For which periods: (S) bounds the intervals of each by a multiple of that period, not by one time."""
     apart = f", no interval above {decimal_text(shown.stretch)} times it" if shown.stretch > 1 else ""
     return f"with exact readings for every period up to {time_text(shown.period)}{apart}"
-
-
-def from_where(promise: Promise) -> str:
-    """The period and the starts of a promise by (P)."""
-    asked: SampledFromRest = promise.asked  # type: ignore[assignment]
-    return f"at exactly {time_text(asked.period)}, from rest within {decimal_text(asked.within)}°"
 
 
 def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
@@ -179,8 +184,12 @@ def sampled_check(
     refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
     if refuted is not None and not known.rests and _period(refuted) <= asked.period:
         return replace(known, judgement=refuted, refuted=refuted)
-    promise, lacks = shown_from_rest(gains, limits.model, record, viscous_min, kept)
-    known = replace(known, refuted=refuted, from_rest=promise)
+    arm = limits.model
+    promise, lacks = shown_from_rest(gains, arm, record, viscous_min, kept)
+    nominal = promise is None and arm is not None and bool(arm.parameters) and not limits.varied
+    if nominal and arm is not None:
+        promise, _ = shown_from_rest(gains, arm.fixed(), record, viscous_min, kept)
+    known = replace(known, refuted=refuted, from_rest=promise, nominal=nominal)
     if promise is not None and known.counts and not known.rests and record.encoder is None:
         known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]
         known = replace(known, joint=None, limit=None, largest_admissible=None)
