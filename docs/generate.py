@@ -125,7 +125,6 @@ ASKED = {
     "recheck": "recheck certificates",
     "robot": "robot pendulum1",
     "simulate": "simulate gains.toml --time 1",
-    "store": "store",
     "sweep": "sweep plan.toml --out sweep",
     "table": "table --m 1",
     "tune": "tune pendulum1 --m 1",

@@ -14,7 +14,7 @@ import json
 import os
 import stat
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
@@ -149,38 +149,6 @@ def source_digest() -> str:
                     f"{path.relative_to(root)}\n".encode() + hashlib.sha256(path.read_bytes()).digest()
                 )
     return whole.hexdigest()
-
-
-@dataclass(frozen=True)
-class Held:
-    """How much is kept of one kind."""
-
-    kind: str
-    files: int
-    bytes: int
-
-
-def held() -> list[Held]:
-    """What is kept, kind by kind."""
-    return [
-        Held(kind.name, len(files), sum(path.stat().st_size for path in files))
-        for kind in _rooms()
-        for files in [[path for path in kind.iterdir() if path.is_file()]]
-    ]
-
-
-def clear() -> None:
-    """Remove everything that is kept."""
-    for kind in _rooms():
-        for path in kind.iterdir():
-            if path.is_file():
-                path.unlink(missing_ok=True)
-
-
-def _rooms() -> Iterator[Path]:
-    folder = home()
-    if folder.is_dir():
-        yield from sorted(path for path in folder.iterdir() if path.is_dir() and not path.is_symlink())
 
 
 def _write(folder: Path, content: bytes) -> Path:

@@ -88,7 +88,7 @@ BAD = [
     ("recheck", ["the following arguments are required: CERTIFICATE"]),
     ("recheck none.json", ["none.json: CERTIFICATE: cannot be read"]),
     ("recheck TABLE2", ["TABLE2: CERTIFICATE: is not JSON"]),
-    ("store --clean", ["--clean: is not an option here"]),
+    ("table --clean", ["--clean: is not an option here"]),
     ("explain 99 --proof scalar.py", ["scalar.py: id = 99: no claim has this id"]),
     ("explain 7a --proof none.py", ["none.py: PROOF = none.py: no such proof script"]),
     ("epsilon", ["the following arguments are required: FILE"]),

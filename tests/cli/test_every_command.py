@@ -27,7 +27,6 @@ CALLS = {
     "report": ("--m 0", Exit.USAGE),
     "robot": ("pendulum1 --max-boxes 20", Exit.PROVED),
     "simulate": ("one.toml --target 10 --time 0.1", Exit.PROVED),
-    "store": ("", Exit.PROVED),
     "sweep": ("plan.toml --jobs 1", Exit.REFUTED),
     "table": ("--m 1", Exit.PROVED),
     "tune": ("pelican2", Exit.UNDECIDED),

@@ -24,7 +24,6 @@ WITHOUT = {
     "report": "its options are of files and formats, and a report takes a minute",
     "sweep": "its options are of files and processes; its questions are those of the other commands",
     "explain": "its options are of files",
-    "store": "it keeps nothing here",
     "recheck": "its budgets have tests of their own",
 }
 """Commands that are not tried."""

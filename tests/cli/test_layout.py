@@ -34,7 +34,6 @@ ASKED = {
     "table": ("table", "--m", "1:3"),
     "table, of an arm": ("table", "--m", "1:3", "--robot", "buap3"),
     "recheck": ("recheck", str(ROOT / "tests/kernel/certificates/2.1.json")),
-    "store": ("store",),
     "epsilon": ("epsilon", "gains.toml", "--max-boxes", "40", "--starts", "1"),
     "simulate": ("simulate", "gains.toml"),
     "simulate, at the bench": ("simulate", TABLE2, "--experiment"),

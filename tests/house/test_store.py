@@ -45,16 +45,6 @@ def test_nothing_is_taken_or_kept_where_it_is_off(monkeypatch, place):
     assert len(list(place.iterdir())) == 1
 
 
-def test_what_is_held_is_counted_and_cleared(place):
-    store.put(QUESTION, [1])
-    (held,) = store.held()
-    assert (held.kind, held.files) == (store.ANSWERS, 1)
-    assert held.bytes == sum(path.stat().st_size for path in place.iterdir())
-    store.clear()
-    assert store.take(QUESTION) is None
-    assert store.held()[0].files == 0
-
-
 @pytest.mark.usefixtures("in_this_process")
 def test_a_proof_is_found_again_and_judged_again(monkeypatch):
     first = run_proof("published.py", (1,), only=("7a",))

@@ -173,7 +173,5 @@ def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) ->
         ),
         lead=(f"open: {', '.join(written)}",),
         assumed=assumed_line(report.robot, robot) if report.own else "",
-        next=f"{doc.command('recheck', out)}/certificates/*/"
-        if report.certificates
-        else doc.command("store"),
+        next=f"{doc.command('recheck', out)}/certificates/*/" if report.certificates else doc.command("explain"),
     )
