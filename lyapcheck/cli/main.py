@@ -124,7 +124,12 @@ def run(words: Sequence[str]) -> int:
     parser = Parser(prog=f"lyapcheck {words[0]}", description=command.run.__doc__)
     command.arguments(parser)
     try:
-        return int(command.run(**chosen(viewed(parser.parse(words[1:])))))
+        values = chosen(viewed(parser.parse(words[1:])))
+        if values.pop("no_store", False):
+            from lyapcheck import store
+
+            store.switch_off()
+        return int(command.run(**values))
     except InputError as error:
         if not error.told:
             _show_problems(words, error)
@@ -237,7 +242,3 @@ def _same_bytes_everywhere() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,12 +1,17 @@
-"""The parser of the command line: argparse, whose refusals name the value, the rule and the repair."""
+"""The parser of the command line, and the options that several commands have.
+
+It is argparse, whose refusals name the value, the rule and the repair.
+"""
 
 from __future__ import annotations
 
 import argparse
 import re
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
+from lyapcheck.output.formats import JudgedFormat
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -14,6 +19,31 @@ if TYPE_CHECKING:
 WIDTH = 80
 _NEGATIVE = re.compile(r"-\.?\d")
 """How a value begins that is not an option: ``-45,0,90``."""
+LOOP = {
+    "rate": ("HZ", "Rate of the controller. This and the next options replace [loop] of the files."),
+    "period": ("TIME", 'The same as a period, for example "2.5 ms".'),
+    "longest": ("TIME", "The longest interval between two readings."),
+    "delay": ("N", "Whole samples from a reading to its torque."),
+    "velocity": ("HOW", "difference (of readings), or measured."),
+    "filter": ("TAPS", "Taps of the velocity filter, the newest first, for example 0.5,0.5."),
+    "lowpass": ("HZ", "Cut-off frequency of a first-order velocity filter."),
+    "encoder": ("BITS", 'Encoder of every joint, "17 bits" or counts per turn.'),
+    "unknown_payload": ("KG", "Largest mass at the last link that the controller does not know."),
+    "gravity_error": ("PERCENT", "Largest error of the gravity torque in the controller."),
+    "within": ("DEG", "Prove sampled for starts at rest this near to the goal, at exactly this period."),
+}
+"""Options of the loop as it is run, with what they take; each is a key of ``[loop]``."""
+CHOICE_OF_ARM = {
+    "base": ("LINK", "First link of the arm in a URDF, xacro or MJCF file."),
+    "tip": ("LINK", "Last link of the arm. Default is the longest run of revolute joints."),
+    "fixed": ("JOINT=VALUE", "Joint that does not move, with its position in rad or m. May be repeated."),
+    "xacro": ("NAME:=VALUE", "Argument of a xacro file. May be repeated."),
+}
+"""What is chosen of an arm, which `lyapcheck.cli.values.chosen` makes part of its name."""
+RANGES = (
+    "Range for a number of the arm, in percent of its value or in its unit. For example "
+    "viscous=-30%%..+0%%, mass=-5%%..+5%%, payload=0..3 or base_inertia=0.4..0.6. May be repeated."
+)
 
 
 class Parser(argparse.ArgumentParser):
@@ -41,6 +71,54 @@ class Parser(argparse.ArgumentParser):
             name = f"[{action.metavar}]" if action.nargs == "?" else action.metavar
             self.usage = f"{self.usage} {name}"
         return action
+
+    def add_gain_file(self) -> None:
+        """``FILE``, a path."""
+        self.add_argument("file", metavar="FILE", type=Path, help="A gain file.")
+
+    def add_robot(self, about: str = "Arm by name or file, instead of the arm in the gain file.") -> None:
+        """``--robot``, a name or a path, and what is chosen of it."""
+        self.add_argument("--robot", metavar="ROBOT", help=about)
+        self.add_choice_of_arm()
+
+    def add_choice_of_arm(self) -> None:
+        """``--base``, ``--tip``, ``--fixed`` and ``--xacro``."""
+        for name, (metavar, about) in CHOICE_OF_ARM.items():
+            action = "append" if "repeated" in about else "store"
+            self.add_argument(f"--{name}", metavar=metavar, action=action, help=about)
+
+    def add_members(self, default: str | None, about: str = "") -> None:
+        """``--m``, as `lyapcheck.cli.values.parse_m` reads it."""
+        about = f"Orders of h_m, for example 3 or 1,2,5 or 1:12.{about}"
+        self.add_argument("--m", metavar="M", default=default, help=about)
+
+    def add_vary(self) -> None:
+        """``--vary``, as `lyapcheck.robots.vary.Vary.parsed` reads it."""
+        self.add_argument("--vary", metavar="NAME=LO..HI", action="append", help=RANGES)
+
+    def add_loop(self, names: Iterable[str] = LOOP) -> None:
+        """``--rate`` and so on: all options of the loop as it is run, or some."""
+        for name in names:
+            metavar, about = LOOP[name]
+            self.add_argument(f"--{name.replace('_', '-')}", metavar=metavar, help=about)
+
+    def add_certificates(self, what: str = "Write the certificates of each gain set to this folder") -> None:
+        """``--certificates``, a folder."""
+        self.add_argument("--certificates", metavar="DIR", type=Path, help=f"{what}.")
+
+    def add_no_store(self) -> None:
+        """``--no-store``."""
+        about = "Do not read or write the cache, $XDG_CACHE_HOME/lyapcheck."
+        self.add_argument("--no-store", action="store_true", help=about)
+
+    def add_format(self, formats: Iterable[str] = JudgedFormat) -> None:
+        """``--format``, the name of one of some formats, and how a text is shown."""
+        self.add_choice("--format", formats, "Output format.", default="text")
+        self.add_argument("-q", "--quiet", action="store_true", help="Show the first line only.")
+        about = "Add formulas, methods and all rows and columns."
+        self.add_argument("-v", "--verbose", action="store_true", help=about)
+        self.add_argument("--explain", action="store_true", help="Add all notes to what -v shows.")
+        self.add_choice("--color", ("auto", "always", "never"), "Use of colour.", default="auto")
 
     def add_choice(
         self,

@@ -1,16 +1,20 @@
-"""Writing an answer to standard output and to the summary of a GitHub job, and files whole or not at all."""
+"""What a command writes: its answer, progress on standard error, and files whole or not at all."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
 from pathlib import Path
 from shutil import get_terminal_size
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck._types import Progress
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Section
@@ -29,6 +33,10 @@ SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""
 LARGEST_SUMMARY = 1_000_000
 """Bytes; GitHub refuses more than a mebibyte."""
+SILENCE = 1.0
+"""Seconds between two lines of progress where there is no terminal."""
+PATIENCE = 2.0
+"""Seconds of work that need no word about it, where most work is quick."""
 
 
 def require_writable(option: str, path: Path) -> None:
@@ -63,6 +71,15 @@ def open_folder(option: str, path: Path) -> Path:
         ) from error
     _require_room(option, path, path)
     return path
+
+
+def certificate_folder(path: Path | None) -> Path | None:
+    """The folder of ``--certificates``, made if need be; ``None`` where the option is not given.
+
+    Raises:
+        InputError: as for `open_folder`.
+    """
+    return None if path is None else open_folder("--certificates", path)
 
 
 def write_certificates(folder: Path, *groups: Mapping[str, Certificate]) -> None:
@@ -204,3 +221,54 @@ def _append_summary(path: str, document: Document) -> None:
         raise InputError(
             Problem("environment", None, SUMMARY, path, f"cannot be written ({error.strerror})", "unset it")
         ) from error
+
+
+# --- Progress on standard error: a bar on a terminal, a few plain lines elsewhere.
+
+
+@contextmanager
+def progress(label: str, patience: float = 0.0) -> Iterator[Progress]:
+    """Show how far a piece of work has come; yields the function that the work calls to say so.
+
+    What is shown never falls: work that begins anew, with fewer boxes or another ε₀, stays where it was.
+    Work that ends within ``patience`` seconds of its first word shows nothing.
+    """
+    begun: float | None = None
+    reached, shown = 0.0, None
+    with ExitStack() as stack:
+
+        def advance(fraction: float, note: str) -> None:
+            nonlocal begun, reached, shown
+            begun = monotonic() if begun is None else begun
+            reached = max(reached, fraction)
+            if shown is None and monotonic() - begun >= patience:
+                shown = stack.enter_context(_bar(label) if sys.stderr.isatty() else _lines(label))
+            if shown is not None:
+                shown(reached, note)
+
+        yield advance
+
+
+@contextmanager
+def _bar(label: str) -> Iterator[Progress]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    label_column, note_column = TextColumn("{task.description}"), TextColumn("{task.fields[note]}")
+    columns = (label_column, BarColumn(), TimeElapsedColumn(), note_column)
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(label, total=1.0, note="")
+        yield lambda fraction, note: bar.update(task, completed=fraction, note=note)
+
+
+@contextmanager
+def _lines(label: str) -> Iterator[Progress]:
+    last, shown_at = "", -SILENCE
+
+    def advance(fraction: float, note: str) -> None:
+        nonlocal last, shown_at
+        if note and note != last and monotonic() - shown_at >= SILENCE:
+            print(f"{label}: {round(100 * fraction):3d} % {note}", file=sys.stderr)
+            last, shown_at = note, monotonic()
+
+    yield advance

@@ -9,7 +9,8 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
-from lyapcheck.cli.values import LOOP, Complaints, loop_of
+from lyapcheck.cli.parser import LOOP
+from lyapcheck.cli.values import Complaints, loop_of
 from lyapcheck.errors import InputError, argument_error, argument_problem
 
 if TYPE_CHECKING:

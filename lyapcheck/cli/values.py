@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
-from argparse import SUPPRESS, Action
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from lyapcheck.cli.parser import LOOP
 from lyapcheck.errors import InputError, Problem, argument_error
-from lyapcheck.output.formats import JudgedFormat
 
 if TYPE_CHECKING:
-    from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile
     from lyapcheck.files.loop import LoopEntry
     from lyapcheck.robots import RobotModel
@@ -182,50 +180,6 @@ def require_joints(gain_files: Iterable[GainFile], model: RobotModel) -> None:
         raise InputError(problems)
 
 
-# --- Arguments and options that several commands have.
-
-
-COLOURING = ("auto", "always", "never")
-LOOP = {
-    "rate": ("HZ", "Rate of the controller. This and the next options replace [loop] of the files."),
-    "period": ("TIME", 'The same as a period, for example "2.5 ms".'),
-    "longest": ("TIME", "The longest interval between two readings."),
-    "delay": ("N", "Whole samples from a reading to its torque."),
-    "velocity": ("HOW", "difference (of readings), or measured."),
-    "filter": ("TAPS", "Taps of the velocity filter, the newest first, for example 0.5,0.5."),
-    "lowpass": ("HZ", "Cut-off frequency of a first-order velocity filter."),
-    "encoder": ("BITS", 'Encoder of every joint, "17 bits" or counts per turn.'),
-    "unknown_payload": ("KG", "Largest mass at the last link that the controller does not know."),
-    "gravity_error": ("PERCENT", "Largest error of the gravity torque in the controller."),
-    "within": ("DEG", "Prove sampled for starts at rest this near to the goal, at exactly this period."),
-}
-"""Options of the loop with what they take; each is a key of ``[loop]``."""
-
-
-def add_gain_file(parser: Parser) -> None:
-    """``FILE``, a path."""
-    parser.add_argument("file", metavar="FILE", type=Path, help="A gain file.")
-
-
-def add_robot(parser: Parser, about: str = "") -> None:
-    """``--robot``, a name or a path, and what is chosen of it."""
-    about = about or "Arm by name or file, instead of the arm in the gain file."
-    parser.add_argument("--robot", metavar="ROBOT", help=about)
-    add_choice_of_arm(parser)
-
-
-def add_choice_of_arm(parser: Parser) -> None:
-    """``--base``, ``--tip``, ``--fixed`` and ``--xacro``, which `chosen` makes part of the arm's name."""
-    about = "First link of the arm in a URDF, xacro or MJCF file."
-    parser.add_argument("--base", metavar="LINK", help=about)
-    about = "Last link of the arm. Default is the longest run of revolute joints."
-    parser.add_argument("--tip", metavar="LINK", help=about)
-    about = "Joint that does not move, with its position in rad or m. May be repeated."
-    parser.add_argument("--fixed", metavar="JOINT=VALUE", action="append", help=about)
-    about = "Argument of a xacro file. May be repeated."
-    parser.add_argument("--xacro", metavar="NAME:=VALUE", action="append", help=about)
-
-
 def chosen(values: dict[str, Any]) -> dict[str, Any]:
     """The values of a command line with what is chosen of the arm as part of ``robot``.
 
@@ -254,28 +208,6 @@ def _pair(option: str, word: str, mark: str) -> tuple[str, str]:
     return name, value
 
 
-def add_members(parser: Parser, default: str | None, more: str = "") -> None:
-    """``--m``, as `lyapcheck.cli.values.parse_m` reads it."""
-    about = f"Orders of h_m, for example 3 or 1,2,5 or 1:12.{more}"
-    parser.add_argument("--m", metavar="M", default=default, help=about)
-
-
-def add_certificates(
-    parser: Parser, what: str = "Write the certificates of each gain set to this folder"
-) -> None:
-    """``--certificates``, a folder."""
-    parser.add_argument("--certificates", metavar="DIR", type=Path, help=f"{what}.")
-
-
-def add_vary(parser: Parser) -> None:
-    """``--vary``, as `lyapcheck.robots.vary.Vary.parsed` reads it."""
-    about = (
-        "Range for a number of the arm, in percent of its value or in its unit. For example "
-        "viscous=-30%%..+0%%, mass=-5%%..+5%%, payload=0..3 or base_inertia=0.4..0.6. May be repeated."
-    )
-    parser.add_argument("--vary", metavar="NAME=LO..HI", action="append", help=about)
-
-
 def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     """What ``--vary`` says.
 
@@ -292,13 +224,6 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     return tuple(one for one in result if one is not None)
 
 
-def add_loop(parser: Parser, names: Sequence[str] = ()) -> None:
-    """``--rate`` and so on: the loop as it is run, all of it or some options."""
-    for name, (metavar, about) in LOOP.items():
-        if name in names or not names:
-            parser.add_argument(f"--{name.replace('_', '-')}", metavar=metavar, help=about)
-
-
 def loop_of(options: Mapping[str, Any]) -> LoopEntry:
     """What the options of `add_loop` say, among those of a command.
 
@@ -308,28 +233,3 @@ def loop_of(options: Mapping[str, Any]) -> LoopEntry:
     from lyapcheck.control.sampling import loop_of_options
 
     return loop_of_options({name: options.get(name) for name in LOOP})
-
-
-def add_no_store(parser: Parser) -> None:
-    """``--no-store``."""
-    about = "Do not read or write the cache."
-    parser.add_argument("--no-store", action=_SwitchOff, nargs=0, dest=SUPPRESS, help=about)
-
-
-class _SwitchOff(Action):
-    """Keeps this process, and those that it starts, from the store."""
-
-    def __call__(self, *_: object) -> None:
-        from lyapcheck import store
-
-        store.switch_off()
-
-
-def add_format(parser: Parser, formats: Iterable[str] = JudgedFormat) -> None:
-    """``--format``, the name of one of some formats, and how a text is shown."""
-    parser.add_choice("--format", formats, "Output format.", default="text")
-    parser.add_argument("-q", "--quiet", action="store_true", help="Show the first line only.")
-    about = "Add formulas, methods and all rows and columns."
-    parser.add_argument("-v", "--verbose", action="store_true", help=about)
-    parser.add_argument("--explain", action="store_true", help="Add all notes to what -v shows.")
-    parser.add_choice("--color", COLOURING, "Use of colour.", default="auto")

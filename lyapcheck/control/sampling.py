@@ -133,7 +133,7 @@ _DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?"
 
 
 def loop_of_options(options: Mapping[str, Any]) -> LoopEntry:
-    """What the options of `lyapcheck.cli.values.add_loop` say, each text as in a file; ``None`` is not given.
+    """What the options of `lyapcheck.cli.parser.LOOP` say, each text as in a file; ``None`` is not given.
 
     Raises:
         InputError: every option that cannot be used.

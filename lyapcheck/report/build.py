@@ -26,7 +26,7 @@ from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, p
 from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import redirect
 from lyapcheck.report.page import render as page
-from lyapcheck.report.plots_of_runs import draw_comparisons, draw_damping, draw_family, draw_set
+from lyapcheck.report.plots import draw_damping, draw_epsilon, draw_family, draw_indices, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         rows, fresh = as_the_gate_judges(rows, gate)
         gone = known - {row.certificate for row in rows}
         certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
-    figures |= draw_comparisons(epsilon, runs)
+    figures |= draw_indices(runs) | draw_epsilon(epsilon)
     claims = tuple(row for row in rows if row.proof == "published")
     weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
     run_of = {row.name: row for row in runs}

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.errors import argument_error
+from lyapcheck.files.fields import file_stem
 from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
@@ -18,7 +19,6 @@ from lyapcheck.output.fields import Field, table
 from lyapcheck.output.typst import markup
 from lyapcheck.process_tree import temporary_folder
 from lyapcheck.report.model import KINDS, SIGNS, WEIGHTS, EpsilonRow, Finding, Report, RunRow
-from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.text import SYMBOLS, and_list, fixed, joined, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.robots import RobotModel

@@ -1,14 +1,27 @@
-"""How every figure looks: colours that colour-blind readers can tell apart, the same bytes each time."""
+"""The figures: the family, one simulated run as in Figs. 3 to 10 of the paper, gain sets compared.
+
+Colours are those that colour-blind readers can tell apart; equal data give equal bytes.
+"""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 from io import BytesIO, StringIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from lyapcheck.output.escapes import csv_text
+import numpy as np
+
+from lyapcheck._types import Array
+from lyapcheck.files.fields import file_stem
+from lyapcheck.output.escapes import csv_text, plot_text
+from lyapcheck.report.model import KINDS
+
+if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
+    from lyapcheck.report.jobs import GainData
+    from lyapcheck.report.model import EpsilonRow, RunRow
+    from lyapcheck.simulate.run import Motion
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """Okabe and Ito's palette, strongest contrasts first."""
@@ -89,34 +102,23 @@ DIGITS = 7
 """Significant digits of the data: more than anybody can read off."""
 
 
-@dataclass(frozen=True, eq=False)
-class Plot:
-    """A figure and the numbers in it.
+def files_of(stem: str, figure: Any, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> Files:
+    """``stem.svg``, ``stem.png`` and ``stem.csv``; equal data give equal bytes.
 
     Args:
+        stem: of the names of the files.
         figure: of matplotlib, not yet drawn.
         header: the columns of the data, with units.
         rows: numbers, words, and ``None`` where there is nothing.
     """
-
-    figure: Any
-    header: Sequence[str]
-    rows: Iterable[Sequence[Any]]
-
-    def files(self, stem: str) -> Files:
-        """``stem.svg``, ``stem.png`` and ``stem.csv``; equal data give equal bytes."""
-        with styled():  # everything in its place: without this each form would compute the layout twice
-            self.figure.draw_without_rendering()
-            self.figure.set_layout_engine(None)
-        return {f"{stem}.svg": svg(self.figure), f"{stem}.png": png(self.figure), f"{stem}.csv": self.csv()}
-
-    def csv(self) -> str:
-        """The data, one line a row."""
-        text = StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(map(csv_text, self.header))
-        writer.writerows([_cell(value) for value in row] for row in self.rows)
-        return text.getvalue()
+    with styled():  # everything in its place: without this each form would compute the layout twice
+        figure.draw_without_rendering()
+        figure.set_layout_engine(None)
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(map(csv_text, header))
+    writer.writerows([_cell(value) for value in row] for row in rows)
+    return {f"{stem}.svg": svg(figure), f"{stem}.png": png(figure), f"{stem}.csv": text.getvalue()}
 
 
 def _cell(value: Any) -> str:
@@ -127,3 +129,264 @@ def _cell(value: Any) -> str:
     if isinstance(value, (bool, int)):
         return str(value)
     return f"{float(value) + 0.0:.{DIGITS}g}"
+
+
+# --- One run over time.
+
+
+ABREAST = 3
+"""Panels in a row, and names in a row of a legend."""
+
+
+def draw_errors(title: str, t: Array, e: Array, joints: Sequence[str]) -> Any:
+    """Position errors in degrees over time; ``t`` (N,) in s, ``e`` (N, n) in rad.
+
+    References: Figs. 3, 5, 7 and 9 of reyes2019family.
+    """
+    with styled():
+        figure, axes = panels(1, 1, height=2.8)
+        axis = axes[0, 0]
+        for i, joint in enumerate(joints):
+            axis.plot(t, np.degrees(e[:, i]), label=plot_text(joint), **_look(i))
+        axis.axhline(0.0, color="black", linewidth=0.6)
+        axis.set(xlabel="t [s]", ylabel="position error [°]", title=plot_text(title), xlim=(t[0], t[-1]))
+        axis.legend(ncols=min(len(joints), ABREAST))
+        return figure
+
+
+def draw_torques(
+    title: str, t: Array, tau: Array, joints: Sequence[str], limits: Sequence[float | None]
+) -> Any:
+    """Applied torques in N·m over time, a panel a joint, with the joint's limit; ``tau`` (N, n).
+
+    References: Figs. 4, 6, 8 and 10 of reyes2019family.
+    """
+    with styled():
+        figure, axes = _per_joint(title, "torque [N·m]", t, joints)
+        for i, (axis, limit) in enumerate(zip(axes, limits, strict=True)):
+            axis.plot(t, tau[:, i], color=COLOURS[i % len(COLOURS)])
+            for sign in (1.0, -1.0):
+                if limit is not None and np.max(sign * tau[:, i]) > 0.25 * limit:
+                    axis.axhline(sign * limit, color="black", linestyle=":", linewidth=1.0)
+        return figure
+
+
+def draw_tracking(title: str, t: Array, q: Array, goal: Array, joints: Sequence[str]) -> Any:
+    """Joint angles in degrees beside what they should follow; ``q`` and ``goal`` (N, n) in rad."""
+    with styled():
+        figure, axes = _per_joint(title, "angle [°]", t, joints)
+        for i, axis in enumerate(axes):
+            axis.plot(t, np.degrees(goal[:, i]), color="black", linestyle="--", label="reference")
+            axis.plot(t, np.degrees(q[:, i]), color=COLOURS[i % len(COLOURS)], label="joint")
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
+        return figure
+
+
+def _per_joint(title: str, label: str, t: Array, joints: Sequence[str]) -> tuple[Any, list[Any]]:
+    """A panel a joint, three in a row, with the label at the left of each row."""
+    rows, columns = -(-len(joints) // ABREAST), min(len(joints), ABREAST)
+    figure, axes = panels(rows, columns, height=0.6 + 2.0 * rows)
+    figure.suptitle(plot_text(title), x=0.01, ha="left", fontsize=10)
+    used = list(axes.flat)[: len(joints)]
+    for axis in list(axes.flat)[len(joints) :]:
+        axis.set_axis_off()
+    for axis, joint in zip(used, joints, strict=True):
+        axis.set(xlabel="t [s]", title=plot_text(joint), xlim=(t[0], t[-1]))
+    for axis in used[::columns]:
+        axis.set_ylabel(label)
+    return figure, used
+
+
+def _look(index: int) -> dict[str, str]:
+    return {"color": COLOURS[index % len(COLOURS)], "linestyle": DASHES[index % len(DASHES)]}
+
+
+def draw_lyapunov(title: str, t: Array, V: Array, dV: Array, bound: Array | None = None) -> Any:
+    """V in J and −dV/dt in W over time on logarithmic axes; a rising V shows as a gap in the right panel.
+
+    ``bound`` (N,) in W is what dV/dt must stay below.
+
+    References: (12) and (15) of reyes2019family.
+    """
+    with styled():
+        figure, axes = panels(1, 2, height=2.6)
+        axes[0, 0].semilogy(t, _positive(V), color=COLOURS[0])
+        axes[0, 0].set(xlabel="t [s]", ylabel="V [J]", title=plot_text(title), xlim=(t[0], t[-1]))
+        axes[0, 1].semilogy(t, _positive(-dV), color=COLOURS[1])
+        axes[0, 1].set(xlabel="t [s]", ylabel="−dV/dt [W]", title="rate of decrease", xlim=(t[0], t[-1]))
+        if bound is not None:
+            look = {"color": COLOURS[2], "linestyle": "--", "label": "promised at least"}
+            axes[0, 1].semilogy(t, _positive(-bound), **look)
+            axes[0, 1].legend()
+        return figure
+
+
+def _positive(values: Array) -> Array:
+    """The values where they can be drawn on a logarithmic axis, gaps elsewhere."""
+    return np.where(values > 0.0, values, np.nan)
+
+
+def drawn(title: str, run: Motion) -> dict[str, Any]:
+    """The figures of a run by what they show; of one along a reference also the angles beside it."""
+    goal, bound = (getattr(run, name, None) for name in ("goal", "bound"))
+    if run.t.size < 2:
+        return {}
+    figures = {
+        "errors": draw_errors(title, run.t, run.e, run.joints),
+        "torques": draw_torques(title, run.t, run.tau, run.joints, run.torque_limit),
+        "lyapunov": draw_lyapunov(title, run.t, run.V, run.dV, bound),
+    }
+    return (
+        figures
+        if goal is None
+        else figures | {"angles": draw_tracking(title, run.t, run.q, goal, run.joints)}
+    )
+
+
+# --- Gain sets compared: performance indices, condition (19) and the four ε₀.
+
+
+TICK = 24
+"""Characters of a name that fit beside or below an axis."""
+MARKERS = ("o", "s", "D", "X")
+HATCHES = ("", "///", "\\\\\\")
+"""One for each source, for grey prints."""
+Values = Mapping[str, Sequence[float | None]]
+"""By where they are from, one of each gain set; ``None`` where there is none."""
+
+
+def draw_indices(runs: Sequence[RunRow]) -> Files:
+    """The L2 index in degrees of each gain set, one bar a source; nothing where there are no runs.
+
+    References: (20) and Fig. 11 of reyes2019family.
+    """
+    if not runs:
+        return {}
+    every: Values = {
+        "simulation of (11)": [run.L2 for run in runs],
+        "measured in the paper": [run.printed["L2"] if run.printed else None for run in runs],
+    }
+    bars = {source: values for source, values in every.items() if any(x is not None for x in values)}
+    names = [run.name for run in runs]
+    with styled():
+        figure, axis = _bars(names, bars, ".1f", width=7.2, height=2.9)
+        axis.set(ylabel="L2 index [°]", title="Performance index (20), T = 5 s")
+        axis.margins(y=0.15)
+        figure.legend(ncols=len(bars), loc="outside lower center")
+    return _compared("indices", figure, names, bars, "deg")
+
+
+def draw_damping(gate: Sequence[GateResult]) -> Files:
+    """The largest k_v of each gain set beside the largest that (19) admits, N·m, where it applies to any.
+
+    References: (19) of reyes2019family.
+    """
+    bars: dict[str, list[float | None]] = {"λmax(K_v)": [], "λmin(B)/(√n γ)": []}
+    names = []
+    for result in gate:
+        checks = [check for check in result.checks if check.id == "19"]
+        admitted = [float(check.limit.lower) for check in checks if check.limit is not None]
+        if admitted:
+            names.append(result.name)
+            largest = max(float(check.value or 0) for check in checks)
+            for values, value in zip(bars.values(), (largest, admitted[0]), strict=True):
+                values.append(value)
+    if not names:
+        return {}
+    with styled():
+        figure, axis = _bars(names, bars, ".4g", width=4.6, height=2.4)
+        most = max(value or 0.0 for values in bars.values() for value in values)
+        axis.set(ylabel="N·m", ylim=(0, 1.25 * most))
+        axis.legend(loc="upper right", ncols=2, fontsize=8)
+    return _compared("damping", figure, names, bars, "N·m")
+
+
+def draw_epsilon(epsilon: Sequence[EpsilonRow]) -> Files:
+    """The four ε₀ of each gain set that has any, on one logarithmic axis; one that is missing has no mark."""
+    rows = [row for row in epsilon if any(row.eps0(kind) is not None for kind in KINDS)]
+    if not rows:
+        return {}
+    names = [row.name for row in rows]
+    values = {
+        kind: [None if (text := row.eps0(kind)) is None else float(text) for row in rows] for kind in KINDS
+    }
+    with styled():
+        figure, axes = panels(1, 1, height=0.8 + 0.45 * len(names))
+        axis = axes[0, 0]
+        for index, (kind, some) in enumerate(values.items()):
+            known = [(value, place) for place, value in enumerate(some) if value is not None]
+            if known:
+                across, up = zip(*known, strict=True)
+                look = {"color": COLOURS[index], "marker": MARKERS[index]}
+                axis.scatter(across, up, label=kind, s=42, zorder=3, **look)
+        axis.set_xscale("log")
+        axis.set_yticks(range(len(names)), [plot_text(name, TICK) for name in names])
+        axis.invert_yaxis()
+        axis.margins(y=0.3)
+        axis.set(xlabel="ε₀ [1/s]", title="ε₀: what is published, proved and refuted")
+        figure.legend(ncols=4, loc="outside lower center")
+    return _compared("epsilon", figure, names, values, "1/s")
+
+
+def _bars(names: Sequence[str], bars: Values, form: str, **size: float) -> tuple[Any, Any]:
+    """Bars side by side for each gain set, each with its number."""
+    figure, axes = panels(1, 1, **size)
+    axis, width = axes[0, 0], 0.8 / len(bars)
+    for index, (source, values) in enumerate(bars.items()):
+        places = [i + (index - (len(bars) - 1) / 2) * width for i in range(len(names))]
+        look = {"color": COLOURS[index], "hatch": HATCHES[index % len(HATCHES)], "edgecolor": "white"}
+        drawn = axis.bar(places, [value or 0.0 for value in values], width, label=source, **look)
+        texts = ["" if value is None else format(value, form) for value in values]
+        axis.bar_label(drawn, texts, fontsize=8, padding=2)
+    axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
+    axis.grid(axis="x", visible=False)
+    return figure, axis
+
+
+def _compared(stem: str, figure: Any, names: Sequence[str], values: Values, unit: str) -> Files:
+    rows = [[name, *(values[kind][i] for kind in values)] for i, name in enumerate(names)]
+    return files_of(stem, figure, ["gains", *(f"{kind} [{unit}]" for kind in values)], rows)
+
+
+def draw_family(ms: Sequence[int]) -> Files:
+    """h and h' of each member over x ∈ [−4, 4] rad, with γ as a thin line.
+
+    References: Fig. 1 of reyes2019family.
+    """
+    from lyapcheck.family import hyperbolic
+
+    x = np.linspace(-4.0, 4.0, 801)
+    header, columns = ["x [rad]"], [x]
+    with styled():
+        figure, axes = panels(1, 2)
+        for index, m in enumerate(ms):
+            look = _look(index)
+            family, label = hyperbolic(m), f"m = {m}"
+            h, dh = family.h(x), family.dh(x)
+            axes[0, 0].plot(x, h, label=label, **look)
+            axes[0, 1].plot(x, dh, label=label, **look)
+            header, columns = [*header, f"h ({label})", f"h' ({label})"], [*columns, h, dh]
+            if (gamma := family.constants().gamma) is not None:
+                axes[0, 0].axhline(float(gamma.mid), color=look["color"], linewidth=0.6)
+        axes[0, 0].set(xlabel="x [rad]", ylabel="h(x)", title="The family; thin lines: γ")
+        axes[0, 1].set(xlabel="x [rad]", ylabel="h′(x)", title="Its derivative")
+        axes[0, 0].legend()
+    return files_of("family", figure, header, np.column_stack(columns))
+
+
+def draw_set(data: GainData) -> Files:
+    """Errors, torques, V and dV/dt of the simulated run of a gain set."""
+    run, row = data.run, data.row
+    label = row.name if row.m is None else f"{row.name} (m = {row.m})"
+    e, tau = ([f"{joint} [{unit}]" for joint in row.joints] for unit in ("deg", "N·m"))
+    numbers = {
+        "errors": (e, np.degrees(run.e)),
+        "torques": (tau, run.tau),
+        "lyapunov": (["V [J]", "dV/dt [W]"], np.column_stack([run.V, run.dV])),
+    }
+    files: Files = {}
+    for what, figure in drawn(label, run).items():
+        heads, values = numbers[what]
+        stem = f"{file_stem(row.name)}_{what}"
+        files |= files_of(stem, figure, ["t [s]", *heads], np.column_stack([run.t, values]))
+    return files

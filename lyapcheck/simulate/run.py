@@ -191,7 +191,7 @@ class Motion:
 
     def plot(self) -> Any:
         """Draw the errors over time as a Matplotlib figure."""
-        from lyapcheck.report.plots_of_runs import draw_errors
+        from lyapcheck.report.plots import draw_errors
 
         return draw_errors(f"{self.name} on {self.robot}", self.t, self.e, self.joints)
 

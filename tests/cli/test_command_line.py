@@ -290,14 +290,13 @@ def test_streams_that_are_not_files_are_left_alone(run, monkeypatch):
     assert run("--version")[0] == 0
 
 
-@pytest.mark.parametrize("module", one_in(3, ["lyapcheck", "lyapcheck.cli", "lyapcheck.cli.main"]))
 @pytest.mark.parametrize(
     "words", one_in(2, [["table", "--m", "1"], ["gate", TABLE2], ["gate"], ["explain", "--help"]])
 )
-def test_the_modules_run_as_the_script_does(module, words):
+def test_the_module_runs_as_the_script_does(words):
     module_run, script = (
         subprocess.run([*start, *words], capture_output=True, check=False)
-        for start in ([sys.executable, "-m", module], [SCRIPT])
+        for start in ([sys.executable, "-m", "lyapcheck"], [SCRIPT])
     )
     assert module_run.stdout + module_run.stderr != b""
     assert (module_run.returncode, module_run.stdout) == (script.returncode, script.stdout)

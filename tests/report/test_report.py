@@ -28,6 +28,7 @@ from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.errors import InputError, argument_error
+from lyapcheck.files.fields import file_stem
 from lyapcheck.output.document import Table
 from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
@@ -37,7 +38,6 @@ from lyapcheck.report.findings import findings, own_findings
 from lyapcheck.report.jobs import done
 from lyapcheck.report.model import ClaimRow, EpsilonRow, RunRow, anchor, applies, published_notes
 from lyapcheck.report.page import LETTERS, graph, layout, tied
-from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.text import span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Grade, Verdict

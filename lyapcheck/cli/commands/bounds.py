@@ -7,20 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import part
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder, show, write_certificates
-from lyapcheck.cli.values import (
-    Complaints,
-    add_certificates,
-    add_format,
-    add_loop,
-    add_robot,
-    add_vary,
-    gains_on_arm,
-    loop_of,
-    require_joints,
-    varies,
-)
+from lyapcheck.cli.show import certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.task import task_of
+from lyapcheck.cli.values import Complaints, gains_on_arm, loop_of, parse_decimals, require_joints, varies
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
@@ -36,9 +25,9 @@ MOST_TORQUE = 1e6
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("file", metavar="FILE", type=Path, help="A gain file of bounded controllers.")
-    add_robot(parser)
-    add_vary(parser)
-    add_loop(parser, ("unknown_payload", "gravity_error"))
+    parser.add_robot()
+    parser.add_vary()
+    parser.add_loop(("unknown_payload", "gravity_error"))
     about = "Goal in degrees, one angle per joint. Default: 45 each, or 45,45,90 for three joints."
     parser.add_argument("--target", metavar="ANGLES", help=about)
     parser.add_argument("--start", metavar="ANGLES", help="Initial joint angles in degrees. Default: 0.")
@@ -46,8 +35,8 @@ def arguments(parser: Parser) -> None:
     about = "Largest dry friction of each joint, in N·m. Default: from the arm file."
     parser.add_argument("--friction", metavar="TORQUES", help=about)
     parser.add_number("--time", float, "Duration of the simulated runs, in s.", default=10.0)
-    add_certificates(parser)
-    add_format(parser)
+    parser.add_certificates()
+    parser.add_format()
 
 
 def run(
@@ -79,7 +68,6 @@ def run(
     """
     from lyapcheck.answers.bounds import Comparisons, compare
     from lyapcheck.answers.bounds import certificates as certificates_of
-    from lyapcheck.cli.task import task_of
     from lyapcheck.control.sampling import record_of
     from lyapcheck.robots import load
 
@@ -91,7 +79,7 @@ def run(
     angle = wrong.reading(_angle, delta) or 0.0
     dry = None if friction is None else wrong.reading(_torques, friction, model)
     task = wrong.result(task_of, model, target, start, time)
-    folder = None if certificates is None else open_folder("--certificates", certificates)
+    folder = certificate_folder(certificates)
     count, result = len(gain_file.gains), []
     with progress("bounds") as advance:
         for done, one in enumerate(gain_file.gains):
@@ -117,8 +105,6 @@ def _angle(delta: float) -> float:
 
 def _torques(text: str, model: RobotModel) -> tuple[Fraction, ...]:
     """Torques in N·m, one a joint and none below 0."""
-    from lyapcheck.cli.values import parse_decimals
-
     option = "--friction"
     values = parse_decimals(option, text) or ()
     if len(values) != model.n or not all(0 <= value <= MOST_TORQUE for value in values):

@@ -6,7 +6,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.values import add_certificates, add_format, add_members, add_no_store, add_robot
+from lyapcheck.cli.show import certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.values import parse_m
+from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -16,20 +18,20 @@ if TYPE_CHECKING:
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("proof", metavar="PROOF.py", help="Proof script. The paper is published.py.")
-    add_members(parser, "1:3")
-    add_robot(parser, "Arm by name or file. Default: the paper's arm.")
+    parser.add_members("1:3")
+    parser.add_robot("Arm by name or file. Default: the paper's arm.")
     parser.add_number("--n", int, "Number of joints, instead of an arm.")
     parser.add_argument("--gains", metavar="FILE", help="Gain file. Default: Table 2 of the paper.")
     parser.add_argument(
         "--only", metavar="ID", action="append", help="Report this claim only. May be repeated."
     )
-    add_certificates(parser, "Write a certificate of each decided claim to this folder")
+    parser.add_certificates("Write a certificate of each decided claim to this folder")
     parser.add_argument("--timings", action="store_true", help="Add the seconds of each claim.")
     about = "Show each claim that is not proved, with its counterexample or the reason."
     parser.add_argument("--failed", action="store_true", help=about)
     parser.add_argument("--all", action="store_true", help="Show each claim with its statement and evidence.")
-    add_no_store(parser)
-    add_format(parser)
+    parser.add_no_store()
+    parser.add_format()
 
 
 def run(
@@ -62,9 +64,6 @@ def run(
     from lyapcheck.answers.check.proof import ALL, FAILED, SHORT
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.decision import ContradictionError
-    from lyapcheck.cli.progress import progress
-    from lyapcheck.cli.show import open_folder, show, write_certificates
-    from lyapcheck.cli.values import parse_m
     from lyapcheck.errors import argument_error
 
     if n is not None and robot is not None:
@@ -73,7 +72,7 @@ def run(
         )
     if n is not None and n < 1:
         raise argument_error("--n", n, "there is at least one joint", "give 1 or more")
-    folder = None if certificates is None else open_folder("--certificates", certificates)
+    folder = certificate_folder(certificates)
     try:
         with progress("check") as advance:
             result = run_proof(proof, parse_m(m), robot, n, gains, tuple(only or ()), advance)
@@ -82,7 +81,6 @@ def run(
         return Exit.INTERNAL
     if gains is not None:
         from lyapcheck.answers.check.run import left_out
-        from lyapcheck.output.escapes import printable
 
         for sentence in left_out(gains, result.n, result.ms):
             print(printable(f"note: {sentence}"), file=sys.stderr)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_format, add_members, add_robot, parse_m
+from lyapcheck.cli.values import parse_m
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    add_members(parser, "2")
+    parser.add_members("2")
     parser.add_number("--n", int, "Number of joints for V and dV/dt.", default=2)
     about = "Arm by name or file. Its M, C and g are printed, and it sets n."
-    add_robot(parser, about)
-    add_format(parser, Format)
+    parser.add_robot(about)
+    parser.add_format(Format)
 
 
 def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002

@@ -9,20 +9,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress, part
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder, show, write_certificates
-from lyapcheck.cli.values import (
-    add_certificates,
-    add_format,
-    add_gain_file,
-    add_no_store,
-    add_robot,
-    add_vary,
-    gains_on_arm,
-    parse_m,
-    require_joints,
-    varies,
-)
+from lyapcheck.cli.show import certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.values import gains_on_arm, parse_m, require_joints, varies
 from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
@@ -38,8 +26,8 @@ WITH_RANGES = 0.7
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    add_gain_file(parser)
-    add_robot(parser)
+    parser.add_gain_file()
+    parser.add_robot()
     parser.add_argument(
         "--m", metavar="M", help="Only gain sets of these orders, for example 3 or 1,2,5 or 1:12."
     )
@@ -51,7 +39,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--ranges", action="store_true", help=about)
     about = "Give every number without a range this range in ± percent. Implies --ranges."
     parser.add_number("--spread", float, about)
-    add_vary(parser)
+    parser.add_vary()
     about = "Computing time of branch and bound, in s. The answer then depends on the machine."
     parser.add_number("--seconds", float, about, least=0)
     about = "Search longer for weights Λ in y = w − εΛh."
@@ -60,10 +48,10 @@ def arguments(parser: Parser) -> None:
         "--starts", int, "Number of starts of each optimised search.", default=30, least=1, most=10_000
     )
     parser.add_number("--seed", int, "Seed of the sampled states.", default=20190301, least=0)
-    add_certificates(parser)
+    parser.add_certificates()
     parser.add_argument("--timings", action="store_true", help="Add the seconds of each gain set.")
-    add_no_store(parser)
-    add_format(parser)
+    parser.add_no_store()
+    parser.add_format()
 
 
 def run(
@@ -97,7 +85,7 @@ def run(
     model = load(name, spread=share, vary=ranged) if ranged else own
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
-    folder = None if certificates is None else open_folder("--certificates", certificates)
+    folder = certificate_folder(certificates)
     from lyapcheck.answers.epsilon import EpsilonResults, Options
     from lyapcheck.answers.epsilon import certificates as certificates_of
 

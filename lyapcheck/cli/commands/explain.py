@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_format, add_no_store
+from lyapcheck.cli.show import progress, show
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
@@ -20,8 +18,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("id", metavar="ID", nargs="?", help=about)
     about = "Proof script with the claim. Default: the first script of lyapcheck that has it."
     parser.add_argument("--proof", metavar="FILE", help=about)
-    add_no_store(parser)
-    add_format(parser, Format)
+    parser.add_no_store()
+    parser.add_format(Format)
 
 
 def run(

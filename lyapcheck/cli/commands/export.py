@@ -5,29 +5,30 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.values import Complaints, add_format, add_gain_file, add_loop, add_robot, loop_of
+from lyapcheck.cli.show import open_folder, show, write_whole
+from lyapcheck.cli.values import Complaints, gains_on_arm, loop_of, require_joints
 from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.sampling import LoopRecord
-    from lyapcheck.verdicts import Exit
 
 MOST_HELD = 1000
 
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    add_gain_file(parser)
+    parser.add_gain_file()
     about = "Folder for the files. It is created if it does not exist."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
     about = "Readings jump at a full turn, and NAME_step counts turns."
     parser.add_argument("--wrapped", action="store_true", help=about)
     about = "Number of samples without a good reading that repeat the last torque."
     parser.add_number("--hold-samples", int, about, default=3, least=0, most=MOST_HELD)
-    add_loop(parser)
-    add_robot(parser)
-    add_format(parser)
+    parser.add_loop()
+    parser.add_robot()
+    parser.add_format()
 
 
 def run(
@@ -52,10 +53,8 @@ def run(
       lyapcheck export gains.toml --out controller --rate 1000
       lyapcheck export gains.toml --out arm --rate 400 --filter 0.5,0.5 --wrapped
     """
-    from lyapcheck.cli.show import open_folder, show, write_whole
-    from lyapcheck.cli.values import gains_on_arm, require_joints
+    from lyapcheck.answers.export import export
     from lyapcheck.control.sampling import record_of
-    from lyapcheck.verdicts import Exit
 
     wrong = Complaints()
     said = wrong.reading(loop_of, options)
@@ -65,8 +64,6 @@ def run(
     loop = _runnable(record_of(said, gain_file.loop, model.loop))
     if out is None:
         raise argument_error("--out", "", "is missing", "name a folder: --out controller")
-    from lyapcheck.answers.export import export
-
     answer = export(gain_file, model, loop, robot, wrapped=wrapped, hold=hold_samples)
     files = {name: text for one in answer.sets for name, text in one.files.items()}
     folder = open_folder("--out", out)

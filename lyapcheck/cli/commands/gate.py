@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.show import open_folder, show, write_certificates
-from lyapcheck.cli.values import add_certificates, add_format, add_loop, add_robot, add_vary, loop_of, varies
+from lyapcheck.cli.show import PATIENCE, certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.values import loop_of, varies
+from lyapcheck.errors import InputError, Problem
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer
@@ -24,7 +25,7 @@ GAMMAS = ("true", "printed")
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("files", metavar="FILE...", nargs="+", help="Gain files (TOML).")
-    add_robot(parser, "Arm by name or file, instead of the arm in the gain files.")
+    parser.add_robot("Arm by name or file, instead of the arm in the gain files.")
     about = (
         "Condition that must hold. May be repeated. 10i is 10p without its √n. scalar and global prove "
         "dV/dt < 0 for the arm. lasalle proves stability without friction. sampled is stability on a "
@@ -35,10 +36,10 @@ def arguments(parser: Parser) -> None:
     parser.add_choice("--gamma", GAMMAS, "The certified γ, or the γ that the paper prints.", default="true")
     about = "Treat undecided as a failure, exit code 1."
     parser.add_argument("--strict", action="store_true", help=about)
-    add_vary(parser)
-    add_loop(parser)
-    add_certificates(parser, "Write the certificate of each verdict and check to this folder")
-    add_format(parser)
+    parser.add_vary()
+    parser.add_loop()
+    parser.add_certificates("Write the certificate of each verdict and check to this folder")
+    parser.add_format()
 
 
 def run(
@@ -72,18 +73,16 @@ def run(
 
     from lyapcheck._types import part
     from lyapcheck.answers.gate import GateAnswer, gate
-    from lyapcheck.cli.progress import patient
     from lyapcheck.control.gains import arm_named_in, read_gain_file
     from lyapcheck.control.limits import Limits, varied_limits
-    from lyapcheck.errors import InputError, Problem
     from lyapcheck.robots.choice import named
 
-    folder = None if certificates is None else open_folder("--certificates", certificates)
+    folder = certificate_folder(certificates)
     results: list[GateAnswer] = []
     problems: list[Problem] = []
     arms: dict[str, Limits] = {}
     ranges, run = varies(vary), loop_of(loop)
-    with patient("gate") as advance:
+    with progress("gate", PATIENCE) as advance:
         for done, file in enumerate(files):
             try:
                 gain_file = read_gain_file(file, robot, undamped=True)

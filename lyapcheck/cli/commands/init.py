@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.values import add_choice_of_arm
+from lyapcheck.cli.show import open_folder, write_whole
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.verdicts import Exit
 
@@ -64,7 +64,7 @@ def arguments(parser: Parser) -> None:
     about = "Convert the gains in this YAML (ros2_control), JSON or CSV file with a header."
     parser.add_argument("--from", metavar="FILE", type=Path, dest="source", help=about)
     parser.add_argument("--arm", metavar="ROBOT", dest="robot", help="Arm of these gains, by name or file.")
-    add_choice_of_arm(parser)
+    parser.add_choice_of_arm()
 
 
 def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
@@ -80,8 +80,6 @@ def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
       lyapcheck tune arm.urdf --out gains.toml    instead, for a URDF file
       lyapcheck init --from pid.yaml --arm arm.urdf
     """
-    from lyapcheck.cli.show import open_folder, write_whole
-
     if (source is None) != (robot is None):
         missing = "--arm" if robot is None else "--from"
         repair = "write --from pid.yaml --arm arm.urdf"

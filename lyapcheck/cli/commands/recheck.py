@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.check.judgement import MOST, Limits
 from lyapcheck.check.recheck import Outcome
-from lyapcheck.cli.show import current_view
-from lyapcheck.cli.values import add_format
+from lyapcheck.cli.show import current_view, open_folder, progress
 from lyapcheck.errors import installed, lacking
 from lyapcheck.rechecking import command
 from lyapcheck.rechecking.command import FORMATS, HELP
@@ -29,7 +28,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--kernel", action="store_true", help=about)
     about = "The same, and keep the files for Coq in this folder."
     parser.add_argument("--kernel-files", metavar="DIR", type=Path, help=about)
-    add_format(parser)
+    parser.add_format()
 
 
 def run(
@@ -59,8 +58,6 @@ def run(
         raise lacking("flint")
     if kernel or kernel_files is not None:
         from lyapcheck.answers.recheck import writer
-        from lyapcheck.cli.progress import progress
-        from lyapcheck.cli.show import open_folder
 
         folder = None if kernel_files is None else open_folder("--kernel-files", kernel_files)
         with progress("kernel") as advance:

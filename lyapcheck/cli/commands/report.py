@@ -7,17 +7,16 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder
-from lyapcheck.cli.values import add_no_store, add_robot, require_joints, robot_name
+from lyapcheck.cli.show import open_folder, progress
+from lyapcheck.cli.values import parse_m, require_joints, robot_name
 from lyapcheck.errors import argument_error
+from lyapcheck.output.document import Bullets, Document, Table, command
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.output.document import Document
     from lyapcheck.report.model import Report, Subject
 
 COMPARED = {"html": "html", "md": "markdown", "json": "json"}
@@ -35,7 +34,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("members", metavar="M", nargs="*", help="Orders of h_m, as for --m.")
     about = "Orders of h_m, for example 1 2 3 or 1,2,5 or 1:12. Default: 1:3, or the orders in the gain file."
     parser.add_argument("--m", metavar="M", nargs="+", default=[], help=about)
-    add_robot(parser, "Arm by name or file.")
+    parser.add_robot("Arm by name or file.")
     about = "Gain file. Default: Table 2 of the paper and its PD baseline."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)
     about = "Folder for the report."
@@ -46,7 +45,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--appendix", action="store_true", help=about)
     about = "Folder or report.json of an older report. The changes go to compare.html, .md and .json."
     parser.add_argument("--compare", metavar="OLD", type=Path, help=about)
-    add_no_store(parser)
+    parser.add_no_store()
 
 
 def run(
@@ -116,7 +115,6 @@ def _formats(text: str) -> tuple[str, ...]:
 
 def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     """What the arguments ask for, or every problem with it."""
-    from lyapcheck.cli.values import parse_m
     from lyapcheck.control.gains import arm_named_in, paper_gain_file, read_gain_file
     from lyapcheck.report.model import Subject
     from lyapcheck.robots import load
@@ -144,7 +142,6 @@ def _members(files: Iterable[GainFile]) -> list[int]:
 def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) -> Document:
     """What was found, the worst first, and where to read it."""
     from lyapcheck.answers.assumed import assumed_line
-    from lyapcheck.output import document as doc
     from lyapcheck.report.model import SIGNS
     from lyapcheck.report.verdict import badges, sentences
 
@@ -165,13 +162,13 @@ def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) ->
     ]
     written = [str(out / FIRST[name]) for name in formats]
     remarks = sentences(report) if report.own else ()
-    return doc.Document(
+    return Document(
         title,
         (
-            doc.Table(("", "subject", "result"), tuple(rows[:MOST_ROWS]), align="lll", keys=3),
-            doc.Bullets(remarks),
+            Table(("", "subject", "result"), tuple(rows[:MOST_ROWS]), align="lll", keys=3),
+            Bullets(remarks),
         ),
         lead=(f"open: {', '.join(written)}",),
         assumed=assumed_line(report.robot, robot) if report.own else "",
-        next=f"{doc.command('recheck', out)}/certificates/*/" if report.certificates else doc.command("explain"),
+        next=f"{command('recheck', out)}/certificates/*/" if report.certificates else command("explain"),
     )

@@ -7,9 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_certificates, add_choice_of_arm, add_format, add_no_store
+from lyapcheck.cli.show import (
+    certificate_folder,
+    progress,
+    require_writable,
+    show,
+    write_certificates,
+    write_whole,
+)
 from lyapcheck.errors import argument_error
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
@@ -21,16 +26,16 @@ if TYPE_CHECKING:
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="NAME|FILE", help="Arm by name or file (.toml, .urdf).")
-    add_choice_of_arm(parser)
+    parser.add_choice_of_arm()
     about = "Largest number of boxes for each constant. Default: 200000/n² for n joints."
     parser.add_number("--max-boxes", int, about, least=1)
     about = "Write the arm as an arm file to edit, and decide nothing. - is standard output."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
     about = "List the assumed numbers and all other assumptions of the arm, and decide nothing."
     parser.add_argument("--assumptions", action="store_true", help=about)
-    add_certificates(parser, "Write the certificates to this folder")
-    add_no_store(parser)
-    add_format(parser)
+    parser.add_certificates("Write the certificates to this folder")
+    parser.add_no_store()
+    parser.add_format()
 
 
 def run(
@@ -57,11 +62,9 @@ def run(
       lyapcheck robot buap3 --export arm.toml
       lyapcheck robot buap3 --assumptions
     """
-    from lyapcheck.cli.show import open_folder, write_certificates, write_whole
     from lyapcheck.robots import load, names
 
     if export is not None:
-        from lyapcheck.cli.show import require_writable
         from lyapcheck.robots.registry import arm_text
 
         if str(export) == "-":
@@ -80,7 +83,7 @@ def run(
         return Exit.PROVED
     from lyapcheck.answers.robot import build
 
-    folder = None if certificates is None else open_folder("--certificates", certificates)
+    folder = certificate_folder(certificates)
     with progress("robot") as advance:
         report = build(model, max_boxes, advance)
     if folder is not None:

@@ -8,9 +8,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import show
-from lyapcheck.cli.values import add_format, add_no_store
+from lyapcheck.cli.show import progress, show
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 
@@ -33,8 +31,8 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--scheduler", metavar="ADDRESS", help=about)
     about = "Continue the sweep in --out. Kept answers are verified again."
     parser.add_argument("--resume", action="store_true", help=about)
-    add_no_store(parser)
-    add_format(parser, Format)
+    parser.add_no_store()
+    parser.add_format(Format)
 
 
 def run(

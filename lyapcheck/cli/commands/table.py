@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.progress import progress
-from lyapcheck.cli.show import open_folder, show, write_certificates
-from lyapcheck.cli.values import add_certificates, add_format, add_members, add_robot, parse_m
+from lyapcheck.cli.show import PATIENCE, certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
@@ -16,17 +16,16 @@ if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
 
 _MOST_DIGITS = 2_000
-_QUIET_ROWS = 500
 
 
 def arguments(parser: Parser) -> None:
     """What the command takes."""
-    add_members(parser, "1:12")
+    parser.add_members("1:12")
     parser.add_number("--digits", int, "Significant digits.", default=30)
     about = "Add the largest k_p + k_v that the motors of this arm allow, for each joint."
-    add_robot(parser, about)
-    add_certificates(parser, "Write the certificates of γ and ρ to this folder")
-    add_format(parser, Format)
+    parser.add_robot(about)
+    parser.add_certificates("Write the certificates of γ and ρ to this folder")
+    parser.add_format(Format)
 
 
 def run(
@@ -48,20 +47,15 @@ def run(
     members = parse_m(m)
     if not 1 <= digits <= _MOST_DIGITS:
         raise argument_error("--digits", digits, f"must be from 1 to {_MOST_DIGITS}", "write --digits 30")
-    from lyapcheck.answers.table import build_table
+    from lyapcheck.answers.table import build_table, torque_budget
+    from lyapcheck.answers.table import certificates as certificates_of
 
-    proofs = None if certificates is None else open_folder("--certificates", certificates)
-    with progress("table", quiet=len(members) < _QUIET_ROWS) as advance:
+    folder = certificate_folder(certificates)
+    with progress("table", PATIENCE) as advance:
         table = build_table(members, digits, advance)
     if robot is not None:
-        from dataclasses import replace
-
-        from lyapcheck.answers.table import torque_budget
-
         table = replace(table, budget=torque_budget(robot, table))
-    if proofs is not None:
-        from lyapcheck.answers.table import certificates as certificates_of
-
-        write_certificates(proofs, certificates_of(table))
+    if folder is not None:
+        write_certificates(folder, certificates_of(table))
     show(table, format)
     return Exit.PROVED

@@ -8,20 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.cli.show import require_writable, show, write_whole
-from lyapcheck.cli.values import (
-    Complaints,
-    add_choice_of_arm,
-    add_format,
-    add_loop,
-    add_members,
-    add_vary,
-    loop_of,
-    parse_decimal,
-    parse_decimals,
-    parse_m,
-    varies,
-)
+from lyapcheck.cli.show import progress, require_writable, show, write_whole
+from lyapcheck.cli.values import Complaints, loop_of, parse_decimal, parse_decimals, parse_m, varies
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.output.escapes import document_text
 from lyapcheck.output.formats import Format
@@ -54,8 +42,8 @@ FOR_TARGETS = ("start", "goal", "best", "runs", "spread", "seed")
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="ROBOT", help="Arm by name or file (.toml, .urdf).")
-    add_choice_of_arm(parser)
-    add_members(parser, None, " Default: 1:3, and 1 with targets and more than three joints.")
+    parser.add_choice_of_arm()
+    parser.add_members(None, " Default: 1:3, and 1 with targets and more than three joints.")
     parser.add_number("--digits", int, "Number of decimal places of the gains.", default=3)
     parser.add_number(
         "--overshoot", float, "Target for the largest overshoot, in percent of the step of a joint."
@@ -84,15 +72,15 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--kv-share", metavar="SHARES", help=about)
     parser.add_argument("--kv-min", metavar="TORQUES", help="Lower bound of k_v in N·m, instead of a share.")
     parser.add_argument("--damping", metavar="RATIOS", help="Lower bound of each joint's damping ratio.")
-    add_vary(parser)
-    add_loop(parser)
+    parser.add_vary()
+    parser.add_loop()
     parser.add_argument("--torque", metavar="TORQUES", help="Torque limits in N·m, instead of the arm's.")
     parser.add_argument("--gravity", metavar="TORQUES", help="Gravity bounds in N·m, instead of the arm's.")
     parser.add_argument("--viscous-min", metavar="N", help="λmin(B) in N·m·s/rad, instead of the arm's.")
     parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gains to this file.")
     about = "With targets, write the best set, marked, if no set meets the targets."
     parser.add_argument("--best", action="store_true", help=about)
-    add_format(parser, FORMATS)
+    parser.add_format(FORMATS)
 
 
 def run(
@@ -124,7 +112,6 @@ def run(
     """
     from lyapcheck.answers.tune.response.tuning import tune_for
     from lyapcheck.answers.tune.tuning import tune
-    from lyapcheck.cli.progress import progress
 
     wrong = Complaints()
     if out is not None:

@@ -11,13 +11,13 @@ from itertools import groupby
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.files.fields import file_stem
 from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.html import blocks
 from lyapcheck.output.mathml import Markup, element, joined, latex, sentence
 from lyapcheck.report import text
 from lyapcheck.report.document import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, Tile, anchor, behind
-from lyapcheck.report.plots_of_runs import file_stem
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Verdict
 
