@@ -11,8 +11,11 @@ from functools import partial
 from multiprocessing import active_children
 from typing import TYPE_CHECKING
 
+from lyapcheck.process_tree import temporary_folder, work_in
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from concurrent.futures import ProcessPoolExecutor
     from pathlib import Path
 
 _SCHEDULED = 2
@@ -88,13 +91,19 @@ def shared_between(jobs: int) -> Iterator[None]:
 def _all_parts(jobs: int, judge: Callable[..., bool], *about: object) -> bool:
     if jobs <= 1:
         return judge(*about, 0, 1)
+    with temporary_folder() as place, pool(jobs, place) as workers:
+        with main_unnamed():
+            parts = [workers.submit(judge, *about, part, jobs) for part in range(jobs)]
+        return all(part.result() for part in parts)
+
+
+def pool(workers: int, place: str) -> ProcessPoolExecutor:
+    """Processes that leave their temporary files in a folder of ours; see `main_unnamed` for who submits."""
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        with main_unnamed():
-            parts = [pool.submit(judge, *about, part, jobs) for part in range(jobs)]
-        return all(part.result() for part in parts)
+    # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
+    return ProcessPoolExecutor(workers, get_context("spawn"), work_in, (place,))
 
 
 @contextmanager

@@ -1,8 +1,16 @@
-"""A process that is ended with all that it has started, on POSIX systems and on Windows."""
+"""The processes of a command: ended with all that they have started, on POSIX systems and on Windows.
+
+Ctrl-C and SIGTERM end a command at once, whatever it is doing. An exception in the main thread would not do:
+IPOPT takes one for a wish to end its search only, a pool of processes waits for its work, and C code that
+lets go of Python sees none before it returns. So the process is ended where the signal is noticed first: in
+the handler, which CasADi asks for between iterations, or in a thread that waits for signals.
+"""
 
 from __future__ import annotations
 
+import _thread  # threading takes longer to load than the gate to decide
 import os
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -12,8 +20,8 @@ TYPE_CHECKING = False
 
 if TYPE_CHECKING:
     import subprocess
-    from collections.abc import Mapping, Sequence
-    from typing import IO
+    from collections.abc import Iterable, Mapping, Sequence
+    from typing import IO, Any
 
 
 GROUPS = hasattr(os, "killpg")
@@ -22,13 +30,6 @@ LISTED = os.path.isdir("/proc/self")
 """Whether the system lists its processes as files, as Linux does; elsewhere psutil asks it."""
 _LOOK = 0.02
 """Seconds after which a process is looked at again, where the system cannot be asked to wait."""
-
-
-def prepare() -> None:
-    """Import what `end_below` needs: in the handler of a signal an import could wait for ever."""
-    if not LISTED:
-        with suppress(ImportError):  # the light installation: its one process leaves when its input ends
-            import psutil  # noqa: F401
 
 
 def end_below() -> None:
@@ -51,8 +52,6 @@ def end_below() -> None:
 
 
 def _end_listed() -> None:
-    import signal
-
     held: set[int] = set()
     while fresh := _below(os.getpid()) - held:
         for process in fresh:
@@ -86,8 +85,6 @@ def _send(process: int, number: int) -> None:
 def end_own_group() -> None:
     """End this process and what it has started, where its parent has gone."""
     if GROUPS:
-        import signal
-
         os.killpg(os.getpid(), signal.SIGKILL)
     end_below()
     os._exit(1)
@@ -144,8 +141,6 @@ def _wait(process: subprocess.Popen[bytes]) -> None:
 
 def _end_with_all(process: subprocess.Popen[bytes]) -> None:
     if GROUPS:
-        import signal
-
         os.killpg(process.pid, signal.SIGKILL)
         return
     import psutil
@@ -156,6 +151,83 @@ def _end_with_all(process: subprocess.Popen[bytes]) -> None:
             with suppress(psutil.Error):
                 for below in [*one.children(recursive=True), one]:
                     below.kill()
+
+
+# --- A command that is told to stop.
+
+
+STOPS = (signal.SIGINT, signal.SIGTERM)
+MASKS = hasattr(signal, "pthread_sigmask")
+"""Whether a thread can wait for signals. On Windows the handler alone ends the command, between two steps."""
+_SILENCE = "ignore::UserWarning:multiprocessing.resource_tracker"
+"""The process that removes the locks of a pool must not complain that the command did not do it."""
+_ending = _thread.RLock()
+
+
+class Stopping:
+    """While this lasts, SIGINT and SIGTERM end the process with 128 + their number, as a shell reports it.
+
+    A signal that was ignored from the start, as in a job in the background, stays ignored. Processes that are
+    started meanwhile do not see Ctrl-C: they are ended by this one.
+    """
+
+    def __enter__(self) -> None:
+        if not LISTED:  # in the handler of a signal an import could wait for ever
+            with suppress(ImportError):  # the light installation: its one process leaves when its input ends
+                import psutil  # noqa: F401
+        self.handlers: dict[int, Any] = {
+            number: signal.signal(number, _stop)
+            for number in STOPS
+            if signal.getsignal(number) is not signal.SIG_IGN
+        }
+        sys.warnoptions.append(_SILENCE)  # is handed on to processes when they start
+        if not MASKS:
+            return
+        reader, self.writer = os.pipe()
+        os.set_blocking(self.writer, False)
+        self.wakeup = signal.set_wakeup_fd(self.writer, warn_on_full_buffer=False)
+        _thread.start_new_thread(_listen, (reader,))
+        # after the start of the thread, which alone is to take it: a mask is inherited, by processes too
+        self.set_mask = signal.pthread_sigmask
+        self.before = self.set_mask(signal.SIG_BLOCK, [signal.SIGINT])
+        signal.pthread_sigmask = self._set_mask
+
+    def __exit__(self, *raised: object) -> None:
+        sys.warnoptions.remove(_SILENCE)
+        for number, handler in self.handlers.items():
+            signal.signal(number, handler)
+        if not MASKS:
+            return
+        signal.set_wakeup_fd(self.wakeup)
+        os.close(self.writer)
+        signal.pthread_sigmask = self.set_mask
+        signal.pthread_sigmask(signal.SIG_SETMASK, self.before)
+
+    def _set_mask(self, how: int, mask: Iterable[int]) -> set[int | signal.Signals]:
+        """What `signal.pthread_sigmask` does, but SIGINT stays blocked.
+
+        Before its first process multiprocessing unblocks it, whether it was blocked before or not.
+        """
+        kept = set(mask) - {signal.SIGINT} if how == signal.SIG_UNBLOCK else mask
+        return self.set_mask(how, kept)
+
+
+def _listen(reader: int) -> None:
+    """Wait for signals to the end of `Stopping`."""
+    while numbers := os.read(reader, 1):
+        if numbers[0] in STOPS:
+            _stop(numbers[0])
+    os.close(reader)
+
+
+def _stop(number: int, frame: object = None) -> None:
+    """End this process and all below it; nothing that was half written stays."""
+    with _ending:
+        end_below()
+        clear()
+        if "rich.progress" in sys.modules and os.isatty(2):
+            os.write(2, b"\r\x1b[K\x1b[?25h")  # the bar is cleared, the cursor shown again
+        os._exit(128 + number)
 
 
 # --- Files and folders that must not outlive the command that makes them, however it ends.

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
-from lyapcheck.cli.stopping import Stopping
 from lyapcheck.cli.values import chosen
 from lyapcheck.errors import InputError, argument_error, missing, nearest
 from lyapcheck.output.escapes import printable
+from lyapcheck.process_tree import Stopping
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:

@@ -8,17 +8,15 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import replace
-from functools import partial
 from importlib.metadata import version
-from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress, silent
-from lyapcheck.computing import main_unnamed
+from lyapcheck.computing import main_unnamed, pool
 from lyapcheck.errors import argument_error
 from lyapcheck.files.reader import holds
-from lyapcheck.process_tree import pending, temporary_folder, work_in
+from lyapcheck.process_tree import pending, temporary_folder
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.document import render as pdf
 from lyapcheck.report.findings import as_the_gate_judges, findings, own_findings
@@ -50,11 +48,9 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     from lyapcheck.robots import load
 
     model, notes, gate = load(subject.robot), published_notes(), _gate(subject)
-    # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
-    pool_of = partial(ProcessPoolExecutor, WORKERS, get_context("spawn"), work_in)
-    with temporary_folder() as place, pool_of((place,)) as pool:
+    with temporary_folder() as place, pool(WORKERS, place) as workers:
         with main_unnamed():
-            jobs = _submit(subject, notes, pool)
+            jobs = _submit(subject, notes, workers)
         figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
     (proofs, by_size), *parts, derived = (job.result().result for job in jobs)
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
@@ -108,12 +104,12 @@ def _gate(subject: Subject) -> GateAnswer:
     )
 
 
-def _submit(subject: Subject, notes: Notes, pool: ProcessPoolExecutor) -> dict[Job, str]:
+def _submit(subject: Subject, notes: Notes, workers: ProcessPoolExecutor) -> dict[Job, str]:
     """The claims, ε₀ and run of each gain set, and what SymPy derives; each with its name for who waits."""
     labels: dict[Job, str] = {}
 
     def start(label: str, work: Callable[..., Any], *arguments: Any) -> None:
-        labels[pool.submit(done, work, *arguments)] = label
+        labels[workers.submit(done, work, *arguments)] = label
 
     about = (subject.ms, subject.robot, subject.gain_files[0].path)
     start("claims", proofs_job, *about, notes, subject.own)  # the longest first

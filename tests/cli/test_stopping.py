@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck import process_tree
-from lyapcheck.cli.stopping import Stopping
+from lyapcheck.process_tree import Stopping
 from tests.helpers.shares import but, one_in
 
 ROOT = Path(__file__).parents[2]
@@ -133,7 +133,7 @@ def test_processes_of_processes_end_too(tmp_path):
     """And a child that takes no Ctrl-C itself; what was being written is gone."""
     code = (
         "import subprocess, sys, time\n"
-        "from lyapcheck.cli.stopping import Stopping\nfrom lyapcheck.process_tree import pending\n"
+        "from lyapcheck.process_tree import Stopping, pending\n"
         "with Stopping(), pending('half'), pending('folder'):\n"
         "    open('half', 'w').close()\n"
         "    subprocess.Popen(['sh', '-c', 'sleep 300 & sleep 300 & wait'])\n"

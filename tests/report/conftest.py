@@ -55,7 +55,7 @@ def report(subject, tmp_path_factory):
 
     def made():
         with one_process() as patch:
-            patch.setattr(building, "ProcessPoolExecutor", AtOnce)
+            patch.setattr(building, "pool", AtOnce)
             patch.setattr(run, "run_proof", kept)
             return build(subject)
 

@@ -270,9 +270,14 @@ def test_a_long_witness_is_left_to_the_table() -> None:
     assert "x0" not in witness_words(row)
 
 
+def test_two_names_of_gain_sets_never_become_one_file():
+    names = "a b", "a_b", "a/b", "a%20b", "x" * 200, "x" * 201
+    assert len(set(map(file_stem, names))) == len(names)
+
+
 @pytest.mark.parametrize("name", ["../../etc/passwd", "a/b", "tau m1", "τ₃", "x" * 10])
 def test_names_of_gain_sets_never_become_paths(name):
-    assert re.fullmatch(r"[\w-]+", file_stem(name))
+    assert re.fullmatch(r"[\w%-][\w.%-]*", file_stem(name))
 
 
 def test_a_refused_write_leaves_the_old_report_whole(tmp_path):

@@ -41,7 +41,7 @@ def built(folder, gains, robot="pendulum1"):
     path = folder / "mine.toml"
     path.write_text(gains, encoding="utf-8")
     with one_process() as patch:
-        patch.setattr(building, "ProcessPoolExecutor", AtOnce)
+        patch.setattr(building, "pool", AtOnce)
         return build(Subject(robot, (1,), (read_gain_file(path),), own=True))
 
 

@@ -7,15 +7,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from itertools import groupby
-from multiprocessing import get_context
 from typing import Any
 
 from lyapcheck import store
 from lyapcheck.answers.sweep.asks import TOGETHER, asked
 from lyapcheck.answers.sweep.question import Answered, Question, answered
-from lyapcheck.computing import main_unnamed
+from lyapcheck.computing import main_unnamed, pool
 from lyapcheck.errors import InputError, argument_error, missing
-from lyapcheck.process_tree import temporary_folder, work_in
+from lyapcheck.process_tree import temporary_folder
 
 ERROR = "error"
 MANY = 100
@@ -97,7 +96,7 @@ def answers_here(batches: Iterable[Batch], workers: int, jobs: int = 1) -> Itera
         ended = False
         while not ended:
             under_way: deque[tuple[Batch, Future[list[Answered]]]] = deque()
-            with _pool(workers, place) as pool:
+            with pool(workers, place) as some:
                 try:
                     while True:
                         while not ended and len(under_way) < AHEAD * workers:
@@ -105,14 +104,14 @@ def answers_here(batches: Iterable[Batch], workers: int, jobs: int = 1) -> Itera
                             if batch is None:
                                 ended = True
                             else:
-                                under_way.append((batch, _submitted(pool, batch, jobs)))
+                                under_way.append((batch, _submitted(some, batch, jobs)))
                         if not under_way:
                             break
                         result = under_way[0][1].result()
                         under_way.popleft()
                         yield result
                 except BrokenProcessPool:
-                    pool.shutdown(wait=False, cancel_futures=True)
+                    some.shutdown(wait=False, cancel_futures=True)
             for batch, future in under_way:
                 kept = _kept(future)
                 yield [_in_own_process((one,), jobs, place)[0] for one in batch] if kept is None else kept
@@ -126,26 +125,21 @@ def _kept(future: Future[list[Answered]]) -> list[Answered] | None:
 
 def _in_own_process(batch: Batch, jobs: int, place: str) -> list[Answered]:
     """One question in a process of its own."""
-    with _pool(1, place) as pool:
+    with pool(1, place) as one:
         try:
-            return _submitted(pool, batch, jobs).result()
+            return _submitted(one, batch, jobs).result()
         except BrokenProcessPool:
             return [failed(one, KILLED) for one in batch]
 
 
-def _submitted(pool: ProcessPoolExecutor, batch: Batch, jobs: int) -> Future[list[Answered]]:
+def _submitted(some: ProcessPoolExecutor, batch: Batch, jobs: int) -> Future[list[Answered]]:
     with main_unnamed():
         try:
-            return pool.submit(ask, batch, jobs)
+            return some.submit(ask, batch, jobs)
         except BrokenProcessPool as broken:  # since the last look at it
             lost: Future[list[Answered]] = Future()
             lost.set_exception(broken)
             return lost
-
-
-def _pool(workers: int, place: str) -> ProcessPoolExecutor:
-    # spawned, not forked: CasADi and BLAS hold threads that a fork would leave locked
-    return ProcessPoolExecutor(workers, get_context("spawn"), work_in, (place,))
 
 
 def answers_of_cluster(batches: Iterable[Batch], scheduler: str) -> Iterator[list[Answered]]:
