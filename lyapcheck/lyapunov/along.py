@@ -46,11 +46,13 @@ class AtState:
         forms: h, h' and U at a value of it.
         q: n angles, rad.
         e: q_d − q, rad.
-        w: q̇, rad/s.
+        w: q̇, rad/s; q̇ − q̇_d where the goal moves.
         kp: diagonal of K_p, N·m.
         kv: diagonal of K_v, N·m.
         viscous: diagonal of B, N·m·s/rad.
         uncertain: parameters of the arm by name; nominal where missing.
+        speed: q̇_d of a goal that moves, and then (21) is the loop.
+        acceleration_d: q̈_d, likewise.
     """
 
     model: RobotModel
@@ -63,6 +65,8 @@ class AtState:
     kv: Vector
     viscous: Vector
     uncertain: Mapping[str, Any] | None = None
+    speed: Vector = ()
+    acceleration_d: Vector = ()
 
     def value(self, eps0: Any) -> Any:
         """V of (12), J."""
@@ -78,6 +82,15 @@ class AtState:
         """dV/dt along (11), W."""
         a0, a1, a2 = self.coefficients()
         return (a1 + a2 * eps0) * eps0 - a0
+
+    def rate_of_moving_goal(self, eps0: Any) -> Any:
+        """−ε (w − εh)ᵀ C(q, q̇_d) h, which a goal that moves adds to dV/dt along (11), W.
+
+        C(q, q̇) = C(q, w) + C(q, q̇_d), and the terms of (15) have the former.
+        """
+        eps, turned = eps0 * self.near, self._times(self.arm.coriolis(self.speed), self.h)
+        rows = zip(self.w, self.h, turned, strict=True)
+        return -eps * total((w - eps * h) * x for w, h, x in rows)
 
     def fast(self, scales: Vector | None = None) -> list[list[Any]]:
         """F, (n, n), with a₁ = wᵀ F w + …: what decides for fast states; not symmetric.
@@ -96,10 +109,10 @@ class AtState:
         return self._of("slope", self._terms)
 
     def acceleration(self) -> list[Any]:
-        """ẇ = M⁻¹ (K_p h − K_v h(w) − B w − C(q, w) w), rad/s²."""
+        """ẇ = M⁻¹ (K_p h − K_v h(w) − B w − C(q, q̇) w), rad/s²."""
         gains = {"kp": self.kp, "kv": self.kv, "b": self.viscous, "h": self.h, "g": self.hw, "w": self.w}
         names = self.of.names
-        C = [names(row) for row in self.arm.coriolis(self.w)]
+        C = [names(row) for row in self.arm.coriolis(self.velocity)]
         return solve_definite(self.mass, names(self._of("force", gains | {"C": C})), names)
 
     def damping(self) -> Any:
@@ -108,9 +121,24 @@ class AtState:
         return total(b * w * w + k * w * f for b, k, w, f in rows)
 
     def torque(self) -> list[Any]:
-        """τ = K_p h − K_v h(w) + g, N·m."""
+        """τ = K_p h − K_v h(w) + g of (6), with M q̈_d + C(q, q̇) q̇_d + B q̇_d of (21), N·m."""
         rows = zip(self.kp, self.h, self.kv, self.hw, self.arm.gravity(), strict=True)
-        return [kp * f - kv * v + g for kp, f, kv, v, g in rows]
+        still = [kp * f - kv * v + g for kp, f, kv, v, g in rows]
+        if not self.speed:
+            return still
+        pushed = self._times(self.mass, self.acceleration_d)
+        turned = self._times(self.arm.coriolis(self.velocity), self.speed)
+        slowed = [b * x for b, x in zip(self.viscous, self.speed, strict=True)]
+        return [total(parts) for parts in zip(still, pushed, turned, slowed, strict=True)]
+
+    @property
+    def velocity(self) -> list[Any]:
+        """q̇, rad/s."""
+        return [w + x for w, x in zip(self.w, self.speed, strict=True)] if self.speed else list(self.w)
+
+    @staticmethod
+    def _times(matrix: Any, vector: Vector) -> list[Any]:
+        return [total(a * x for a, x in zip(row, vector, strict=True)) for row in matrix]
 
     def _of(self, name: str, letters: Mapping[str, Any], **numbers: Any) -> list[Any]:
         values = {"s": self.near} | numbers

@@ -64,6 +64,7 @@ def at_symbols(
     kv: Any,
     forms: Callable[[Any], Any],
     kink: float = 0.0,
+    **moving: Any,
 ) -> AtState:
     """A state in CasADi symbols.
 
@@ -76,10 +77,12 @@ def at_symbols(
         kv: diagonal of K_v.
         forms: the family at a symbol.
         kink: put under the root of ‖e‖, for optimisers that cross e = 0.
+        moving: ``speed`` and ``acceleration_d`` of a goal that moves.
     """
     own: Arithmetic = replace(graphs(), lift=lambda x: ca.SX(float(x)), sqrt=lambda x: ca.sqrt(x + kink))
     rows, friction = ca.vertsplit, [float(number.value) for number in model.viscous]
-    return AtState(model.fixed(), own, forms, rows(q), rows(e), rows(w), rows(kp), rows(kv), friction)
+    goal = {name: rows(x) for name, x in moving.items()}
+    return AtState(model.fixed(), own, forms, rows(q), rows(e), rows(w), rows(kp), rows(kv), friction, **goal)
 
 
 def _along(at: AtState, q: Any, e: Any, w: Any, eps0: Any) -> Any:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
-from functools import cache, lru_cache, partial
+from dataclasses import dataclass
+from functools import cache, cached_property, lru_cache, partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -29,9 +30,48 @@ OUTPUTS: dict[str, tuple[int, Callable[[AtState, Any], list[Any]]]] = {
 }
 
 
-def forms_in(family: Family, of: Arithmetic) -> FormsAt:
-    """The forms of a family in an arithmetic."""
-    return partial(family.numeric, of)
+@dataclass(frozen=True, eq=False)
+class Formula:
+    """A formula of one arm and family over arrays of lanes: compiled where that is asked, else by NumPy.
+
+    Args:
+        name: the formula's own, of those of an arm and a family.
+        model: the arm.
+        family: the function h.
+        sizes: entries a lane of each array.
+        outputs: how many numbers come out a lane.
+        write: (model, arithmetic, forms of the family, the entries of each array) ↦ the outputs.
+    """
+
+    name: str
+    model: RobotModel
+    family: Family
+    sizes: tuple[int, ...]
+    outputs: int
+    write: Callable[..., Sequence[Any]]
+
+    @cached_property
+    def loop(self) -> Loop | None:
+        """The compiled loop; none where there is no compiler."""
+        question = (self.name, arm_digest(self.model), repr(self.family), _source_of(type(self.family)))
+        return loop(question, self.sizes, self.outputs, lambda writer, x: self._at(writer.arithmetic, *x))
+
+    def __call__(self, *arrays_of: Array, out: Array | None = None, compiled: bool = True) -> Array:
+        """The outputs (outputs, lanes) of arrays (entries, lanes), in ``out`` if given."""
+        if compiled and self.loop is not None:
+            return self.loop(*arrays_of, out=out)
+        lanes = arrays_of[0].shape[1]
+        out = np.empty((self.outputs, lanes)) if out is None else out
+        for start in range(0, lanes, BLOCK):
+            block = slice(start, start + BLOCK)
+            with np.errstate(all="ignore"):
+                values = self._at(arrays(), *(list(np.ascontiguousarray(x[:, block])) for x in arrays_of))
+                for row, value in zip(out, values, strict=True):
+                    row[block] = value
+        return out
+
+    def _at(self, of: Arithmetic, *inputs: Sequence[Any]) -> Sequence[Any]:
+        return self.write(self.model, of, partial(self.family.numeric, of), *inputs)
 
 
 class LyapunovNumeric:
@@ -77,51 +117,32 @@ class LyapunovNumeric:
 
     def at_columns(self, q: Array, e: Array, w: Array) -> AtState:
         """What else is known at states (count, n), as columns of NumPy."""
-        forms, columns = forms_in(self.family, arrays()), [list(np.ascontiguousarray(x.T)) for x in (q, e, w)]
-        gains = self.kp, self.kv, self.viscous
+        columns = [list(np.ascontiguousarray(x.T)) for x in (q, e, w)]
+        forms, gains = partial(self.family.numeric, arrays()), (self.kp, self.kv, self.viscous)
         return AtState(self.model, arrays(), forms, columns[0], columns[1], columns[2], *gains)
 
     def engine(self, count: int = LARGE) -> Literal["compiled", "numpy"]:
         """What serves a batch of ``count`` states; asking about a large one compiles what it needs."""
-        loops = (_compiled(self.model, self.family, name) for name in ("value", "rate"))
-        return "compiled" if count >= LARGE and all(one is not None for one in loops) else "numpy"
+        ready = count >= LARGE and all(self._formula(name).loop is not None for name in ("value", "rate"))
+        return "compiled" if ready else "numpy"
+
+    def _formula(self, name: str) -> Formula:
+        n, (outputs, value) = self.model.n, OUTPUTS[name]
+
+        def write(model: RobotModel, of: Arithmetic, forms: FormsAt, *x: Sequence[Any]) -> list[Any]:
+            q, e, w, p = x
+            return value(AtState(model, of, forms, q, e, w, p[:n], p[n : 2 * n], p[2 * n : 3 * n]), p[3 * n])
+
+        return Formula(name, self.model, self.family, (n, n, n, 3 * n + 1), outputs, write)
 
     def _at(self, name: str, q: Array, e: Array, w: Array, large: int | None = None) -> Array:
         states = [np.asarray(x, dtype=np.float64) for x in np.broadcast_arrays(q, e, w)]
-        shape = states[0].shape[:-1]
         columns = [x.reshape(-1, self.model.n).T for x in states]
-        count = columns[0].shape[1]
-        many = count >= (LARGE if large is None else large)
-        known = _compiled(self.model, self.family, name) if many else None
-        numbers = np.array([*self.kp, *self.kv, *self.viscous, self.eps0])[:, None]
-        if known is not None:
-            values = known(*columns, np.broadcast_to(numbers, (len(numbers), count)))
-        else:
-            values = np.empty((OUTPUTS[name][0], count))
-            for start in range(0, count, BLOCK):
-                block = slice(start, start + BLOCK)
-                with np.errstate(all="ignore"):
-                    at = self.at_columns(*(x[:, block].T for x in columns))
-                    values[:, block] = np.stack(OUTPUTS[name][1](at, self.eps0))
-        return values.reshape(-1, *shape)
-
-
-def _compiled(model: RobotModel, family: Family, name: str) -> Loop | None:
-    """The loop over states; gains, B and ε₀ are its parameters."""
-    n, write = model.n, partial(formula, model, family, name)
-    return loop(question(name, model, family), (n, n, n, 3 * n + 1), OUTPUTS[name][0], write)
-
-
-def formula(model: RobotModel, family: Family, name: str, writer: Any, inputs: Sequence[Any]) -> list[Any]:
-    """What the loop does with (q, e, w, parameters)."""
-    (q, e, w, p), of, n = inputs, writer.arithmetic, model.n
-    at = AtState(model, of, forms_in(family, of), q, e, w, p[:n], p[n : 2 * n], p[2 * n : 3 * n])
-    return OUTPUTS[name][1](at, p[3 * n])
-
-
-def question(name: str, model: RobotModel, family: Family) -> tuple[str, ...]:
-    """What the loops of an arm and a family depend on, a family of a user's own with its source."""
-    return name, arm_digest(model), repr(family), _source_of(type(family))
+        count, numbers = columns[0].shape[1], np.array([*self.kp, *self.kv, *self.viscous, self.eps0])
+        parameters = np.broadcast_to(numbers[:, None], (len(numbers), count))
+        compiled = count >= (LARGE if large is None else large)
+        values = self._formula(name)(*columns, parameters, compiled=compiled)
+        return values.reshape(-1, *states[0].shape[:-1])
 
 
 @cache

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
 from flint import arb
 
 from lyapcheck._types import Array
-from lyapcheck.check.kinds.inertia import dot
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.family.base import arrays
+from lyapcheck.lyapunov.along import AtState
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.run import Breach, Motion, Row, Sample
+from lyapcheck.simulate.run import Breach, Motion, Sample
 from lyapcheck.simulate.task import Setup
 
 RATE_NOISE = 1e-12
@@ -116,23 +118,40 @@ def bound_monitor(name: str, bound: float | None) -> Monitor:
 
 BITS = (128, 256, 512)
 """Precisions that are tried one after the other."""
+BALLS = replace(arrays(), sin=arb.sin, cos=arb.cos, sqrt=arb.sqrt, lift=to_arb)
+"""What torques ask of it; the other functions of NumPy take no balls."""
+
+
+@dataclass(frozen=True)
+class InBalls:
+    """h of a ball."""
+
+    h: arb
+
+
+def at_balls(controlled: ControlledArm, at: Sample) -> AtState:
+    """A sample in balls of the current precision; gains per radian."""
+    unit = 180 / arb.pi() if controlled.per_degree else arb(1)
+    kp, kv = ([to_arb(k) * unit for k in row] for row in (controlled.gains.kp, controlled.gains.kv))
+    q, e, w, speed, acceleration = ([arb(x) for x in row] for row in vars(at).values())
+    viscous, h = [to_arb(x.value) for x in controlled.fixed.viscous], controlled.controller.functions.h
+    goal = {"speed": speed, "acceleration_d": acceleration}
+    return AtState(controlled.fixed, BALLS, lambda x: InBalls(h(x)), q, e, w, kp, kv, viscous, **goal)
 
 
 def rises(controlled: ControlledArm, eps0: float, at: Sample) -> bool:
     """Whether dV/dt > 0 at the sample is proved.
 
-    With a moving goal dV/dt is that of (11) plus −ε (w − εh)ᵀ C(q, q̇_d) h.
-
     Soundness: ``True`` is a proof about the state; ``False`` says nothing.
     """
-    exact = Fraction(eps0)
-    state = State(_exact(at.q), _exact(at.e), _exact(at.w))
-    return _proved(
-        lambda bits: (
-            rate(controlled.arm, controlled.controller, exact, state, bits)
-            + reference_term(controlled, eps0, at)
-        )
-    )
+    exact, state = Fraction(eps0), State(*(tuple(map(Fraction, row)) for row in (at.q, at.e, at.w)))
+
+    def value(bits: int) -> arb:
+        still = rate(controlled.arm, controlled.controller, exact, state, bits)
+        moving = any(at.speed)
+        return still + at_balls(controlled, at).rate_of_moving_goal(to_arb(exact)) if moving else still
+
+    return _proved(value)
 
 
 def exceeds(controlled: ControlledArm, joint: int, limit: Fraction, at: Sample) -> bool:
@@ -140,38 +159,7 @@ def exceeds(controlled: ControlledArm, joint: int, limit: Fraction, at: Sample) 
 
     Soundness: as `rises`.
     """
-    return _proved(lambda bits: abs(torques(controlled, at)[joint]) - to_arb(limit))
-
-
-def torques(controlled: ControlledArm, at: Sample) -> list[arb]:
-    """τ = K_p h(e) − K_v h(w) + M q̈_d + C(q, q̇) q̇_d + g + B q̇_d in balls of the current precision, N·m."""
-    model, functions = controlled.fixed, controlled.controller.functions
-    sines, cosines = _turns(at)
-    w, speed, acceleration = _balls(at.w), _moving(at.speed, at), _moving(at.acceleration, at)
-    rates = [a + b for a, b in zip(w, speed, strict=True)]
-    mass = model.at(sines, cosines, to_arb).mass()
-    coriolis = model.at(sines, cosines, to_arb).coriolis(rates)
-    gravity = model.at(sines, cosines, to_arb).gravity()
-    unit = 180 / arb.pi() if controlled.per_degree else arb(1)
-    result = []
-    for i, (e, x) in enumerate(zip(_balls(at.e), w, strict=True)):
-        spring = to_arb(controlled.gains.kp[i]) * unit * functions.h(e)
-        damper = to_arb(controlled.gains.kv[i]) * unit * functions.h(x)
-        lead = dot(mass[i], acceleration) + dot(coriolis[i], speed)
-        result.append(spring - damper + lead + gravity[i] + to_arb(model.viscous[i].value) * speed[i])
-    return result
-
-
-def reference_term(controlled: ControlledArm, eps0: float, at: Sample) -> arb:
-    """−ε (w − εh)ᵀ C(q, q̇_d) h in a ball, W: what a moving goal adds to dV/dt of (11)."""
-    if not any(at.speed):
-        return arb(0)
-    e, w = _balls(at.e), _balls(at.w)
-    h = [controlled.controller.functions.h(x) for x in e]
-    eps = to_arb(Fraction(eps0)) / (1 + dot(e, e).sqrt())
-    y = [a - eps * b for a, b in zip(w, h, strict=True)]
-    coriolis = controlled.fixed.at(*_turns(at), to_arb).coriolis(_balls(at.speed))
-    return -eps * dot(y, [dot(row, h) for row in coriolis])
+    return _proved(lambda bits: abs(at_balls(controlled, at).torque()[joint]) - to_arb(limit))
 
 
 def _proved(value: Callable[[int], arb]) -> bool:
@@ -184,20 +172,3 @@ def _proved(value: Callable[[int], arb]) -> bool:
         if result < 0:
             return False
     return False
-
-
-def _exact(row: Row) -> tuple[Fraction, ...]:
-    return tuple(map(Fraction, row))
-
-
-def _balls(row: Row) -> list[arb]:
-    return [arb(x) for x in row]
-
-
-def _moving(row: Row, at: Sample) -> list[arb]:
-    return _balls(row or (0.0,) * len(at.q))
-
-
-def _turns(at: Sample) -> tuple[list[arb], list[arb]]:
-    angles = _balls(at.q)
-    return [x.sin() for x in angles], [x.cos() for x in angles]

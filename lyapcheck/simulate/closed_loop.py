@@ -48,8 +48,8 @@ Moved = TypeVar("Moved", bound=Motion)
 class Loop:
     """The state y of a run and its rate, with the goal as a parameter: q_d, or q_d, q̇_d and q̈_d.
 
-    y holds position and rate, n each, then an energy D or W and S with S' = ‖e‖²: these ride along so that
-    the account of energy and the L2 index are as accurate as the motion itself.
+    y holds q and w, n each, then an energy D or W and S with S' = ‖e‖²: these ride along so that the account
+    of energy and the L2 index are as accurate as the motion itself.
     """
 
     n: int
@@ -64,19 +64,6 @@ class Loop:
     energy: Any
     """SX, what the account of energy is of."""
 
-    def compiled_rate(self) -> Compiled:
-        """(y, goal) ↦ ẏ."""
-        return Compiled(ca.Function("rate", [self.state, self.goal], [ca.densify(self.rate)]))
-
-    def compiled_jacobian(self) -> Compiled:
-        """(y, goal) ↦ ∂ẏ/∂y."""
-        jacobian = ca.densify(ca.jacobian(self.rate, self.state))
-        return Compiled(ca.Function("jacobian", [self.state, self.goal], [jacobian]))
-
-    def signals(self) -> Any:
-        """The CasADi function (y, goal) ↦ (τ, energy)."""
-        return ca.Function("signals", [self.state, self.goal], [self.torque, self.energy])
-
 
 class Course(ABC, Generic[Moved]):
     """One controller on one arm, and where it is to go.
@@ -84,7 +71,7 @@ class Course(ABC, Generic[Moved]):
     Args:
         setup: controller, arm and task.
         loop: what moves.
-        y0: (2n,) position and rate at the start, as the loop has them.
+        y0: (2n,) q and w at the start.
         points: samples of the run.
     """
 
@@ -121,14 +108,18 @@ class Course(ABC, Generic[Moved]):
 
     def signals(self, path: Trajectory) -> tuple[Array, Array]:
         """τ (N, n) in N·m and the energy (N,) in J of a path."""
-        tau, energy = self.loop.signals().map(path.t.size)(path.y.T, self.goal(path.t).T)
+        loop = self.loop
+        both = ca.Function("signals", [loop.state, loop.goal], [loop.torque, loop.energy])
+        tau, energy = both.map(path.t.size)(path.y.T, self.goal(path.t).T)
         return np.array(tau).T, np.array(energy)[0]
 
     def once(
         self, tolerance: float, max_steps: int = MAX_STEPS, on_time: Callable[[float], None] | None = None
     ) -> Trajectory:
         """The motion at its samples, or as many of them as were reached."""
-        rate, jacobian = self.loop.compiled_rate(), self.loop.compiled_jacobian()
+        y, goal, right = self.loop.state, self.loop.goal, ca.densify(self.loop.rate)
+        rate = Compiled(ca.Function("rate", [y, goal], [right]))
+        jacobian = Compiled(ca.Function("jacobian", [y, goal], [ca.densify(ca.jacobian(right, y))]))
         weights = np.ones(self.y0.size)
         weights[-2] = self.easier
         return integrate(
@@ -169,21 +160,28 @@ class Course(ABC, Generic[Moved]):
         return run
 
 
-def closed_loop(gains: Gains, model: RobotModel) -> Loop:
-    """The graph of (11) for one controller on one arm, uncertain parameters at their nominal values.
+def closed_loop(gains: Gains, model: RobotModel, moving: bool = False) -> Loop:
+    """The graph of (11), or of (21) for a goal that moves, uncertain parameters at their nominal values.
 
-    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, w) w, with e = q_d − q. D is the energy that damping has taken,
-    D' = wᵀBw + wᵀK_v h(w), and E = ½wᵀMw + Σ k_pi U(e_i), so that E' = −D'.
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w, with e = q_d − q and w = q̇ − q̇_d. For a goal at rest D
+    is the energy that damping has taken, D' = wᵀBw + wᵀK_v h(w), and E = ½wᵀMw + Σ k_pi U(e_i), so that
+    E' = −D'. For one that moves W' = q̇ᵀ(τ − B q̇) is the power that reaches the arm, so that its energy
+    ½ q̇ᵀM q̇ + P(q) must change by W: τ of (21) moves the arm (1) as the error system says.
 
-    References: (6), (11) of ``reyes2019family``.
+    References: (1), (6), (11), (21) of ``reyes2019family``.
     """
     n = model.n
-    state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("q_d", n)
-    q, w = state[:n], state[n : 2 * n]
-    e, gain = goal - q, (ca.DM(gains.kp), ca.DM(gains.kv))
-    at = at_symbols(model, q, e, w, *gain, gains.family.casadi)
-    rate = ca.vertcat(w, *at.acceleration(), at.damping(), ca.dot(e, e))
-    return Loop(n, state, goal, rate, ca.vertcat(*at.torque()), at.value(0.0))
+    state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("goal", 3 * n if moving else n)
+    q, w, e = state[:n], state[n : 2 * n], goal[:n] - state[:n]
+    of = {"speed": goal[n : 2 * n], "acceleration_d": goal[2 * n :]} if moving else {}
+    at = at_symbols(model, q, e, w, ca.DM(gains.kp), ca.DM(gains.kv), gains.family.casadi, **of)
+    torque, velocity = ca.vertcat(*at.torque()), ca.vertcat(*at.velocity)
+    change, energy = at.damping(), at.value(0.0)
+    if moving:
+        change = ca.dot(velocity, torque - ca.DM(at.viscous) * velocity)
+        energy = ca.bilin(graph.matrix(at.mass), velocity, velocity) / 2 + at.arm.potential()
+    rate = ca.vertcat(velocity, *at.acceleration(), change, ca.dot(e, e))
+    return Loop(n, state, goal, rate, torque, energy)
 
 
 TOLERANCE = 1e-11

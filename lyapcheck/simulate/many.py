@@ -87,7 +87,7 @@ def integrated(side: RightSide, problems: InitialValueProblems) -> Paths:
         while march.who.size:
             march.step()
         reached = march.paths.status == 0
-        march.paths.seen[reached, : side.model.n] = march.seen.peaks.largest()[:, reached].T
+        march.paths.seen[reached, : side.n] = march.seen.peaks.largest()[:, reached].T
     return march.paths
 
 
@@ -98,7 +98,7 @@ class _March:
         runs, size = of.y0.shape
         self.side, self.T, self.tolerance, self.max_steps = side, of.T, of.tolerance, of.max_steps
         self.times = of.T * np.arange(of.points) / (of.points - 1)
-        seen = np.full((runs, 3 * side.model.n + 4), np.nan)
+        seen = np.full((runs, 3 * side.n + 4), np.nan)
         path = np.full((runs, of.points, size), np.nan)
         path[:, 0] = of.y0
         self.paths = Paths(path, seen, np.zeros(runs, np.int32), np.zeros(runs, np.int32))
@@ -106,7 +106,7 @@ class _March:
         self.p, self.y = np.ascontiguousarray(of.parameters.T), np.array(of.y0.T, order="C")
         self.t, self.sample, self.stopped_short = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
         self.k = np.empty((16, size, runs))
-        side.rate(self.y, self.p, self.k[0])
+        side.rate(self.y, self.p, out=self.k[0])
         self.h = self._first_step()
         self.seen = Seen(side, self.y, self.p, np.ascontiguousarray(of.bands.T))
 
@@ -115,7 +115,7 @@ class _March:
         for stage in range(1, 12):
             self._stage(stage, TABLE.A[stage, :stage])
         new = self.y + self.h * self._sum(TABLE.B)
-        self.side.rate(new, self.p, self.k[12])
+        self.side.rate(new, self.p, out=self.k[12])
         error = self._error(new)
         good = error < 1.0
         if good.any():
@@ -141,7 +141,7 @@ class _March:
         return total
 
     def _stage(self, number: int, weights: Array) -> None:
-        self.side.rate(self.y + self.h * self._sum(weights), self.p, self.k[number])
+        self.side.rate(self.y + self.h * self._sum(weights), self.p, out=self.k[number])
 
     def _error(self, new: Array) -> Array:
         """The error of the step, at most 1 if it is within the tolerance."""
@@ -185,7 +185,7 @@ class _March:
             return
         self.paths.status[self.who[over]] = np.where(done & ~bad, 0, status)[over]
         reached = done & ~bad
-        self.paths.seen[self.who[reached], self.side.model.n :] = self.seen.columns(reached).T
+        self.paths.seen[self.who[reached], self.side.n :] = self.seen.columns(reached).T
         on = ~over
         self.seen.keep(on)
         for name in ("who", "t", "h", "sample", "stopped_short"):
@@ -355,7 +355,7 @@ def _indices(T: float, goal: Array, paths: Paths, energy: bool) -> dict[str, Any
 
 def _motions(side: RightSide, paths: Paths, parameters: Array) -> dict[str, Array]:
     """q, w and V at all samples; NaN where a run failed."""
-    n, y, columns = side.model.n, paths.y, np.ascontiguousarray(parameters.T)
+    n, y, columns = side.n, paths.y, np.ascontiguousarray(parameters.T)
     V = np.stack([side.watched(y[:, k].T, columns)[n] for k in range(y.shape[1])], axis=1)
     return {"q": y[:, :, :n], "w": y[:, :, n : 2 * n], "V": V}
 

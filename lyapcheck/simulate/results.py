@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from lyapcheck._types import Array
 from lyapcheck.control.limits import kept_bounds
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.simulate.breach import LEAST_ENERGY
 from lyapcheck.simulate.run import Indices, Promises, Run
 from lyapcheck.simulate.task import PAPER_TASK, Gains, Setup
@@ -159,17 +158,13 @@ def energies(
 ) -> tuple[Array, Array]:
     """V of (12) or (13) and dV/dt along the motion at the samples, J and W.
 
-    For a goal that moves at ``speed`` C(q, q̇) = C(q, w) + C(q, q̇_d) in (11), and dV/dt is that of (11) plus
-    −ε (w − εh)ᵀ C(q, q̇_d) h.
+    The goal moves at ``speed``, or is at rest.
     """
     numeric = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, eps0)
     V, rate = numeric.V(q, e, w), numeric.rate(q, e, w)
-    if speed is None:
-        return V, rate
-    h = gains.family.h(e)
-    eps = eps0 / (1.0 + np.linalg.norm(e, axis=1, keepdims=True))
-    turned = np.einsum("tij,tj->ti", NumericModel(model).coriolis(q, speed), h)
-    return V, rate - np.sum(eps * (w - eps * h) * turned, axis=1)
+    if speed is not None:
+        rate += replace(numeric.at_columns(q, e, w), speed=list(speed.T)).rate_of_moving_goal(eps0)
+    return V, rate
 
 
 def motion_of(

@@ -10,7 +10,6 @@ from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import casadi as ca
 import numpy as np
 from flint import fmpq_mpoly
 
@@ -31,7 +30,7 @@ from lyapcheck.robots.registry import arm_of
 from lyapcheck.robots.trig import to_terms
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import Monitor, fall_monitor, joint_monitor, limit_monitor, rate_monitor
-from lyapcheck.simulate.closed_loop import Course, Loop
+from lyapcheck.simulate.closed_loop import Course, closed_loop
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
 from lyapcheck.simulate.reference import BITS, SECONDS, Reference, Suprema, above
 from lyapcheck.simulate.results import BAND, imbalance, l2_of, motion_of
@@ -313,38 +312,6 @@ def _reference_problems(n: int, reference: Reference) -> Iterator[Problem]:
         yield argument_problem("reference", reference.kind, rule, write)
 
 
-# --- The loop that (21) closes as one differentiable graph, with the reference as its input.
-
-
-def tracking_loop(gains: Gains, model: RobotModel) -> Loop:
-    """The graph of the error system of (21) on one arm, uncertain parameters at their nominal values.
-
-    The state is e = q_d − q, w = q̇ − q̇_d = −ė, W and S; W' = q̇ᵀ(τ − B q̇) is the power that reaches the arm,
-    so that its energy ½ q̇ᵀM q̇ + P(q) must change by W: τ of (21) moves the arm (1) as the error system says.
-
-    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w with q = q_d − e, q̇ = q̇_d + w, and
-    τ = K_p h(e) + K_v h(ė) + M(q) q̈_d + C(q, q̇) q̇_d + g(q) + B q̇_d.
-
-    References: (1), (21) of ``reyes2019family``.
-    """
-    from lyapcheck.lyapunov import graph
-
-    n = model.n
-    state, reference = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("r", 3 * n)
-    e, w = state[:n], state[n : 2 * n]
-    goal, speed, desired_acceleration = reference[:n], reference[n : 2 * n], reference[2 * n :]
-    q, velocity = goal - e, speed + w
-    mass, coriolis = graph.mass(model, q), graph.coriolis(model, q, velocity)
-    friction, gravity = graph.viscous(model), graph.gravity(model, q)
-    feedback = ca.DM(gains.kp) * gains.family.casadi(e).h - ca.DM(gains.kv) * gains.family.casadi(w).h
-    acceleration = graph.solve(mass, feedback - friction @ w - coriolis @ w)
-    torque = feedback + mass @ desired_acceleration + coriolis @ speed + gravity + friction @ speed
-    power = ca.dot(velocity, torque - friction @ velocity)
-    rate = ca.vertcat(-w, acceleration, power, ca.dot(e, e))
-    energy = ca.dot(velocity, mass @ velocity) / 2 + graph.potential(model, q)
-    return Loop(n, state, reference, rate, torque, energy)
-
-
 # --- A tracking run: its start, its promises, and the run of its samples.
 
 
@@ -384,7 +351,7 @@ class Tracking(Course[TrackingRun]):
         self.reference, self.band, suprema = reference, band, reference.suprema()
         self.form: TrackingForm | None = tracking_form(controlled, suprema.speed)
         first = reference.at(np.zeros(1))[0]
-        start = (first[0] - np.array(task.q0)).tolist(), (np.array(task.w0) - first[1]).tolist()
+        e0, w0 = (first[0] - np.array(task.q0)).tolist(), (np.array(task.w0) - first[1]).tolist()
         largest = None if self.form is None else self.form.largest()
         if eps0 is None:
             eps0 = 0.0 if largest is None else float(largest * SHARE)
@@ -392,31 +359,33 @@ class Tracking(Course[TrackingRun]):
             suprema,
             largest,
             falls=self.form is not None and self.form.certifies(Fraction(eps0)),
-            torque=torque_bounds(controlled, suprema, task.q0, *start),
+            torque=torque_bounds(controlled, suprema, task.q0, e0, w0),
             reason=UNBOUNDED if self.form is None else NO_EPS0 if largest is None else "",
         )
         setup = Setup(gains, model, task, eps0, controlled)
-        super().__init__(setup, tracking_loop(gains, model), [*start[0], *start[1]], points)
+        super().__init__(setup, closed_loop(gains, model, moving=True), [*task.q0, *w0], points)
 
     def goal(self, t: Array) -> Array:
         return self.reference.at(t).reshape(t.size, -1)
 
     def watched(self, path: Trajectory) -> Array:
         """τ and e."""
-        return np.hstack((self.signals(path)[0], path.y[:, : self.loop.n]))
+        n = self.loop.n
+        return np.hstack((self.signals(path)[0], self.goal(path.t)[:, :n] - path.y[:, :n]))
 
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
         n, t, y, setup = self.loop.n, path.t, path.y, self.setup
         goal, speed, acceleration = np.split(self.goal(t), 3, axis=1)
         tau, energy = self.signals(path)
-        e, w, change = y[:, :n], y[:, n:-2], energy - energy[0]
+        q, w, change = y[:, :n], y[:, n:-2], energy - energy[0]
+        e = goal - q
         return TrackingRun(
             **motion_of(
                 setup,
                 "tracking",
                 t,
                 e,
-                goal - e,
+                q,
                 w,
                 tau,
                 L2=l2_of(float(y[-1, -1]), float(t[-1])),

@@ -17,7 +17,7 @@ from lyapcheck.output.answer import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.simulate.breach import bound_monitor, fall_monitor, first_breach, torques
+from lyapcheck.simulate.breach import at_balls, bound_monitor, fall_monitor, first_breach
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import PromiseBroken, Sample, SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, set_up
@@ -132,7 +132,7 @@ def test_a_torque_exactly_at_its_limit_is_no_breach():
     """Balls decide: the limit is the torque of the start, rounded up."""
     at = Sample((0.0,) * 3, PAPER_TASK.q_d, (0.0,) * 3)
     with precision(64):
-        start = torques(ControlledArm(TABLE2[0], robots.load("buap3")), at)[0]
+        start = at_balls(ControlledArm(TABLE2[0], robots.load("buap3")), at).torque()[0]
     limit = Fraction(float(start)) + Fraction(1, 10**15)
     tight = replace(robots.load("buap3"), torque_limit=(Number(limit), None, None))
     assert simulate(TABLE2[0], tight, PAPER_TASK.q_d).breach is None
@@ -144,7 +144,8 @@ def test_torques_in_balls_are_those_of_the_run():
     for i in (0, 4, 10):
         at = Sample(*(tuple(x[i].tolist()) for x in (run.q, run.e, run.w)))
         with precision(64):
-            np.testing.assert_allclose([float(x) for x in torques(controlled, at)], run.tau[i], rtol=1e-12)
+            tau = [float(x) for x in at_balls(controlled, at).torque()]
+            np.testing.assert_allclose(tau, run.tau[i], rtol=1e-12)
 
 
 def breach_of(V, tau, monitors):

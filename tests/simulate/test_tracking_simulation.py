@@ -256,8 +256,8 @@ def test_impossible_requests_are_refused_by_name(change, keys):
 def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
     """The proof that a promise broke is about the same dV/dt and τ as the samples show."""
     from lyapcheck.check.loop.states import State, rate
-    from lyapcheck.check.numbers.balls import precision
-    from lyapcheck.simulate.breach import exceeds, reference_term, rises, torques
+    from lyapcheck.check.numbers.balls import precision, to_arb
+    from lyapcheck.simulate.breach import at_balls, exceeds, rises
     from lyapcheck.simulate.run import Sample
 
     run, controlled = run_of(eps0=0.3, points=21, stop=False), ControlledArm(TABLE2[0], robots.load("buap3"))
@@ -266,10 +266,10 @@ def test_balls_and_doubles_agree_on_dV_and_the_torque_of_a_moving_goal():
         at = Sample(*(tuple(x[i].tolist()) for x in (m.q, m.e, m.w, m.speed, m.acceleration)))
         state = State(*(tuple(map(Fraction, part)) for part in (at.q, at.e, at.w)))
         with precision(128):
-            result = rate(controlled.arm, controlled.controller, Fraction(0.3), state) + reference_term(
-                controlled, 0.3, at
-            )
-            np.testing.assert_allclose([float(x) for x in torques(controlled, at)], m.tau[i], rtol=1e-10)
+            balls, eps0 = at_balls(controlled, at), Fraction(0.3)
+            result = rate(controlled.arm, controlled.controller, eps0, state)
+            result += balls.rate_of_moving_goal(to_arb(eps0))
+            np.testing.assert_allclose([float(x) for x in balls.torque()], m.tau[i], rtol=1e-10)
         assert float(result) == pytest.approx(run.dV[i], rel=1e-9)
         assert rises(controlled, 0.3, at) == (run.dV[i] > 0)
         size = Fraction(abs(m.tau[i, 1]))
