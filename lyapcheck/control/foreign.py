@@ -19,7 +19,7 @@ from lyapcheck.errors import InputError, Problem, file_error, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.reader import TOML, read_text
 from lyapcheck.files.toml import other_format
-from lyapcheck.robots.urdf.parts import decimal
+from lyapcheck.robots.fields import decimal
 
 WORDS = {
     "p": ("p", "kp", "k_p", "p_gain", "p_gains", "kps", "k_gains", "stiffness", "proportional"),

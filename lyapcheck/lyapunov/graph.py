@@ -81,7 +81,7 @@ def at_symbols(
     """
     own: Arithmetic = replace(graphs(), lift=lambda x: ca.SX(float(x)), sqrt=lambda x: ca.sqrt(x + kink))
     rows, friction = ca.vertsplit, [float(number.value) for number in model.viscous]
-    goal = {name: rows(x) for name, x in moving.items()}
+    goal: dict[str, Any] = {name: rows(x) for name, x in moving.items()}
     return AtState(model.fixed(), own, forms, rows(q), rows(e), rows(w), rows(kp), rows(kv), friction, **goal)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice, product
@@ -15,14 +15,13 @@ from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.fields import Notes
 from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare
 from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, Sign, read_joints
-from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots.plant import RobotModel, of_a_body
 
 _ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-_PLACE = {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1), "ixz": (0, 2), "iyz": (1, 2)}
-_ZERO = Number(Fraction(0))
+_TENSOR = (("ixx", "ixy", "ixz"), ("ixy", "iyy", "iyz"), ("ixz", "iyz", "izz"))
+MOST_JOINTS = 12
 
 
 @dataclass(frozen=True)
@@ -49,40 +48,20 @@ def components(name: str, vector: Sequence[Number]) -> dict[str, Number]:
     return {key: x for key, x in named.items() if x.value or x.ranged or x.assumed}
 
 
-def read_bodies(tables: list[ArmFields]) -> list[BodyEntry | None]:
-    """The links, base first; ``None`` for a link with a problem."""
-    bodies = [_read_body(table) for table in tables]
-    axes = [[x.value for x in body.axis] for body in bodies if body is not None]
-    if all(_parallel(axis, axes[0]) for axis in axes):
-        return bodies
-    for table, body in zip(tables, bodies, strict=True):
-        if body is not None and "inertia" in body.inertia:
-            rule = "one number describes turning in a plane only, and the axes of this arm are not parallel"
-            table.fail("inertia", rule, "give a table of ixx, iyy, izz and, where not zero, ixy, ixz, iyz")
-    return bodies
-
-
 def _read_body(fields: ArmFields) -> BodyEntry | None:
-    axis = _read_axis(fields)
+    axis = fields.vector("axis", "")
+    square = sum((x.value**2 for x in axis or ()), Fraction(0))
+    length = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    if axis is not None and (any(x.ranged for x in axis) or length**2 != square or not length):
+        rule = "must be a vector whose length is a rational number other than 0"
+        fields.fail("axis", rule, "write [0, 0, 1], or [3, 4, 0]; a URDF file may have any")
+        axis = None
     origin, com = fields.vector("origin", "m"), fields.vector("com", "m")
     mass = fields.quantity("mass", "kg", Sign.POSITIVE, required=True)
     inertia = _read_inertia(fields)
     if axis is None or origin is None or com is None or mass is None or inertia is None:
         return None
-    return BodyEntry(axis, origin, mass, com, inertia)
-
-
-def _read_axis(fields: ArmFields) -> tuple[Number, ...] | None:
-    axis = fields.vector("axis", "")
-    if axis is None:
-        return None
-    square = sum((x.value**2 for x in axis), Fraction(0))
-    length = Fraction(isqrt(square.numerator), isqrt(square.denominator))
-    if any(x.ranged for x in axis) or length**2 != square or not length:
-        rule = "must be a vector whose length is a rational number other than 0"
-        fields.fail("axis", rule, "write [0, 0, 1], or [3, 4, 0]; a URDF file may have any")
-        return None
-    return tuple(replace(x, value=x.value / length) for x in axis)
+    return BodyEntry(tuple(replace(x, value=x.value / length) for x in axis), origin, mass, com, inertia)
 
 
 def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
@@ -105,56 +84,22 @@ def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
     table.close()
     if any(read[key] is None and key in (*_ENTRIES[:3], *table.data) for key in _ENTRIES):
         return None
-    tensor = {key: number or _ZERO for key, number in read.items()}
-    broken = _broken_rule(tensor)
-    if broken:
-        fields.fail(
-            "inertia", broken, "check the signs and the point about which it is given (the centre of mass)"
-        )
-        return None
+    tensor = {key: number or Number(Fraction(0)) for key, number in read.items()}
+    # both conditions are convex and the entries independent, so the corners of the ranges decide
+    for corner in product(*(sorted(set(tensor[key].bounds)) for key in _ENTRIES)):
+        entries = dict(zip(_ENTRIES, corner, strict=True))
+        matrix = [[entries[key] for key in row] for row in _TENSOR]
+        broken = "" if is_positive_semidefinite(matrix) else "must be positive semidefinite"
+        if not broken and not of_a_body(matrix):
+            broken = "must obey the triangle inequality (no principal moment above the sum of the others)"
+        if broken:
+            repair = "check the signs and the point about which it is given (the centre of mass)"
+            fields.fail("inertia", broken, repair)
+            return None
     return tensor
 
 
-def bodily(tensor: Sequence[Sequence[Fraction]]) -> bool:
-    """Whether some body has this inertia: the second moments ½tr(I) − I are positive semidefinite.
-
-    They are so exactly when no principal moment is above the sum of the others.
-    """
-    half = (tensor[0][0] + tensor[1][1] + tensor[2][2]) / 2
-    return is_positive_semidefinite([[half * (i == k) - tensor[i][k] for k in range(3)] for i in range(3)])
-
-
-def _broken_rule(tensor: dict[str, Number]) -> str:
-    """Why no body has this inertia for some values in range; empty when there is one.
-
-    Both conditions are convex and the entries independent, so the corners of the ranges decide.
-    """
-    for matrix in _corners(tensor):
-        if not is_positive_semidefinite(matrix):
-            return "must be positive semidefinite"
-        if not bodily(matrix):
-            return "must obey the triangle inequality (no principal moment above the sum of the others)"
-    return ""
-
-
-def _corners(tensor: dict[str, Number]) -> Iterator[list[list[Fraction]]]:
-    for corner in product(*(sorted(set(tensor[key].bounds)) for key in _ENTRIES)):
-        matrix = [[Fraction(0)] * 3 for _ in range(3)]
-        for key, value in zip(_ENTRIES, corner, strict=True):
-            i, k = _PLACE[key]
-            matrix[i][k] = matrix[k][i] = value
-        yield matrix
-
-
-def _parallel(a: list[Fraction], b: list[Fraction]) -> bool:
-    return all(a[i] * b[k] == a[k] * b[i] for i in range(3) for k in range(3))
-
-
 # --- The arm that links make.
-
-
-MOST_JOINTS = 12
-_TENSOR = (("ixx", "ixy", "ixz"), ("ixy", "iyy", "iyz"), ("ixz", "iyz", "izz"))
 
 
 @dataclass(frozen=True)
@@ -184,21 +129,18 @@ class ChainPlan:
                 return ParameterShare(name)
             return numbers[name].value if name in numbers else Fraction(0)
 
-        bodies = zip(self.joints, self.bodies, strict=True)
-        links = tuple(_link(joint.name, body, entry) for joint, body in bodies)
-        return Chain(links, tuple(entry(f"gravity_{letter}") for letter in "xyz"), parameters)
-
-
-def _link(name: str, body: BodyEntry, entry: Callable[[str], Any]) -> RigidLink:
-    axis = tuple(x.value for x in body.axis)
-    if "inertia" in body.inertia:
-        own = entry(f"{name}_inertia")
-        inertia = tuple(tuple(_times(own, a * b) for b in axis) for a in axis)
-    else:
-        inertia = tuple(tuple(entry(f"{name}_{key}") for key in row) for row in _TENSOR)
-    origin, com = (tuple(entry(f"{name}_{key}_{letter}") for letter in "xyz") for key in ("origin", "com"))
-    rotor = entry(f"{name}{ROTOR}")
-    return RigidLink(axis, origin, entry(f"{name}_mass"), com, inertia, UNIT, rotor)
+        links = []
+        for joint, body in zip(self.joints, self.bodies, strict=True):
+            name, axis = joint.name, tuple(x.value for x in body.axis)
+            if "inertia" in body.inertia:
+                own = entry(f"{name}_inertia")
+                inertia = tuple(tuple(_times(own, a * b) for b in axis) for a in axis)
+            else:
+                inertia = tuple(tuple(entry(f"{name}_{key}") for key in row) for row in _TENSOR)
+            origin, com = (tuple(entry(f"{name}_{key}_{x}") for x in "xyz") for key in ("origin", "com"))
+            mass, rotor = entry(f"{name}_mass"), entry(f"{name}{ROTOR}")
+            links.append(RigidLink(axis, origin, mass, com, inertia, UNIT, rotor))
+        return Chain(tuple(links), tuple(entry(f"gravity_{letter}") for letter in "xyz"), parameters)
 
 
 def _times(number: Any, factor: Fraction) -> Any:
@@ -212,10 +154,16 @@ def read_chain(
     top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, ...] | None
 ) -> ChainPlan | None:
     """The arm of ``[[links]]``, ``None`` where it cannot be built; problems are noted."""
-    joints, bodies = read_joints(top, "links", tables, MOST_JOINTS), read_bodies(tables)
-    for table in tables:
-        table.close()
+    joints, bodies = read_joints(top, "links", tables, MOST_JOINTS), list(map(_read_body, tables))
     sound = [body for body in bodies if body is not None]
+    axes = [[x.value for x in body.axis] for body in sound]
+    pairs = list(product(range(3), repeat=2))
+    planar = all(axis[i] * axes[0][k] == axis[k] * axes[0][i] for axis in axes for i, k in pairs)
+    for table, body in zip(tables, bodies, strict=True):
+        table.close()
+        if body is not None and "inertia" in body.inertia and not planar:
+            rule = "one number describes turning in a plane only, and the axes of this arm are not parallel"
+            table.fail("inertia", rule, "give a table of ixx, iyy, izz and, where not zero, ixy, ixz, iyz")
     return ChainPlan(joints, sound, gravity) if gravity and len(sound) == len(tables) else None
 
 
@@ -224,14 +172,6 @@ def read_chain(
 
 _STATES = 8
 _MOST_CORNERS = 64
-
-
-def check_positive_definite(model: RobotModel, place: str, notes: Notes) -> None:
-    """Note a problem when M is not positive definite at a state, at a corner of the parameter ranges."""
-    broken = impossible_state(model)
-    if broken:
-        repair = "every joint must move some inertia: check masses, inertias, signs and ranges"
-        notes.fail((place,), None, broken, repair)
 
 
 def impossible_state(model: RobotModel) -> str:
@@ -243,29 +183,17 @@ def impossible_state(model: RobotModel) -> str:
     chain = model.chain
     if chain is not None and all(link.fits and link.about_axis > 0 for link in chain.links):
         return ""
-    for corner, state in product(_corners_physics(model), range(_STATES)):
-        tangents = [_tangent(state, joint) for joint in range(model.n)]
+    bounds = [number.bounds for number in model.parameters.values()]
+    for ends, state in product(islice(product(*bounds), _MOST_CORNERS), range(_STATES)):
+        # tan(q/2) of each joint: 0 everywhere in the first state, then spread over the circle
+        sign = -1 if state % 2 else 1
+        tangents = [fmpq((state * (2 * joint + 3)) % 23, 5) * sign for joint in range(model.n)]
         sin = [2 * t / (1 + t * t) for t in tangents]
         cos = [(1 - t * t) / (1 + t * t) for t in tangents]
-        parameters = {name: rational(value) for name, value in corner.items()}
-        if not _positive_definite(model.at(sin, cos, rational, parameters).mass()):
+        corner = dict(zip(model.parameters, ends, strict=True))
+        rows = model.at(sin, cos, rational, {name: rational(x) for name, x in corner.items()}).mass()
+        if any(fmpq_mat([row[:k] for row in rows[:k]]).det() <= 0 for k in range(1, model.n + 1)):
             where = [f"cos q{i + 1} = {value}" for i, value in enumerate(cos)]
             where += [f"{name} = {decimal_text(value)}" for name, value in corner.items()]
             return f"makes M not positive definite, e.g. at {', '.join(where)}"
     return ""
-
-
-def _corners_physics(model: RobotModel) -> Iterator[dict[str, Fraction]]:
-    """Corners of the box of parameters, the first few when there are very many."""
-    bounds = [number.bounds for number in model.parameters.values()]
-    for values in islice(product(*bounds), _MOST_CORNERS):
-        yield dict(zip(model.parameters, values, strict=True))
-
-
-def _tangent(state: int, joint: int) -> fmpq:
-    """tan(q/2) of a joint: 0 everywhere in the first state, then spread over the circle."""
-    return fmpq((state * (2 * joint + 3)) % 23, 5) * (-1 if state % 2 else 1)
-
-
-def _positive_definite(rows: list[list[fmpq]]) -> bool:
-    return all(fmpq_mat([row[:k] for row in rows[:k]]).det() > 0 for k in range(1, len(rows) + 1))

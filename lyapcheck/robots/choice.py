@@ -14,6 +14,7 @@ from urllib.parse import quote, unquote
 
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.robots.fields import decimal
 
 FILES = (".toml", ".urdf", ".xacro", ".xml", ".mjcf", ".sdf")
 """How names of files of arms and robots end."""
@@ -103,8 +104,6 @@ def held_at(text: str, subject: str) -> Fraction:
     Raises:
         InputError: it is no decimal.
     """
-    from lyapcheck.robots.urdf.parts import decimal
-
     value = decimal(text.strip())
     if value is None:
         raise argument_error("fixed", subject, f"{text} is no decimal number", "write --fixed lift=0.2")

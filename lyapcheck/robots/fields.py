@@ -83,6 +83,15 @@ LARGEST = 10**12
 """No number of an arm in SI units is larger; beyond it sits a slip, and no double holds its square."""
 
 
+_DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]([+-]?[0-9]{1,3}))?")
+
+
+def decimal(text: str) -> Fraction | None:
+    """The exact value of a decimal in a file of a robot (``1``, ``.5``, ``5.``, ``1e-3``), or ``None``."""
+    result = _DECIMAL.fullmatch(text) if len(text) <= 60 else None
+    return None if result is None else Fraction(text)
+
+
 class Sign(Enum):
     """Which values a number may have over its whole range."""
 

@@ -253,7 +253,9 @@ def _units(model: RobotModel) -> Iterator[str]:
         )
         if spread > LONGEST:
             yield f"The inertia behind {name} is that of a body of {spread:.6g} m: is it in kg·mm² or g·m²?"
-        if not _of_a_body(link.inertia):
+        # an inertia about one axis alone is a planar one, where nothing more is said of the body
+        flat = sum(bool(link.inertia[i][i]) for i in range(3)) < 2
+        if not flat and not of_a_body(link.inertia):
             yield f"No body has the inertia behind {name}: one principal moment exceeds the sum of the others"
     size = sqrt(sum(float(x) ** 2 for x in chain.fall))
     if chain.fall[2] > 0 and chain.fall[2] >= max(map(abs, chain.fall[:2])):
@@ -262,12 +264,10 @@ def _units(model: RobotModel) -> Iterator[str]:
         yield f"Free fall of {size:.6g} m/s² is that of no place where arms stand"
 
 
-def _of_a_body(inertia: Sequence[Sequence[Fraction]]) -> bool:
-    """Whether ∫ x xᵀ dm = tr(I)/2 − I is positive semidefinite, as for every distribution of mass.
+def of_a_body(inertia: Sequence[Sequence[Fraction]]) -> bool:
+    """Whether some body has this inertia: ∫ x xᵀ dm = tr(I)/2 − I is positive semidefinite.
 
-    An inertia about one axis alone is a planar one, where nothing more is said of the body.
+    It is so exactly when no principal moment is above the sum of the others.
     """
-    if sum(bool(inertia[i][i]) for i in range(3)) < 2:
-        return True
     half = sum((inertia[i][i] for i in range(3)), Fraction(0)) / 2
     return is_positive_semidefinite([[half * (i == j) - inertia[i][j] for j in range(3)] for i in range(3)])

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from flint import arb
@@ -135,7 +136,7 @@ def at_balls(controlled: ControlledArm, at: Sample) -> AtState:
     kp, kv = ([to_arb(k) * unit for k in row] for row in (controlled.gains.kp, controlled.gains.kv))
     q, e, w, speed, acceleration = ([arb(x) for x in row] for row in vars(at).values())
     viscous, h = [to_arb(x.value) for x in controlled.fixed.viscous], controlled.controller.functions.h
-    goal = {"speed": speed, "acceleration_d": acceleration}
+    goal: dict[str, Any] = {"speed": speed, "acceleration_d": acceleration}
     return AtState(controlled.fixed, BALLS, lambda x: InBalls(h(x)), q, e, w, kp, kv, viscous, **goal)
 
 

@@ -1,13 +1,11 @@
 """Arm files: what is read, and how every way of getting one wrong is told."""
 
-import textwrap
 from fractions import Fraction
 
 import pytest
 
 from lyapcheck import robots
 from lyapcheck.errors import InputError
-from lyapcheck.robots import armfile
 
 CHAIN = """\
 title = "two joints"
@@ -119,14 +117,6 @@ def test_an_assumption_is_told_in_a_sentence(tmp_path):
     assert arm.assumptions == (
         "arm_viscous = 0.25 N·m·s/rad is assumed, between 0.2 and 0.3 N·m·s/rad: a guess",
     )
-
-
-def test_the_documented_examples_are_arm_files(tmp_path):
-    blocks = [block.split("\n\nA ")[0] for block in (armfile.__doc__ or "").split("::\n\n")[1:]]
-    number, chain, printed, _ = (textwrap.dedent(block.split("\n\nAn assumed")[0]) for block in blocks)
-    assert load(tmp_path, chain).n == 1
-    assert load(tmp_path, printed).n == 2
-    assert load(tmp_path, chain.replace("mass = 23.902", number.strip())).parameters
 
 
 # Each row: the text, what to replace in it, by what, and what the message must say (with its line).

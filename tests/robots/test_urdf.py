@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.errors import InputError
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.urdf.rotations import Roundings, from_rpy, tidy, unit
-from lyapcheck.robots.urdf.tree import OF
+from lyapcheck.robots.urdf.rotations import OF, Roundings, from_rpy, tidy, unit
 from tests.helpers.newton_euler import Arm, rpy
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import ARMS, TWO, generic

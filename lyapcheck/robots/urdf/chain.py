@@ -8,12 +8,10 @@ from fractions import Fraction
 
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.choice import Choice
-from lyapcheck.robots.urdf.parts import MOVING, UrdfJoint, UrdfNotes
-from lyapcheck.robots.urdf.tree import Tree
-from lyapcheck.robots.urdf.xml import Element
+from lyapcheck.robots.urdf.tree import MOVING, SHOWN, Tree, UrdfJoint
+from lyapcheck.robots.urdf.xml import Element, UrdfNotes
 
 MOST_JOINTS = 12
-_SHOWN = 8
 _RATIO = Fraction(3, 2)
 """How much longer than any other a branch is that goes on: a camera beside an arm, and not a finger."""
 Run = tuple[UrdfJoint, ...]
@@ -25,14 +23,25 @@ def choose_chain(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -
     With a tip the revolute joints between base and tip; joints above all of them are held. Without one the
     longest run of revolute joints up to where the chains part, of several the one nearest to the base.
     """
-    before = len(notes.problems)
-    _check_names(tree, choice, robot, notes)
+    before, given = len(notes.problems), {"base": choice.base, "tip": choice.tip}
+    named: list[tuple[str, str, str, Iterable[str]]]
+    named = [(key, link, "link", tree.links) for key, link in given.items() if link]
+    named += [("fixed", name, "joint", tree.joints) for name in choice.fixed]
+    for key, name, what, known in named:
+        if name not in known:
+            near = ", ".join(get_close_matches(name, [*known], 3, 0.4) or [*known][:SHOWN])
+            notes.fail(robot, key, name, f"is no {what} of this file", f"name one, for instance {near}")
+    for name, value in choice.fixed.items():
+        joint = tree.joints.get(name)
+        if joint is not None and joint.kind not in (*MOVING, "prismatic") and value:
+            rule = f"is {joint.kind}, which no single number places"
+            notes.fail(joint.element, f"fixed: {name}", decimal_text(value), rule, "hold it at 0")
     if len(notes.problems) > before:
         return ()
     chain = _to_tip(tree, choice, robot, notes) if choice.tip else _longest(tree, choice, robot, notes)
     if len(notes.problems) == before and not chain:
         tried = [Choice(fixed=choice.fixed), Choice()]
-        others = [_choosing(tree, run, one) for one in tried for run in _best(_runs(tree, one))]
+        others = [_choosing(tree, run, one) for one in tried for run in _best(tree, one)]
         repair = f"choose {others[0]}" if others else "give a file of an arm"
         notes.fail(robot, "robot", "", "has no revolute joint on this chain", repair)
     if len(chain) > MOST_JOINTS:
@@ -53,45 +62,11 @@ def options(base: str, tip: str, fixed: Mapping[str, Fraction]) -> str:
     return f"{' '.join(given)} (in an arm file that names this URDF: {' and '.join(keys)})"
 
 
-def held(tree: Tree, chain: Run, fixed: Mapping[str, Fraction]) -> list[str]:
-    """What a reader has to know about joints that could move and are not of the arm."""
-    still = [joint for joint in tree.joints.values() if joint.moves and joint not in chain]
-    if not still:
-        return []
-    names = [
-        f"{joint.name} ({joint.kind})"
-        + (f" at {decimal_text(fixed[joint.name])}" if fixed.get(joint.name) else "")
-        for joint in still
-    ]
-    what = "Joints that are not of the arm are held, at zero where nothing else is said"
-    return [f"{what}: {', '.join(names)}; --base, --tip and --fixed choose other arms"]
-
-
-def _check_names(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -> None:
-    for key, link in (("base", choice.base), ("tip", choice.tip)):
-        if link and link not in tree.links:
-            near = ", ".join(_near(link, tree.links))
-            notes.fail(robot, key, link, "is no link of this file", f"name one, for instance {near}")
-    for name, value in choice.fixed.items():
-        joint = tree.joints.get(name)
-        if joint is None:
-            near = ", ".join(_near(name, tree.joints))
-            notes.fail(robot, "fixed", name, "is no joint of this file", f"name one, for instance {near}")
-        elif joint.kind not in (*MOVING, "prismatic") and value:
-            rule = f"is {joint.kind}, which no single number places"
-            notes.fail(joint.element, f"fixed: {name}", decimal_text(value), rule, "hold it at 0")
-
-
-def _near(word: str, names: Iterable[str]) -> list[str]:
-    known = list(names)
-    return get_close_matches(word, known, 3, 0.4) or known[:_SHOWN]
-
-
 def _to_tip(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -> Run:
     path, base = tree.path(choice.tip), choice.base or tree.root
     links = [tree.root, *(joint.child for joint in path)]
     if base not in links:
-        above = f"use one of {', '.join(links[:-1][:_SHOWN])}"
+        above = f"use one of {', '.join(links[:-1][:SHOWN])}"
         notes.fail(robot, "base", base, f"is not between {tree.root} and {choice.tip}", above)
         return ()
     moving = [joint for joint in path[links.index(base) :] if _moves(joint, choice)]
@@ -99,7 +74,22 @@ def _to_tip(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -> Run
     chain = tuple(moving[first:])
     strange = [joint for joint in chain if not joint.turns]
     if strange:
-        _refuse(strange, chain, choice, notes)
+        worst, last = strange[0], strange[-1]
+        rule = f"is {worst.kind}, and the paper assumes revolute joints: its bounds on M, C and g do not hold"
+        if worst.kind == "prismatic":
+            rule = (
+                "is prismatic, and the paper assumes revolute joints: its bounds on M, C and g fail along it"
+            )
+        elif worst.kind in MOVING:
+            rule = "mimics another joint, and the paper assumes one motor for each joint"
+        if len(strange) > 1:
+            rule += f" (so do {', '.join(joint.name for joint in strange[1:])})"
+        still = {**choice.fixed, **{joint.name: Fraction(0) for joint in strange}}
+        repair = f"hold it: {options(choice.base, choice.tip, still)}"
+        if last is not chain[-1]:
+            repair += f", or begin behind it: {options(last.child, choice.tip, choice.fixed)}"
+        repair += f", or end the arm before it: {options(choice.base, worst.parent, choice.fixed)}"
+        notes.fail(worst.element, f"joint {worst.name}", "", rule, repair)
     return chain
 
 
@@ -107,53 +97,29 @@ def _moves(joint: UrdfJoint, choice: Choice) -> bool:
     return joint.moves and joint.name not in choice.fixed
 
 
-def _refuse(strange: Sequence[UrdfJoint], chain: Run, choice: Choice, notes: UrdfNotes) -> None:
-    first = strange[0]
-    rule = f"is {first.kind}, and the paper assumes revolute joints: its bounds on M, C and g do not hold"
-    if first.kind in MOVING:
-        rule = "mimics another joint, and the paper assumes one motor for each joint"
-    elif first.kind == "prismatic":
-        rule = "is prismatic, and the paper assumes revolute joints: its bounds on M, C and g fail along it"
-    more = "" if len(strange) == 1 else f" (so do {', '.join(joint.name for joint in strange[1:])})"
-    still = {**choice.fixed, **{joint.name: Fraction(0) for joint in strange}}
-    hold = options(choice.base, choice.tip, still)
-    last = strange[-1]
-    behind = (
-        "" if last is chain[-1] else f", or begin behind it: {options(last.child, choice.tip, choice.fixed)}"
-    )
-    ended = options(choice.base, first.parent, choice.fixed)
-    repair = f"hold it: {hold}{behind}, or end the arm before it: {ended}"
-    notes.fail(first.element, f"joint {first.name}", "", rule + more, repair)
-
-
 # --- The longest run of revolute joints.
 
 
 def _longest(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -> Run:
-    best = _best(_runs(tree, choice))
+    best = _best(tree, choice)
     if len(best) < 2:
         return best[0] if best else ()
     tips = [run[-1].child for run in best]
     size = f"{len(best[0])} joint{'s' if len(best[0]) > 1 else ''}"
-    rule = f"has {len(best)} arms of {size}, to the tips {', '.join(tips[:_SHOWN])}"
+    rule = f"has {len(best)} arms of {size}, to the tips {', '.join(tips[:SHOWN])}"
     notes.fail(robot, "robot", "", rule, f"choose one: {_choosing(tree, best[0], choice)}")
     return ()
 
 
-def _best(runs: Sequence[tuple[int, Run]]) -> list[Run]:
-    """The longest runs, of these the ones with the fewest joints above."""
-    best = max(((len(run), -above) for above, run in runs), default=None)
-    return [run for above, run in runs if (len(run), -above) == best]
-
-
-def _runs(tree: Tree, choice: Choice) -> list[tuple[int, Run]]:
-    """Runs of revolute joints up to where chains part, each with the number of joints above it."""
+def _best(tree: Tree, choice: Choice) -> Sequence[Run]:
+    """The longest runs of revolute joints up to where chains part, of these with the fewest joints above."""
     depth = dict.fromkeys(tree.links, 0)
     """How many joints move, one after the other, below each link."""
     for joint in reversed(tree.downwards()):
         size = depth[joint.child] + _moves(joint, choice)
         depth[joint.parent] = max(depth[joint.parent], size)
-    result: list[tuple[int, Run]] = []
+    runs: list[tuple[int, Run]] = []
+    """Each with the number of joints above it."""
     waiting: list[tuple[str, int, Run]] = [(choice.base or tree.root, 0, ())]
     while waiting:
         link, above, run = waiting.pop(0)
@@ -163,12 +129,13 @@ def _runs(tree: Tree, choice: Choice) -> list[tuple[int, Run]]:
         parts = len(sizes) > 1 and sizes[0] < _RATIO * sizes[1]
         main = None if parts or not on else on[0]
         if run and (main is None or not main.turns):
-            result.append((above, run))
+            runs.append((above, run))
         for joint in hanging:
             before = run if joint is main else ()
             added = (*before, joint) if joint.turns else ()
             waiting.append((joint.child, above + len(run) + 1 - len(added), added))
-    return result
+    best = max(((len(run), -above) for above, run in runs), default=None)
+    return [run for above, run in runs if (len(run), -above) == best]
 
 
 def _hanging(tree: Tree, link: str, choice: Choice) -> list[UrdfJoint]:

@@ -1,4 +1,6 @@
-"""Rotations with rational entries: exactly orthogonal, and within 10⁻¹⁵ rad of the angles as written.
+"""Rotations with rational entries, and the bodies that joints move, placed by them.
+
+Rotations are exactly orthogonal, and within 10⁻¹⁵ rad of the angles as written.
 
 The sine and cosine of a decimal angle other than 0 are never rational, so an angle of a file cannot be kept
 exactly. An angle within 10⁻⁹ rad of a multiple of π/2 is taken as that multiple, for that is what a file
@@ -12,16 +14,17 @@ rational rotation.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from flint import arb, fmpz_mat
 
-from lyapcheck.check.loop.chain import UNIT
+from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.vectors import ZERO, Algebra
-from lyapcheck.robots.urdf.parts import Triple
+from lyapcheck.check.numbers.vectors import ZERO, Algebra, is_positive_semidefinite
+from lyapcheck.robots.urdf.tree import Tree, UrdfJoint, UrdfLink, moved_links
+from lyapcheck.robots.urdf.xml import ORIGIN, Triple
 
 SNAP = Fraction(1, 10**9)
 """Radians."""
@@ -35,7 +38,7 @@ _LARGE = 10**26
 _BITS = 256
 
 Rotation = tuple[tuple[Fraction, ...], ...]
-_OF = Algebra(Fraction)
+OF = Algebra(Fraction)
 
 
 @dataclass
@@ -91,8 +94,11 @@ def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
         roundings.turned.append(place)
     for axis, angle in enumerate(rpy):
         if angle:
-            turn = _turn(axis, *_circle(angle, place, roundings))
-            result = _rotation(_OF.product(turn, result))
+            sine, cosine = _circle(angle, place, roundings)
+            rows, j, k = [list(row) for row in UNIT], (axis + 1) % 3, (axis + 2) % 3
+            rows[j][j] = rows[k][k] = cosine
+            rows[k][j], rows[j][k] = sine, -sine
+            result = _rotation(OF.product(rows, result))
     return result
 
 
@@ -101,7 +107,7 @@ def about(axis: Triple, angle: Fraction, place: str, roundings: Roundings) -> Ro
     sine, cosine = _circle(angle, place, roundings)
     x, y, z = axis
     cross = [[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]]
-    square = _OF.product(cross, cross)
+    square = OF.product(cross, cross)
     return _rotation(
         [[UNIT[i][k] + sine * cross[i][k] + (1 - cosine) * square[i][k] for k in range(3)] for i in range(3)]
     )
@@ -109,46 +115,27 @@ def about(axis: Triple, angle: Fraction, place: str, roundings: Roundings) -> Ro
 
 def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction, Fraction]:
     """Rational (sin, cos) close to those of the angle."""
-    quarters, rest = _quarters(angle)
+    with precision(_BITS):
+        exact = to_arb(angle)
+        quarters = round(float(exact / (arb.pi() / 2)))
+        rest = _middle(exact - quarters * arb.pi() / 2)
+        tangent = _middle((to_arb(rest) / 2).tan())
     if abs(rest) <= SNAP:
         if abs(rest) > CLOSE:
             roundings.snapped[place] = max(abs(rest), roundings.snapped.get(place, ZERO))
         sine, cosine = ZERO, Fraction(1)
     else:
         roundings.note(place)
-        t = _half_tangent(rest)
+        t = _near(tangent)
         sine, cosine = 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
     for _ in range(quarters % 4):
         sine, cosine = cosine, -sine
     return sine, cosine
 
 
-def _quarters(angle: Fraction) -> tuple[int, Fraction]:
-    """The nearest multiple of π/2, and a rational within 10⁻⁴⁰ of what is left."""
-    with precision(_BITS):
-        exact = to_arb(angle)
-        count = round(float(exact / (arb.pi() / 2)))
-        return count, _middle(exact - count * arb.pi() / 2)
-
-
-def _half_tangent(angle: Fraction) -> Fraction:
-    """A rational with small denominator within 10⁻¹⁶ of tan(angle/2), for |angle| ≤ π/4 or so."""
-    with precision(_BITS):
-        return _near(_middle((to_arb(angle) / 2).tan()))
-
-
 def _middle(ball: arb) -> Fraction:
     mantissa, exponent = ball.mid().man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-
-
-def _turn(axis: int, sine: Fraction, cosine: Fraction) -> Rotation:
-    rows = [[ZERO] * 3 for _ in range(3)]
-    j, k = (axis + 1) % 3, (axis + 2) % 3
-    rows[axis][axis] = Fraction(1)
-    rows[j][j] = rows[k][k] = cosine
-    rows[k][j], rows[j][k] = sine, -sine
-    return _rotation(rows)
 
 
 def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
@@ -162,8 +149,9 @@ def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
         x, y, z = (component / length for component in vector)
         return x, y, z
     roundings.note(place)
-    size = _root(square)
-    direction = [component / size for component in vector]
+    scale = 10**60  # √square within a relative 10⁻⁴⁰
+    whole = math.isqrt(square.numerator * square.denominator * scale**2)
+    direction = [component * square.denominator * scale / whole for component in vector]
     pole = max(range(3), key=lambda i: abs(direction[i]))
     sign = 1 if direction[pole] > 0 else -1
     plane = [_near(x / (1 + sign * direction[pole])) for i, x in enumerate(direction) if i != pole]
@@ -171,12 +159,6 @@ def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
     result = [2 * x / (1 + norm) for x in plane]
     result.insert(pole, sign * (1 - norm) / (1 + norm))
     return result[0], result[1], result[2]
-
-
-def _root(square: Fraction) -> Fraction:
-    """√square within a relative 10⁻⁴⁰."""
-    scale = 10**60
-    return Fraction(math.isqrt(square.numerator * square.denominator * scale**2), square.denominator * scale)
 
 
 def _near(x: Fraction) -> Fraction:
@@ -206,24 +188,16 @@ def _quaternion(r: Rotation) -> tuple[int, int, int, int]:
     ]
     best = max(range(4), key=lambda i: rows[i][i])
     direction = [entry / rows[best][best] for entry in rows[best]]
-    others = [direction[i] for i in range(4) if i != best]
-    scale, *parts = _simultaneous(others)
-    parts.insert(best, scale)
-    return parts[0], parts[1], parts[2], parts[3]
-
-
-def _simultaneous(numbers: list[Fraction]) -> list[int]:
-    """A small q and p_i with |q x_i − p_i| ≤ 10⁻¹⁶ q, from a short vector of a lattice (LLL)."""
+    # a small q and p_i with |q x_i − p_i| ≤ 10⁻¹⁶ q, from a short vector of a lattice (LLL)
     fine, size = 10**16, 10**20
-    rows = [[size, *(round(x * fine * size) for x in numbers)]]
-    rows += [[0] + [fine * size if i == k else 0 for k in range(3)] for i in range(3)]
-    reduced = fmpz_mat(rows).lll()
-    for row in range(4):
-        q = int(reduced[row, 0]) // size
-        parts = [round(q * x) for x in numbers]
-        if q and all(abs(p - q * x) * 10**16 <= abs(q) for p, x in zip(parts, numbers, strict=True)):
-            return [q, *parts]
-    return [10**17, *(round(x * 10**17) for x in numbers)]
+    others = [round(x * fine * size) for i, x in enumerate(direction) if i != best]
+    lattice = [[size, *others], *([0, *(fine * size * (i == k) for k in range(3))] for i in range(3))]
+    reduced = fmpz_mat(lattice).lll()
+    for q in (*(int(reduced[row, 0]) // size for row in range(4)), 10**17):
+        parts = [round(q * x) for x in direction]
+        if q and all(abs(p - q * x) * 10**16 <= abs(q) for p, x in zip(parts, direction, strict=True)):
+            break
+    return parts[0], parts[1], parts[2], parts[3]
 
 
 def _from_quaternion(q: tuple[int | Fraction, ...]) -> Rotation:
@@ -239,3 +213,81 @@ def _from_quaternion(q: tuple[int | Fraction, ...]) -> Rotation:
 
 def _rotation(rows: Sequence[Sequence[Fraction]]) -> Rotation:
     return tuple(map(tuple, rows))
+
+
+# --- From URDF links and joints to the bodies that the joints of one chain move.
+#
+# The links between two joints of the chain are rigid with each other; each is placed in the frame of the
+# joint before it and brings its mass m, first moment m c and inertia, and their sums are exact.
+
+
+@dataclass(frozen=True)
+class _Pose:
+    rotation: Rotation
+    place: tuple[Fraction, ...]
+
+    def then(self, rotation: Rotation, place: Sequence[Fraction]) -> _Pose:
+        moved = OF.add(self.place, OF.apply(self.rotation, place))
+        return _Pose(tidy(OF.product(self.rotation, rotation)), tuple(moved))
+
+
+_HERE = _Pose(UNIT, ORIGIN)
+
+
+def moved_bodies(
+    tree: Tree, chain: tuple[UrdfJoint, ...], fixed: Mapping[str, Fraction], roundings: Roundings
+) -> tuple[RigidLink, ...]:
+    """The joints of the chain, base first, each with all that it moves up to the next one as one body."""
+    # every link, and every joint of the chain, in the frame of the joint of the chain before it
+    poses, joints = {tree.root: _HERE}, {}
+    for joint in tree.downwards():
+        turn = oriented(joint.turn, f"joint {joint.name}", roundings)
+        pose = poses[joint.parent].then(turn, joint.xyz)
+        value = fixed.get(joint.name)
+        if joint in chain:
+            joints[joint.name], pose = pose, _HERE
+        elif value:
+            axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
+            where = f"joint {joint.name}, where it is held"
+            slides = joint.kind == "prismatic"
+            turn = UNIT if slides else about(axis, value, where, roundings)
+            pose = pose.then(turn, OF.scaled(value, axis) if slides else ORIGIN)
+        poses[joint.child] = pose
+    result = []
+    for joint, links in zip(chain, moved_links(tree, chain), strict=True):
+        axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
+        result.append(_body(joints[joint.name], axis, links, poses, roundings))
+    return tuple(result)
+
+
+def _body(
+    joint: _Pose, axis: Triple, links: list[UrdfLink], poses: Mapping[str, _Pose], roundings: Roundings
+) -> RigidLink:
+    masses = []
+    for link in links:
+        pose = poses[link.name]
+        masses.append((link.mass, OF.add(pose.place, OF.apply(pose.rotation, link.com))))
+    mass = sum((m for m, _ in masses), ZERO)
+    moment = OF.add(ORIGIN, *(OF.scaled(m, c) for m, c in masses))
+    com = ORIGIN if mass == 0 else tuple(OF.scaled(1 / mass, moment))
+    total = [[ZERO] * 3 for _ in range(3)]
+    for link, (m, c) in zip(links, masses, strict=True):
+        if any(link.inertia):
+            turn = oriented(link.turn, f"inertia of link {link.name}", roundings)
+            own = tidy(OF.product(poses[link.name].rotation, turn))
+            total = OF.sum(total, OF.congruent(own, link.tensor))
+        total = OF.sum(total, _point(m, OF.add(c, OF.scaled(Fraction(-1), com))))
+    # an inertia that misses being positive semidefinite by the digits that a program printed is mended
+    around = _point(mass, com)
+    added = sum((total[i][i] + around[i][i] for i in range(3)), ZERO) * ROUNDED_INERTIA
+    if added > 0 and not is_positive_semidefinite(total):
+        mended = [[total[i][k] + added * (i == k) for k in range(3)] for i in range(3)]
+        if is_positive_semidefinite(mended):
+            roundings.mended += [link.name for link in links if not is_positive_semidefinite(link.tensor)]
+            total = mended
+    return RigidLink(axis, joint.place, mass, com, tuple(map(tuple, total)), joint.rotation)
+
+
+def _point(m: Fraction, place: Sequence[Fraction]) -> list[list[Fraction]]:
+    square = OF.dot(place, place)
+    return [[m * (square * UNIT[i][k] - place[i] * place[k]) for k in range(3)] for i in range(3)]

@@ -1,28 +1,190 @@
-"""The tree of links and joints of a URDF file, and the bodies that the joints of a chain of it move."""
+"""The links and joints of a URDF file as read, and the tree that they are."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import TypeVar
 
-from lyapcheck.check.loop.chain import UNIT, RigidLink
-from lyapcheck.check.numbers.vectors import ZERO, Algebra, is_positive_semidefinite
 from lyapcheck.errors import nearest
-from lyapcheck.robots.urdf.parts import ORIGIN, Triple, UrdfJoint, UrdfLink, UrdfNotes
-from lyapcheck.robots.urdf.rotations import (
-    ROUNDED_INERTIA,
-    Rotation,
-    Roundings,
-    about,
-    oriented,
-    tidy,
-    unit,
-)
-from lyapcheck.robots.urdf.xml import Element
+from lyapcheck.robots.fields import LARGEST, decimal
+from lyapcheck.robots.urdf.xml import INERTIA, MIRRORED, ORIGIN, VERSIONS, Element, Triple, UrdfNotes
 
-_SHOWN = 8
+MOVING = ("revolute", "continuous")
+KINDS = (*MOVING, "fixed", "prismatic", "floating", "planar")
+SHOWN = 8
+"""So many names of one sentence."""
+_LONGEST_NAME = 64
+_INFINITE = re.compile(r"\+?inf(?:inity)?", re.IGNORECASE)
+P = TypeVar("P")
+
+
+@dataclass(frozen=True)
+class UrdfLink:
+    """A link: mass, and about its centre of mass at ``com`` the inertia in axes turned by ``turn``."""
+
+    name: str
+    element: Element
+    mass: Fraction = Fraction(0)
+    com: Triple = ORIGIN
+    turn: tuple[Fraction, ...] = ORIGIN
+    inertia: tuple[Fraction, ...] = (Fraction(0),) * 6
+
+    @property
+    def described(self) -> bool:
+        return self.element.tag == "inertial"
+
+    @property
+    def tensor(self) -> list[list[Fraction]]:
+        """The inertia as the file gives it."""
+        xx, yy, zz, xy, xz, yz = self.inertia
+        return [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+
+
+@dataclass(frozen=True)
+class UrdfJoint:
+    """A joint: where the child stands in the parent, and what its motor is said to do."""
+
+    name: str
+    element: Element
+    kind: str
+    parent: str
+    child: str
+    xyz: Triple
+    turn: tuple[Fraction, ...]
+    axis: Triple
+    damping: Fraction | None
+    friction: Fraction | None
+    effort: Fraction | None
+
+    @property
+    def moves(self) -> bool:
+        """Whether anything can move about or along it."""
+        return self.kind != "fixed"
+
+    @property
+    def turns(self) -> bool:
+        """Whether it may be a joint of an arm: revolute, with a motor of its own."""
+        return self.kind in MOVING and not self.element.all("mimic")
+
+
+def read_parts(root: Element, notes: UrdfNotes) -> tuple[dict[str, UrdfLink], dict[str, UrdfJoint]]:
+    """Links and joints by name, in the order of the file; problems are noted."""
+    version = root.attributes.get("version", "1.0").strip()
+    if version not in VERSIONS:
+        rule = "is a version of URDF that is not known: what it means may differ"
+        notes.fail(root, "robot: version", version, rule, f"use one of {', '.join(VERSIONS)}")
+    notes.quaternions = VERSIONS.get(version, True)
+    notes.words(root, f"robot {root.attributes.get('name', '')}".strip())
+    links = _named(root.all("link"), "link", _read_link, notes)
+    if not links:
+        notes.fail(root, "robot", "", "has no link", 'add <link name="base"/>')
+    return links, _named(root.all("joint"), "joint", _read_joint, notes)
+
+
+def _named(
+    elements: list[Element], tag: str, read: Callable[[str, Element, UrdfNotes], P], notes: UrdfNotes
+) -> dict[str, P]:
+    parts: dict[str, P] = {}
+    for element in elements:
+        name = notes.text(element, "name", tag)
+        if name in parts:
+            notes.fail(element, f"{tag} name", name, f"is used by another {tag}", f"give each {tag} its own")
+        elif len(name) > _LONGEST_NAME or not name.isprintable():
+            rule = f"must be at most {_LONGEST_NAME} printable characters"
+            notes.fail(element, f"{tag} name", name, rule, "shorten it")
+        elif name:
+            parts[name] = read(name, element, notes)
+    return parts
+
+
+def _read_link(name: str, element: Element, notes: UrdfNotes) -> UrdfLink:
+    place = f"link {name}"
+    notes.words(element, place)
+    inertial = notes.only(element, "inertial", place)
+    if inertial is None:
+        return UrdfLink(name, element)
+    notes.words(inertial, place)
+    origin = notes.only(inertial, "origin", place)
+    mass = notes.only(inertial, "mass", place, required=True)
+    tensor = notes.only(inertial, "inertia", place, required=True)
+    value = Fraction(0) if mass is None else notes.unsigned(mass, "value", "mass", place)
+    com, turn = notes.pose(origin, place)
+    if tensor is None:
+        return UrdfLink(name, inertial, value, com, turn)
+    entries = {key: notes.number(tensor, key, f"{place}: inertia") for key in INERTIA}
+    for key, other in MIRRORED.items():
+        if key in tensor.attributes and notes.number(tensor, key, f"{place}: inertia") != entries[other]:
+            text, rule = tensor.attributes[key], f"differs from {other}: no inertia has that"
+            notes.fail(tensor, f"{place}: inertia: {key}", text, rule, "remove one of them")
+    return UrdfLink(name, inertial, value, com, turn, tuple(entries.values()))
+
+
+def _read_joint(name: str, element: Element, notes: UrdfNotes) -> UrdfJoint:
+    place = f"joint {name}"
+    kind = notes.text(element, "type", place)
+    if kind and kind not in KINDS:
+        notes.fail(
+            element, f"{place}: type", kind, "is no joint type of URDF", f"use one of {', '.join(KINDS)}"
+        )
+    notes.words(element, place)
+    xyz, turn = notes.pose(notes.only(element, "origin", place), place)
+    ends = ((tag, notes.only(element, tag, place, required=True)) for tag in ("parent", "child"))
+    parent, child = (
+        "" if end is None else notes.text(end, "link", f"{place}: {tag}") for tag, end in [*ends]
+    )
+    axis, direction = notes.only(element, "axis", place), (Fraction(1), Fraction(0), Fraction(0))
+    if axis is not None:
+        x, y, z = notes.vector(axis, "xyz", f"{place}: axis")
+        direction = x, y, z
+        if kind in (*MOVING, "prismatic") and not any(direction) and "xyz" in axis.attributes:
+            text = axis.attributes["xyz"]
+            notes.fail(axis, f"{place}: axis", text, "must not be zero", 'write xyz="0 0 1"')
+    dynamics = notes.only(element, "dynamics", place)
+    damping, friction = (
+        None
+        if dynamics is None or key not in dynamics.attributes
+        else notes.unsigned(dynamics, key, key, place)
+        for key in ("damping", "friction")
+    )
+    effort = _effort(element, kind, place, notes)
+    return UrdfJoint(name, element, kind, parent, child, xyz, turn, direction, damping, friction, effort)
+
+
+def _effort(element: Element, kind: str, place: str, notes: UrdfNotes) -> Fraction | None:
+    """The torque limit, ``None`` where the file knows none: nothing, 0 or a number without bounds."""
+    limit = notes.only(element, "limit", place, required=kind == "revolute")
+    if limit is None or kind not in MOVING:
+        return None
+    ends = {key: limit.attributes.get(key, "0") for key in ("lower", "upper")}
+    lower, upper = (
+        None
+        if _unbounded(text.strip().lstrip("-"))
+        else notes.number(limit, key, f"{place}: limit")
+        if key in limit.attributes
+        else Fraction(0)
+        for key, text in ends.items()
+    )
+    if lower is not None and upper is not None and lower > upper:
+        texts = " > ".join(ends.values())
+        notes.fail(limit, f"{place}: limit", texts, "lower is above upper", "exchange them")
+    if kind == "continuous" and "effort" not in limit.attributes:
+        return None
+    if _unbounded(limit.attributes.get("effort", "")):
+        return None
+    return notes.unsigned(limit, "effort", "effort", place) or None
+
+
+def _unbounded(text: str) -> bool:
+    """Whether a limit is infinite, or larger than any quantity of an arm, by which files say the same."""
+    value = decimal(text.strip())
+    return bool(_INFINITE.fullmatch(text.strip())) or (value is not None and value > LARGEST)
+
+
+# --- The tree of links and joints.
 
 
 @dataclass(frozen=True)
@@ -67,155 +229,33 @@ def build_tree(
     for joint in joints.values():
         for key, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
-                repair = nearest(link, links, "name a link of this file")
-                notes.fail(
-                    joint.element, f"joint {joint.name}: {key}", link, "is no link of this file", repair
-                )
+                repair, rule = nearest(link, links, "name a link of this file"), "is no link of this file"
+                notes.fail(joint.element, f"joint {joint.name}: {key}", link, rule, repair)
         if joint.child in above:
             rule = f"already hangs on joint {above[joint.child].name}: closed chains are not understood"
-            notes.fail(
-                joint.element, f"joint {joint.name}: child", joint.child, rule, "remove one of the joints"
-            )
+            key = f"joint {joint.name}: child"
+            notes.fail(joint.element, key, joint.child, rule, "remove one of the joints")
         above.setdefault(joint.child, joint)
     roots = [link for link in links if link not in above]
     if len(notes.problems) == before and len(roots) != 1:
-        names = ", ".join(roots[:_SHOWN])
+        names = ", ".join(roots[:SHOWN])
         rule = f"has {len(roots)} links that hang on no joint: {names}" if roots else "has joints in a circle"
         notes.fail(robot, "robot", "", rule, "connect all links to one tree")
     if len(notes.problems) > before:
         return None
     tree = Tree(roots[0], links, joints, above)
-    return tree if _connected(tree, robot, notes) else None
-
-
-def _connected(tree: Tree, robot: Element, notes: UrdfNotes) -> bool:
-    """Whether every link can be reached from the root."""
     reached = {tree.root, *(joint.child for joint in tree.downwards())}
-    lost = [link for link in tree.links if link not in reached]
+    lost = [link for link in links if link not in reached]
     if lost:
-        rule = f"has joints in a circle: {', '.join(lost[:_SHOWN])} cannot be reached from {tree.root}"
+        rule = f"has joints in a circle: {', '.join(lost[:SHOWN])} cannot be reached from {tree.root}"
         notes.fail(robot, "robot", "", rule, "connect all links to one tree")
-    return not lost
-
-
-def carrier(tree: Tree, chain: tuple[UrdfJoint, ...]) -> Mapping[str, int | None]:
-    """For each link the joint of the chain that moves it, counted from 0; ``None`` for the base."""
-    numbers = {joint.name: i for i, joint in enumerate(chain)}
-    result: dict[str, int | None] = {tree.root: None}
-    for joint in tree.downwards():
-        result[joint.child] = numbers.get(joint.name, result[joint.parent])
-    return result
+    return None if lost else tree
 
 
 def moved_links(tree: Tree, chain: tuple[UrdfJoint, ...]) -> list[list[UrdfLink]]:
     """The links of each body that the chain moves, base first; those of the base do not matter."""
-    moved_by = carrier(tree, chain)
-    return [[link for link in tree.links.values() if moved_by[link.name] == i] for i in range(len(chain))]
-
-
-def tensor(link: UrdfLink) -> list[list[Fraction]]:
-    """The inertia of a link as the file gives it."""
-    xx, yy, zz, xy, xz, yz = link.inertia
-    return [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-
-
-# --- From URDF links and joints to the bodies that the joints of one chain move.
-#
-# The links between two joints of the chain are rigid with each other; each is placed in the frame of the
-# joint before it and brings its mass m, first moment m c and inertia, and their sums are exact.
-
-
-OF = Algebra(Fraction)
-
-
-@dataclass(frozen=True)
-class _Pose:
-    rotation: Rotation
-    place: tuple[Fraction, ...]
-
-    def then(self, rotation: Rotation, place: Sequence[Fraction]) -> _Pose:
-        moved = OF.add(self.place, OF.apply(self.rotation, place))
-        return _Pose(tidy(OF.product(self.rotation, rotation)), tuple(moved))
-
-
-_HERE = _Pose(UNIT, ORIGIN)
-
-
-def moved_bodies(
-    tree: Tree, chain: tuple[UrdfJoint, ...], fixed: Mapping[str, Fraction], roundings: Roundings
-) -> tuple[RigidLink, ...]:
-    """The joints of the chain, base first, each with all that it moves up to the next one as one body."""
-    local, joints = _poses(tree, chain, fixed, roundings)
-    result = []
-    for joint, links in zip(chain, moved_links(tree, chain), strict=True):
-        axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
-        result.append(_body(joints[joint.name], axis, links, local, roundings))
-    return tuple(result)
-
-
-def _poses(
-    tree: Tree, chain: tuple[UrdfJoint, ...], fixed: Mapping[str, Fraction], roundings: Roundings
-) -> tuple[Mapping[str, _Pose], Mapping[str, _Pose]]:
-    """Every link, and every joint of the chain, in the frame of the joint of the chain before it."""
-    links, joints = {tree.root: _HERE}, {}
+    numbers = {joint.name: i for i, joint in enumerate(chain)}
+    moved_by: dict[str, int | None] = {tree.root: None}
     for joint in tree.downwards():
-        turn = oriented(joint.turn, f"joint {joint.name}", roundings)
-        pose = links[joint.parent].then(turn, joint.xyz)
-        value = fixed.get(joint.name)
-        if joint in chain:
-            joints[joint.name], pose = pose, _HERE
-        elif value:
-            axis = unit(joint.axis, f"axis of joint {joint.name}", roundings)
-            where = f"joint {joint.name}, where it is held"
-            slides = joint.kind == "prismatic"
-            turn = UNIT if slides else about(axis, value, where, roundings)
-            pose = pose.then(turn, OF.scaled(value, axis) if slides else ORIGIN)
-        links[joint.child] = pose
-    return links, joints
-
-
-def _body(
-    joint: _Pose, axis: Triple, links: list[UrdfLink], poses: Mapping[str, _Pose], roundings: Roundings
-) -> RigidLink:
-    masses = [(link.mass, _centre(link, poses[link.name])) for link in links]
-    mass = sum((m for m, _ in masses), ZERO)
-    moment = OF.add(ORIGIN, *(OF.scaled(m, c) for m, c in masses))
-    com = ORIGIN if mass == 0 else tuple(OF.scaled(1 / mass, moment))
-    total = [[ZERO] * 3 for _ in range(3)]
-    for link, (m, c) in zip(links, masses, strict=True):
-        arm = OF.add(c, OF.scaled(Fraction(-1), com))
-        total = OF.sum(total, _inertia(link, poses[link.name], roundings), _point(m, arm))
-    total = _rounded_up(total, _point(mass, com), links, roundings)
-    return RigidLink(axis, joint.place, mass, com, tuple(map(tuple, total)), joint.rotation)
-
-
-def _point(m: Fraction, place: Sequence[Fraction]) -> list[list[Fraction]]:
-    square = OF.dot(place, place)
-    return [[m * (square * UNIT[i][k] - place[i] * place[k]) for k in range(3)] for i in range(3)]
-
-
-def _rounded_up(
-    total: list[list[Fraction]], around: list[list[Fraction]], links: list[UrdfLink], roundings: Roundings
-) -> list[list[Fraction]]:
-    """An inertia that misses being positive semidefinite by the digits that a program printed, mended."""
-    size = sum((total[i][i] + around[i][i] for i in range(3)), ZERO)
-    if is_positive_semidefinite(total) or size <= 0:
-        return total
-    added = size * ROUNDED_INERTIA
-    mended = [[total[i][k] + added * (i == k) for k in range(3)] for i in range(3)]
-    if not is_positive_semidefinite(mended):
-        return total
-    roundings.mended += [link.name for link in links if not is_positive_semidefinite(tensor(link))]
-    return mended
-
-
-def _centre(link: UrdfLink, pose: _Pose) -> list[Fraction]:
-    """The centre of mass of a link from the joint that moves it."""
-    return OF.add(pose.place, OF.apply(pose.rotation, link.com))
-
-
-def _inertia(link: UrdfLink, pose: _Pose, roundings: Roundings) -> list[list[Fraction]]:
-    if not any(link.inertia):
-        return [[ZERO] * 3 for _ in range(3)]
-    turn = oriented(link.turn, f"inertia of link {link.name}", roundings)
-    return OF.congruent(tidy(OF.product(pose.rotation, turn)), tensor(link))
+        moved_by[joint.child] = numbers.get(joint.name, moved_by[joint.parent])
+    return [[link for link in tree.links.values() if moved_by[link.name] == i] for i in range(len(chain))]
