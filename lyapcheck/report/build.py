@@ -22,7 +22,6 @@ from lyapcheck.report.document import render as pdf
 from lyapcheck.report.findings import as_the_gate_judges, findings, own_findings
 from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject, published_notes
-from lyapcheck.report.page import redirect
 from lyapcheck.report.page import render as page
 from lyapcheck.report.plots import draw_damping, draw_epsilon, draw_family, draw_indices, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
@@ -153,7 +152,6 @@ def render(report: Report, formats: Sequence[str] = USUAL, appendix: bool = Fals
     answer = ReportAnswer(report)
     if "html" in formats:
         files["index.html"] = page(report)
-        files |= {f"m{m}.html": redirect(m) for m in report.ms}
     if "md" in formats:
         files["report.md"] = answer.written("markdown")
     if "json" in formats:
