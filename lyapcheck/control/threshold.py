@@ -18,7 +18,8 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.replay import MAX_BITS
 from lyapcheck.check.statement import Relation
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
-from lyapcheck.files.decimals import Written, exact_decimal, scaled_text
+from lyapcheck.files.decimals import Written, exact_decimal
+from lyapcheck.output.digits import scaled_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
+from lyapcheck.output.digits import integer_digits, scaled_text
+
 TYPE_CHECKING = False  # so that nothing is imported that is not used
 if TYPE_CHECKING:
     from typing import Any, Self
@@ -115,18 +117,7 @@ def significant_up(value: Fraction, digits: int) -> Fraction:
 
 def _last_unit(value: Fraction, digits: int) -> Fraction:
     """What the last of so many significant digits counts."""
-    return Fraction(10) ** ((_decimal_exponent(value) if value else 0) + 1 - digits)
-
-
-def _decimal_exponent(value: Fraction) -> int:
-    """The whole number e with 10^e ≤ value < 10^(e + 1), also of what no double holds."""
-    bits = value.numerator.bit_length() - value.denominator.bit_length()
-    result = math.floor(bits * math.log10(2))
-    while Fraction(10) ** (result + 1) <= value:
-        result += 1
-    while Fraction(10) ** result > value:
-        result -= 1
-    return result
+    return Fraction(10) ** (integer_digits(value) - digits)
 
 
 def decimal_text(value: Fraction | int, places: int | None = None) -> str:
@@ -140,14 +131,6 @@ def decimal_text(value: Fraction | int, places: int | None = None) -> str:
         return f"{numerator}/{denominator}"
     digits = max(needed, places or 0)
     return scaled_text(numerator * 10**digits // denominator, digits)
-
-
-def scaled_text(scaled: int, places: int) -> str:
-    """``scaled`` times 10^-places, with all its places."""
-    if places == 0:
-        return str(scaled)
-    digits = str(abs(scaled)).rjust(places + 1, "0")
-    return f"{'-' if scaled < 0 else ''}{digits[:-places]}.{digits[-places:]}"
 
 
 @lru_cache(maxsize=256)

@@ -76,7 +76,7 @@ def decimals(number: Enclosure, digits: int) -> tuple[str, str]:
     low, high = math.floor(number.lower * scale), math.ceil(number.upper * scale)
     if number.width == 0 and low == high:
         return (_shortest(low, places),) * 2
-    return _decimal(low, places), _decimal(high, places)
+    return scaled_text(low, places), scaled_text(high, places)
 
 
 def correct_digits(number: Enclosure, digits: int) -> str:
@@ -91,7 +91,7 @@ def correct_digits(number: Enclosure, digits: int) -> str:
         places = _places(number, shown)
         low, high = (math.trunc(end * Fraction(10) ** places) for end in (number.lower, number.upper))
         if low == high and low != 0:
-            return _decimal(low, places)
+            return scaled_text(low, places)
     return "[{}, {}]".format(*written)
 
 
@@ -104,7 +104,7 @@ def _safe(x: Exact, digits: int, *, upward: bool) -> str:
         return "∞" if value > 0 else "-∞"
     if value == 0:
         return "0"
-    power = _integer_digits(abs(value)) - digits
+    power = integer_digits(abs(value)) - digits
     scaled = value / Fraction(10) ** power
     units = math.ceil(scaled) if upward else math.floor(scaled)
     while units % 10 == 0:
@@ -112,8 +112,8 @@ def _safe(x: Exact, digits: int, *, upward: bool) -> str:
     # ``units`` times 10^power, with an exponent only where the number is very large or small
     last = len(str(abs(units))) - 1
     if power + last in PLAIN:
-        return _decimal(units, -power) if power < 0 else str(units * 10**power)
-    text = _decimal(units, last)
+        return scaled_text(units, -power) if power < 0 else str(units * 10**power)
+    text = scaled_text(units, last)
     return f"{text}e{power + last:+d}"
 
 
@@ -144,10 +144,10 @@ def _end(x: Exact, upward: bool) -> Fraction | float:
 
 def _places(number: Enclosure, digits: int) -> int:
     """The decimal places that ``digits`` significant digits reach, at the larger end; never below 0."""
-    return max(0, digits - _integer_digits(max(abs(number.lower), abs(number.upper))))
+    return max(0, digits - integer_digits(max(abs(number.lower), abs(number.upper))))
 
 
-def _integer_digits(value: Fraction) -> int:
+def integer_digits(value: Fraction) -> int:
     """The exponent e with 10^(e-1) <= value < 10^e (1 for zero)."""
     if value == 0:
         return 1
@@ -159,12 +159,12 @@ def _integer_digits(value: Fraction) -> int:
 
 
 def _shortest(scaled: int, places: int) -> str:
-    """``_decimal`` without zeros that say nothing."""
-    text = _decimal(scaled, places)
+    """`scaled_text` without zeros that say nothing."""
+    text = scaled_text(scaled, places)
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _decimal(scaled: int, places: int) -> str:
+def scaled_text(scaled: int, places: int) -> str:
     """The integer ``scaled`` times 10^-places, written out in full."""
     if places == 0:
         return str(scaled)

@@ -16,8 +16,8 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.sampling import time_text
-from lyapcheck.files.decimals import decimal_text, scaled_text
-from lyapcheck.output.digits import at_least, at_most, correct_digits, decimals
+from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.digits import at_least, at_most, correct_digits, decimals, scaled_text
 from lyapcheck.output.fields import Field
 from lyapcheck.promise import promised
 
