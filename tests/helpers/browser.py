@@ -35,7 +35,6 @@ class Tab:
         self._number = 0
         self.errors: list[str] = []
         self._loaded: set[str] = set()
-        self._address = ""
         for domain in ("Page", "Runtime", "Log", "DOM"):
             self.send(f"{domain}.enable")
         self.send("Page.setLifecycleEventsEnabled", enabled=True)
@@ -56,8 +55,6 @@ class Tab:
         method, params = message["method"], message["params"]
         if method == "Page.lifecycleEvent" and params["name"] == "load":
             self._loaded.add(params["loaderId"])
-        if method == "Page.frameNavigated" and "parentId" not in params["frame"]:
-            self._address = params["frame"]["url"] + params["frame"].get("urlFragment", "")
         if method == "Runtime.exceptionThrown":
             self.errors.append(json.dumps(params["exceptionDetails"]))
         if method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning"):
@@ -73,14 +70,6 @@ class Tab:
             while loader not in self._loaded:
                 self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
 
-    def arrives(self, page, ending):
-        """Whether a page leads on to an address with an ending."""
-        self.send("Page.navigate", url=page.as_uri())
-        end = time.monotonic() + PATIENCE
-        while not self._address.endswith(ending) and time.monotonic() < end:
-            self._event(json.loads(self._socket.recv(timeout=PATIENCE)))
-        return self._address.endswith(ending)
-
     def run(self, script):
         """The value of an expression, or of what it promises."""
         result = self.send(
@@ -88,11 +77,6 @@ class Tab:
         )
         assert "exceptionDetails" not in result, result
         return result["result"].get("value")
-
-    def enter(self, selector, value):
-        """Put a value into the first control that a selector finds, as a user does."""
-        result = f"document.querySelector({json.dumps(selector)})"
-        self.run(f"{result}.value = {json.dumps(value)}; {result}.dispatchEvent(new Event('input'))")
 
     def until(self, script):
         """The value of an expression as soon as it counts as true; its last value if it never does."""
