@@ -13,13 +13,13 @@ from lyapcheck.errors import argument_error
 from lyapcheck.files.fields import file_stem
 from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_most
+from lyapcheck.output.digits import at_most, shown
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.output.fields import Field, table
 from lyapcheck.output.typst import markup
 from lyapcheck.process_tree import temporary_folder
+from lyapcheck.report.findings import and_list, member_words, witness_place, witness_sides
 from lyapcheck.report.model import KINDS, SIGNS, WEIGHTS, EpsilonRow, Finding, Report, RunRow
-from lyapcheck.report.text import SYMBOLS, and_list, fixed, joined, member_words, witness_place, witness_sides
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.robots import RobotModel
 
@@ -145,7 +145,7 @@ def by_size(report: Report) -> Iterator[Section]:
             (
                 row.id if row.m is None else f"{row.id}, m = {row.m}",
                 row.comment,
-                *(f"{SYMBOLS[one.verdict]} {one.word}" for one in row.decisions.values()),
+                *(f"{one.verdict.sign} {one.word}" for one in row.decisions.values()),
             )
             for row in report.by_size
         )
@@ -185,7 +185,7 @@ def _claims(report: Report) -> Iterator[Section]:
         lines = []
         for claim, rows in groupby(group, key=lambda row: row.id):
             result = list(rows)
-            words = [f"{SYMBOLS[row.verdict]} {row.decision.word}" for row in result]
+            words = [f"{row.verdict.sign} {row.decision.word}" for row in result]
             about = [row.about for row in result]
             if len({row.verdict for row in result}) == 1:  # once for all members
                 ms = ", ".join(str(row.m) for row in result if row.m is not None)
@@ -266,6 +266,16 @@ def _told(document: Document) -> Iterator[Block]:
     yield from (*document.blocks, *document.details)
     if document.notes:
         yield Bullets(document.notes)
+
+
+def fixed(value: Any, places: int = 2) -> str:
+    """A number to some decimal places; a dash where there is none."""
+    return "–" if value is None or math.isnan(float(value)) else shown(float(value), f".{places}f")
+
+
+def joined(values: Sequence[Any], places: int = 2) -> str:
+    """A list of numbers in one cell."""
+    return ", ".join(fixed(value, places) for value in values)
 
 
 RUN = (

@@ -14,8 +14,8 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions, 
 from lyapcheck.control.sampling import time_text
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
+from lyapcheck.report.findings import and_list
 from lyapcheck.report.model import Motion, Tile
-from lyapcheck.report.text import and_list
 
 if TYPE_CHECKING:
     from lyapcheck._types import Array

@@ -16,9 +16,9 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.document import Bullets, Paragraph, Section, Table
 from lyapcheck.promise import all_say
+from lyapcheck.report.findings import and_list
 from lyapcheck.report.jobs import BOUNDS, CLASS, SAMPLED
 from lyapcheck.report.model import Box, ClaimRow, Report, applies, behind, keeps_limits
-from lyapcheck.report.text import and_list
 from lyapcheck.verdicts import Verdict
 
 THIS_ARM = "arm.stable"

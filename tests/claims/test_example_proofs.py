@@ -8,8 +8,8 @@ import pytest
 from lyapcheck.check.certificate import judge
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
+from lyapcheck.report.findings import witness_words
 from lyapcheck.report.model import ClaimRow
-from lyapcheck.report.text import witness_words
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in

@@ -34,10 +34,9 @@ from lyapcheck.output.escapes import html_text
 from lyapcheck.promise import Promise
 from lyapcheck.report.build import write
 from lyapcheck.report.document import evidence
-from lyapcheck.report.findings import findings, own_findings
+from lyapcheck.report.findings import findings, own_findings, span_words, witness_words
 from lyapcheck.report.jobs import done
 from lyapcheck.report.model import ClaimRow, EpsilonRow, RunRow, anchor, applies, published_notes
-from lyapcheck.report.text import span_words, witness_words
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Grade, Verdict
 

@@ -14,7 +14,7 @@ from lyapcheck.files.fields import file_stem
 from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.html import blocks
 from lyapcheck.output.mathml import Markup, element, joined, latex, sentence
-from lyapcheck.report import text
+from lyapcheck.report import findings
 from lyapcheck.report.document import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, Tile, anchor, behind
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
@@ -83,7 +83,7 @@ def _templates() -> Environment:
     )
     functions = (anchor, badges, chain, drawn_arm, file_stem, latex, raw, route, sentence, sentences, apart)
     result.globals |= {one.__name__: one for one in functions}
-    result.globals |= {"text": text, "split": _ARROW.split, "SIGNS": SIGNS, "WEIGHTS": WEIGHTS}
+    result.globals |= {"findings": findings, "split": _ARROW.split, "SIGNS": SIGNS, "WEIGHTS": WEIGHTS}
     result.globals |= {"VERDICTS": tuple(Verdict)}
     return result
 
