@@ -1,4 +1,4 @@
-"""Proofs about an ODE of a few variables, as in textbooks: polynomials as data, theorems by name.
+"""Proofs about an ODE of a few variables, as in textbooks: equations as data, theorems by name.
 
 ::
 
@@ -41,7 +41,8 @@ def system(rates: Mapping[str, object], constants: str = "") -> Equations:
     """An ODE of a few variables.
 
     Args:
-        rates: the derivative of each variable by its name, a polynomial.
+        rates: the derivative of each variable by its name: a polynomial, also with sin and cos of a variable.
+            A variable that occurs in sin and cos alone is an angle, which counts up to full turns.
         constants: names of positive constants, between spaces.
 
     Raises:
@@ -55,17 +56,21 @@ def system(rates: Mapping[str, object], constants: str = "") -> Equations:
     return Equations(tuple(trees.items()), tuple(constants.split()))
 
 
-def local(s: Equations, V: Expr, region: Relation, within: object) -> Flow:
+def local(s: Equations, V: Expr, region: Relation, within: object, rest: Iterable[Expr] = ()) -> Flow:
     """Claim that the origin is asymptotically stable, and attracts the region V <= c in a ball.
 
-    V is above c on the sphere ‖x‖² = ``within``. In the region but at 0, V > 0 and dV/dt < 0.
+    V is above c on the sphere ‖x‖² = ``within``. In the region but at 0, V > 0 and dV/dt < 0. With ``rest``,
+    polynomials as for ``converges_to``, dV/dt <= 0 in the ball is enough; they are 0 together only at 0.
     """
-    return s.flow("nearby", V, level=_level(V, region), radius=within)
+    return s.flow("nearby", V, rest, level=_level(V, region), radius=within)
 
 
-def global_(s: Equations, V: Expr, grows: object = 1, less: object = 0) -> Flow:
-    """Claim that the origin is globally asymptotically stable, with V at least grows·‖x‖² − less."""
-    return s.flow("everywhere", V, a=grows, b=less)
+def global_(s: Equations, V: Expr, grows: object = 1, less: object = 0, rest: Iterable[Expr] = ()) -> Flow:
+    """Claim that the origin is globally asymptotically stable, with V at least grows·‖x‖² − less.
+
+    But at 0, V > 0 and dV/dt < 0. With ``rest`` dV/dt <= 0 is enough, as for ``local``.
+    """
+    return s.flow("everywhere", V, rest, a=grows, b=less)
 
 
 def enters(s: Equations, V: Expr, region: Relation, grows: object = 1, less: object = 0) -> Flow:
@@ -74,7 +79,10 @@ def enters(s: Equations, V: Expr, region: Relation, grows: object = 1, less: obj
 
 
 def converges_to(s: Equations, V: Expr, zeros: Iterable[Expr], grows: object = 1, less: object = 0) -> Flow:
-    """Claim that motions are bounded and some polynomials tend to 0 along them: Σ p² is at most −dV/dt."""
+    """Claim that motions are bounded and some polynomials tend to 0 along them, one after the other.
+
+    dV/dt <= 0. Each polynomial is 0 where dV/dt, those before it and their derivatives are all 0.
+    """
     return s.flow("towards", V, zeros, a=grows, b=less)
 
 

@@ -14,6 +14,7 @@ from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     converges_to,
     enters,
+    exp,
     expr,
     global_,
     local,
@@ -95,7 +96,7 @@ FALSE = {
     ),
     "consensus at 0": (
         converges_to(system({"x": y - x, "y": x - y}), SQUARE, [x]),
-        "fall",
+        "x → 0",
     ),
     "the origin moves": (global_(system({"x": 1 - x, "y": -y}), SQUARE), "rest of x"),
 }
@@ -108,12 +109,31 @@ def test_a_flow_that_does_otherwise_is_not_proved(name):
     assert why(statement).startswith(reason)
 
 
+@pytest.mark.parametrize(
+    ("statement", "reason"),
+    [
+        (global_(LINEAR, SQUARE - F(1, 10**12) * y**2 - x**2), "growth"),
+        (local(LINEAR, x**2 - F(1, 10**12) * y**2, region=x**2 - F(1, 10**12) * y**2 <= 1, within=4), "edge"),
+        (local(system({"x": -x, "y": -y}), x**2, region=x**2 <= 1, within=4), "edge"),
+        (global_(LINEAR, SQUARE * (x - 1) ** 2), "growth"),
+        (local(LINEAR, SUM * (x - 1) ** 2, region=SUM * (x - 1) ** 2 <= 1, within=9), "edge"),
+        (local(LINEAR, SQUARE, region=SQUARE <= 1, within=2), "fall"),
+        (global_(system({"x": -x, "y": -y / x}), SQUARE), "expression: is not a polynomial"),
+    ],
+)
+def test_data_that_do_not_show_it(statement, reason):
+    """A weight of −10⁻¹², level sets without end, V that vanishes elsewhere, dV/dt too, and a pole."""
+    assert why(statement).startswith(reason)
+
+
 def test_what_is_no_polynomial_or_has_other_names():
     base = TRUE["linear"]
     for change, reason in (
         ({"energy": sqrt(SQUARE).tree}, "not a polynomial"),
         ({"energy": (1 / (1 + x**2)).tree}, "not a polynomial"),
-        ({"rates": (("x", sin(y).tree), ("y", x.tree))}, "not a polynomial"),
+        ({"rates": (("x", sin(2 * y).tree), ("y", x.tree))}, "not a polynomial"),
+        ({"rates": (("x", exp(y).tree), ("y", x.tree))}, "sin and cos of one state each"),
+        ({"rates": (("x", sin(k).tree), ("y", x.tree)), "constants": ("k",)}, "sin and cos of one state"),
         ({"rates": (("x", (1 / x).tree), ("y", x.tree))}, "not a polynomial"),
         ({"rates": (("x", y.tree), ("x", x.tree))}, "one is given twice"),
         ({"rates": ()}, "must be 1 to 12"),
@@ -125,7 +145,7 @@ def test_what_is_no_polynomial_or_has_other_names():
         ({"conclusion": "magic"}, "is not one that the checker knows"),
         ({"conclusion": "nearby"}, "must be level, radius"),
         ({"conclusion": "towards"}, "are what motions tend to"),
-        ({"parts": (x.tree,)}, "are what motions tend to"),
+        ({"conclusion": "bounded", "level": expr(1).tree, "parts": (x.tree,)}, "are what motions tend to"),
     ):
         assert reason in why(replace(base, **change)), change
     with pytest.raises(ValueError, match="the rate of x has k"):

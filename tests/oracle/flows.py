@@ -1,4 +1,7 @@
-"""ODEs of a few variables: motions by SciPy's integrators, with expressions evaluated here."""
+"""ODEs of a few variables: motions by SciPy's integrators, with expressions evaluated here.
+
+A state that occurs in sines and cosines alone is an angle: its distance from 0 is 2|sin(θ/2)|.
+"""
 
 import warnings
 
@@ -67,9 +70,35 @@ def _fault(statement, at, rate, start):
     end = run.y[:, -1]
     if run.status == 1 or not np.isfinite(end).all():
         return "a motion runs away"
-    if fixed and np.linalg.norm(end) > 0.5 * np.linalg.norm(start):
+    if fixed and np.linalg.norm(_chords(statement, end)) > 0.5 * np.linalg.norm(_chords(statement, start)):
         return f"it is at {end} in the end"
     if statement.conclusion == "bounded" and at(statement.energy, end) > at(statement.level, end) + 1e-6:
         return f"V is {at(statement.energy, end)} in the end"
     far = [part for part in statement.parts if abs(at(part, end)) > 0.5 * abs(at(part, start)) + 1e-3]
     return f"{far[0]} is {at(far[0], end)} in the end" if far else ""
+
+
+def _chords(statement, x):
+    """The state with chords of the circle instead of angles."""
+    trees = (*(tree for _, tree in statement.rates), statement.energy, *statement.parts)
+    names = [name for name, _ in statement.rates]
+    plain = {name for tree in trees for name in _plain(tree)}
+    angles = {name for tree in trees for name in _turned(tree)} - plain
+    return [2 * np.sin(entry / 2) if name in angles else entry for name, entry in zip(names, x, strict=True)]
+
+
+def _plain(tree):
+    """The states in an expression outside of sines and cosines."""
+    if tree[0] == "var":
+        yield tree[1]
+    elif tree[0] not in ("sin", "cos", "num"):
+        for part in tree[1:]:
+            yield from _plain(part) if isinstance(part, tuple) else ()
+
+
+def _turned(tree):
+    """The states in sines and cosines."""
+    if tree[0] in ("sin", "cos"):
+        yield tree[1][1]
+    for part in tree[1:]:
+        yield from _turned(part) if isinstance(part, tuple) else ()

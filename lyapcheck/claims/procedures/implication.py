@@ -29,8 +29,10 @@ from lyapcheck.check.kinds.implies import (
 from lyapcheck.check.kinds.sum_of_squares import gaps_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Variable
+from lyapcheck.check.verify import verify
+from lyapcheck.claims.procedures.descents import lowest_points
 from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
-from lyapcheck.claims.procedures.squares import NEEDED, by_squares, lowest_points
+from lyapcheck.claims.procedures.squares import NEEDED, by_equations, by_squares
 from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
 from lyapcheck.errors import PACKAGES, installed, repair
 
@@ -141,12 +143,12 @@ EFFORT = ((1, 40), (2, 80), (3, 160), (4, 320), (5, 640), (7, 2000))
 SEARCH_AFTER = 2
 """The depth after which counterexamples are searched, before deeper certificates are."""
 
-ARITHMETIC = ("add", "mul", "neg", "div", "pow", "sqrt")
+ARITHMETIC = ("add", "mul", "neg", "div", "pow", "sqrt", "sin", "cos")
 
 
 @procedure(Implies)
 def find_implies(statement: Implies) -> SearchResult:
-    """Look for an identity of signs and for counterexamples by turns, then for sums of squares."""
+    """Look for an identity of signs, for counterexamples and equations by turns, then for sums of squares."""
     if not all(is_algebraic(r.gap) for r in (*statement.hypotheses, statement.conclusion)):
         return _refuted(statement) or still_open(
             "no counterexample among the points tried, and no proof for functions that are not algebraic; "
@@ -158,9 +160,10 @@ def find_implies(statement: Implies) -> SearchResult:
         identity = _identity(signs, statement, depth, nodes)
         if identity is not None:
             return shown(identity, f"{METHOD}: identity with terms of known sign")
-        result = _refuted(statement) if depth == SEARCH_AFTER else None
-        if result is not None:
-            return result
+        if depth == SEARCH_AFTER:
+            result = _refuted(statement) or _by_equations(statement, signs)
+            if result is not None:
+                return result
     result = None if signs is None else _by_squares(statement, signs)
     return result or still_open(
         "no certificate of signs and no counterexample among the points tried; "
@@ -168,6 +171,18 @@ def find_implies(statement: Implies) -> SearchResult:
         "0 <= (x - y)**2",
         METHOD,
     )
+
+
+def _by_equations(statement: Implies, signs: Signs | None) -> SearchResult | None:
+    if signs is None:
+        return None
+    try:
+        proof = by_equations(statement)
+        if proof is not None:
+            verify(statement, proof)
+    except (Refused, Unsupported):
+        return None
+    return None if proof is None else shown(proof, f"{METHOD}: equations")
 
 
 def _by_squares(statement: Implies, signs: Signs) -> SearchResult | None:
@@ -190,7 +205,7 @@ def _by_squares(statement: Implies, signs: Signs) -> SearchResult | None:
 
 
 def is_algebraic(tree: Tree) -> bool:
-    """Whether an expression is built from numbers and variables by arithmetic and roots."""
+    """Whether an expression is built from numbers and variables by arithmetic, roots, sines and cosines."""
     if tree[0] in LEAVES:
         return True
     return tree[0] in ARITHMETIC and all(is_algebraic(part) for part in tree[1:] if isinstance(part, tuple))
