@@ -331,6 +331,8 @@ ALL, OF_1, OF_X = [[[0, 1]], [[1, 1]]], form([[]], [], d=["1"]), form([[[0, 1]]]
 OF_BOTH, WITH_1 = form(ALL, [], ["0"], d=["1", "1"]), form([[], [[0, 1]]], [], ["0"], d=["1", "1"])
 FLAT = form([[], [[0, 1]]], [], ["0"], d=["1", "0"])
 LESS_X = form([[[0, 1]]], [], d=["-1"])
+LESS_1, SINE = form([[]], [], d=["-1"]), ["sin", X]
+AT_MOST_0, BELOW_0 = relation(X, "<=", ZERO), relation(X, "<", ZERO)
 OPEN, DIFFER = "is not shown to be strict", "both sides differ"
 
 
@@ -387,14 +389,28 @@ SQUARES = [
         (squared(NONNEGATIVE, times(form([[[0, 1]]], d=["1"]))), "one a monomial"),
         (squared(NONNEGATIVE, times(form([[[0, 1]]], ["0"], d=["1"]))), "one a monomial"),
         (squared(NONNEGATIVE, times(form([[[0, 1]]], [], d=[]))), "must have 1 entries"),
-        (squared(NONNEGATIVE, times(form([[[1, 1]]], [], d=["1"]))), "must be of the variables alone"),
+        (
+            squared(NONNEGATIVE, times(form([[[1, 1]]], [], d=["1"]))),
+            "must be of variables, sines and cosines alone",
+        ),
         (squared(NONNEGATIVE, times(form([[[9, 1]]], [], d=["1"]))), "does not exist"),
         (squared(NONNEGATIVE, times(form([[[0, 65]]], [], d=["0"]))), "must be at most 64"),
         (squared(NONNEGATIVE, *[times(OF_X)] * 201), "must be at most 200"),
         (squared(relation(ZERO, "<=", ["mul", ROOT, SQUARE]), times(OF_X)), "between polynomials"),
         (
-            squared(NONNEGATIVE, times(OF_X), given=[relation(["sin", X], "<=", ONE)]),
+            squared(NONNEGATIVE, times(OF_X), given=[relation(["exp", X], "<=", ONE)]),
             "between polynomials",
+        ),
+        (squared(NONNEGATIVE, times(OF_X), given=[relation(SINE, "<=", ONE)]), ACCEPTED),
+        (squared(POSITIVE, times(OF_X), given=[relation(SINE, "<", ZERO)]), OPEN),
+        (squared(relation(["pow", SINE, 2], "<=", ONE), times(form([[[2, 1]]], [], d=["1"]))), ACCEPTED),
+        (squared(relation(["pow", SINE, 2], "<=", ONE), times(form([[[1, 1]]], [], d=["1"]))), DIFFER),
+        (squared(AT_MOST_0, times(LESS_1, 0), given=[X_NONNEGATIVE, AT_MOST_0]), ACCEPTED),
+        (squared(AT_MOST_0, times(LESS_1, 0), given=[X_NONNEGATIVE]), "must not be negative"),
+        (squared(BELOW_0, times(LESS_1, 0), given=[X_NONNEGATIVE, AT_MOST_0]), OPEN),
+        (
+            squared(AT_MOST_0, times(LESS_1, 0), given=[X_NONNEGATIVE, relation(X, "<=", ONE)]),
+            "must not be negative",
         ),
         (
             squared(relation(ZERO, "<=", ["div", SQUARE, ["add", SQUARE, ONE]]), times(OF_X)),
