@@ -184,14 +184,6 @@ def run(*arguments):
     return result.exit_code, result.stdout
 
 
-def test_gains_for_another_arm_are_refused_with_a_repair():
-    code, text = run(str(paper_gain_file("table2")), "--robot", "reyes-kelly2")
-    assert code == 2
-    assert text.count("\n") == 2
-    assert "3 joints" in text
-    assert "choose an arm of 3 joints" in text
-
-
 def test_missing_arm_and_missing_member_are_refused(tmp_path):
     path = tmp_path / "gains.toml"
     path.write_text('[[gains]]\nname = "a"\nm = 1\nkp = [1, 1]\nkv = [1, 1]\n')

@@ -15,7 +15,6 @@ from lyapcheck.answers.gate.answer import remarks
 from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.check.certificate import read
 from lyapcheck.check.kinds.resting import AtBounds, Resting
-from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.cli import main as cli
@@ -27,7 +26,7 @@ from lyapcheck.output.digits import at_least
 from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.output.text import Depth, View
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
+from lyapcheck.search.controlled_arm import DecreaseProof
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
 
@@ -145,13 +144,6 @@ def test_what_the_checker_refuses_is_not_accepted(monkeypatch, tmp_path, name):
     assert "accepted no proof" in result.failures[0].reason
 
 
-def test_the_last_way_is_the_checkers_own_scalar_form():
-    """A tree of one leaf, which only that form can prove."""
-    controlled = ControlledArm(read_gain_file(TABLE2).gains[0], load_robot("reyes-kelly2"))
-    assert proves(controlled.loop(Fraction(1, 1000)), ".")
-    assert not proves(controlled.loop(Fraction(1)), ".")
-
-
 # --- undecided, never rejected -----------------------------------------------------------------
 
 BOUNDS = "[bounds]\nviscous_min = 0.4\ntorque = [9, 9]\ngravity = [1, 1]\n"
@@ -211,11 +203,6 @@ def test_an_arm_that_cannot_exist_is_never_accepted(tmp_path, name, kv):
     assert result.stable is None
     for said in (*remarks(result), *remarks(judged(path)["a"])):
         assert "stable without" not in said
-
-
-def test_an_unknown_condition_is_refused():
-    with pytest.raises(InputError, match="scalar, global"):
-        judged(TABLE2, "10p", "lmi")
 
 
 # --- what is said where conditions disagree ----------------------------------------------------

@@ -117,16 +117,6 @@ def test_a_run_that_cannot_be_finished_leaves_with_3_and_keeps_what_it_reached(t
     assert result["reached"] < 5.0
 
 
-@pytest.mark.slow
-def test_the_printed_numbers_stand_beside_the_same_experiment_only():
-    results = json.loads(lyapcheck(TABLE2, "--format", "json").stdout)["results"]
-    assert [r["printed"]["L2"] for r in results] == [25.4006, 24.6892, 23.4006]
-    (pd,) = json.loads(lyapcheck(PD, "--format", "json").stdout)["results"]
-    assert pd["printed"]["settling"] == [1.14, 0.959, 0.952]
-    (other,) = json.loads(lyapcheck(PD, "--format", "json", "--target", "45,45,80").stdout)["results"]
-    assert other["printed"] is None
-
-
 DRY = ONE_JOINT.format(viscous=0.5, torque=20, more="")
 IDEAL = "without the dry friction of the file"
 

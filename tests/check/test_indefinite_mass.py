@@ -2,11 +2,9 @@
 
 import pytest
 
-from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing
-from lyapcheck.check.kinds.inertia import Bisection, PostureWitness
-from lyapcheck.check.refusal import Refused
+from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import ArmBounds, decreasing, run_proof
+from lyapcheck.claims import decreasing, run_proof
 from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load
@@ -58,18 +56,6 @@ def test_a_posture_refutes_that_v_decreases_as_there_m_is_not_positive_definite(
 
 
 @pytest.mark.slow
-def test_the_tree_of_a_definite_arm_proves_nothing_of_the_other(tmp_path):
-    gains = read_gain_file(GAINS).gains[0]
-    definite = decreasing(load(str(arm(tmp_path, "0.5"))), gains, "0.001")
-    decision = propose(definite)
-    assert decision.verdict.value == "proved"
-    assert isinstance(decision.proof, PositiveAndDecreasing)
-    assert decision.proof.inertia == Bisection()
-    with pytest.raises(Refused):
-        verify(decreasing(load(str(arm(tmp_path))), gains, "0.001"), decision.proof)
-
-
-@pytest.mark.slow
 def test_no_claim_says_that_the_arm_is_stable(tmp_path):
     claims = ("arm.M", "arm.C", "arm.theta", "arm.stable", "arm.states", "arm.ranges", "arms.all")
     result = run_proof("scalar.py", ms=(1,), robot=str(arm(tmp_path)), gains=GAINS, only=claims)
@@ -97,9 +83,3 @@ def test_the_search_for_eps0_writes_no_certificate_for_it(tmp_path):
     assert run.exit_code != 2, run.output
     assert [path.name for path in folder.iterdir()] == ["tau_m1.falsified.json"]
     assert "asymptotically stable" not in run.output
-
-
-def test_bounds_of_m_know_it(tmp_path):
-    bounds = ArmBounds(load(str(arm(tmp_path))))
-    assert propose(bounds.mass_above()).verdict.value == "refuted"
-    assert propose(bounds.mass_below()).verdict.value == "proved"

@@ -153,12 +153,6 @@ def test_without_any_one_of_the_norms_nothing_is_shown():
         assert verdict(replace(statement, least=rest)) != "proved", name
 
 
-@pytest.mark.slow
-def test_the_norms_for_tracking_do_not_do_without_the_desired_velocity():
-    assert verdict(rate_of(desired=True, bounded_for=False)) != "proved"
-    assert verdict(rate_of(desired=False, bounded_for=True)) in ("proved", "undecided")
-
-
 def closed_loop(desired):
     """What M ẇ is under (6), or (21), as the checker derives it, and as (11) has it."""
     every = companion("every_function.py")

@@ -182,7 +182,7 @@ KNOWN = [
     ("named", "what"), KNOWN, ids=lambda one: one[0] if isinstance(one, tuple) else str(one)
 )
 def test_the_oracle_knows_what_is_true(named, what):
-    found = [oracle.objection(named[1], seed) for seed in range(5 if what is None else 1)]
+    found = [oracle.objection(named[1], seed) for seed in range(2 if what is None else 1)]
     assert {one and one.what for one in found} == {what}
 
 

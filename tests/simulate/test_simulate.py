@@ -75,15 +75,6 @@ def test_the_paper_task_is_accurate_and_conserves_energy(gain_set):
     assert run.tau.shape == run.q.shape == (2001, 3)
 
 
-@pytest.mark.slow
-def test_the_torque_at_the_start_is_that_of_the_gains():
-    """At rest at home g = 0, so τ = K_p h(e(0)); PD gains are per degree: 0.8 · 45, 2.5 · 45, 0.133 · 90."""
-    run = paper_run(TABLE2[0])
-    np.testing.assert_allclose(run.tau[0], np.array([28, 60, 5]) * np.tanh(PAPER_TASK.q_d), rtol=1e-14)
-    pd = paper_run(TABLE2[3])
-    np.testing.assert_allclose(pd.tau[0], [36.0, 112.5, 11.97], rtol=1e-14)
-
-
 @pytest.mark.parametrize("name", ARMS)
 @pytest.mark.parametrize("family", one_in(5, ["hyperbolic", "tanh", "arctan", "algebraic", "linear"]))
 def test_every_arm_and_family_balances_its_energy(name, family):

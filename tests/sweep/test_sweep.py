@@ -308,6 +308,7 @@ def test_over_a_variation_the_gate_answers_as_with_vary(plan, tmp_path):
             assert Fraction(str(row["margin"])) <= least + Fraction(1, 10**9)
 
 
+@pytest.mark.slow
 def test_over_a_variation_nothing_is_proved_of_nominal_numbers_only(tmp_path):
     path = tmp_path / "plan.toml"
     path.write_text(
