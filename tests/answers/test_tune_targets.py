@@ -259,6 +259,7 @@ def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None
     assert invoke("gate", str(out)).exit_code == 0
 
 
+@pytest.mark.slow
 def test_a_target_that_is_met_to_the_last_digit_is_told() -> None:
     """Without overshoot the worst ratio is 0, and nothing is divided by it."""
     task = task_for(1, [0.8], None, None, 5.0)

@@ -24,6 +24,7 @@ from lyapcheck.claims import (
     var,
 )
 from lyapcheck.claims.procedures import propose
+from tests.helpers.shares import one_in
 from tests.oracle.flows import flow
 
 x, y, z, k = map(var, "xyzk")
@@ -52,7 +53,7 @@ def why(statement):
     return result.reason
 
 
-@pytest.mark.parametrize("name", TRUE)
+@pytest.mark.parametrize("name", one_in(2, TRUE))
 def test_textbook_examples(name):
     statement = TRUE[name]
     result = propose(statement)

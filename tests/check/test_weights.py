@@ -108,9 +108,10 @@ def test_certificates_hold_the_weights():
             verify(statement_of(replace(proof.loop, coupling=coupling)), proof.certificate)
 
 
+@pytest.mark.slow
 def test_epsilon_seeks_weights_unless_told_not_to():
     case = controlled(0)
-    few = {"max_boxes": 2000, "starts": 2}
+    few = {"max_boxes": 4000, "starts": 2}
     usual = epsilon(case.gains, case.model, **few)
     assert usual.weighted is not None
     assert usual.certified is not None

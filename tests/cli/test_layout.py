@@ -82,8 +82,8 @@ kv = [0.02]
 FILES = {"saturating.toml": SATURATING, "own.toml": OWN, "plan.toml": PLAN}
 TALL = 24
 """Lines for three joints."""
-SLOW = ("explain, undecided", "explain, the list", "simulate, at the bench", "tune, targets")
-SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted")
+SLOW = ("explain, undecided", "explain, the list", "simulate, at the bench", "tune, targets", "epsilon")
+SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted", "gate, seven joints")
 
 
 def columns(line):
@@ -92,7 +92,7 @@ def columns(line):
 
 
 @pytest.fixture(scope="module", autouse=True)
-def in_a_folder_with_files(tmp_path_factory):
+def in_a_folder_with_files(tmp_path_factory, in_this_process):
     with pytest.MonkeyPatch.context() as patch:
         folder = tmp_path_factory.mktemp("layout")
         patch.chdir(folder)

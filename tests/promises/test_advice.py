@@ -170,6 +170,7 @@ def test_what_tune_advises_leaves_gains(arm, words, advice, option):
     assert invoke(*base, *rest, option, str(float(value))).exit_code == 0, text
 
 
+@pytest.mark.slow
 def test_tune_names_targets_where_there_is_no_friction(tmp_path):
     text = ONE_JOINT.format(viscous=0, torque=20, more="")
     (tmp_path / "arm.toml").write_text(text, encoding="utf-8")

@@ -91,7 +91,7 @@ def test_extremes_lie_between_samples_and_are_those_of_a_much_finer_sampling():
 
 @pytest.mark.parametrize("gain_set", one_in(4, TABLE2), ids=lambda g: g.name)
 def test_a_tighter_run_changes_nothing_above_the_promised_accuracy(gain_set):
-    model, first = robots.load("buap3"), starts(3, 20)
+    model, first = robots.load("buap3"), starts(3, 6)
     runs, finer = (
         simulate_many(gain_set, model, PAPER_TASK.q_d, first, motions=True, tolerance=tolerance)
         for tolerance in (batch_module.TOLERANCE, batch_module.TOLERANCE / 20)
@@ -103,7 +103,7 @@ def test_a_tighter_run_changes_nothing_above_the_promised_accuracy(gain_set):
 
 def test_the_error_falls_with_the_eighth_power_of_the_step():
     """A tolerance a hundred times smaller takes some 100^(1/8) = 1.8 times the steps."""
-    model, first = robots.load("reyes-kelly2"), starts(2, 20)
+    model, first = robots.load("reyes-kelly2"), starts(2, 8)
     coarse, fine = (
         simulate_many(SHOULDER_AND_ELBOW, model, [0.5, 0.5], first, tolerance=tolerance).steps.mean()
         for tolerance in (1e-9, 1e-11)

@@ -13,7 +13,7 @@ from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.claims import Constant, Relation
 from lyapcheck.verdicts import Verdict
-from tests.helpers.shares import one_in
+from tests.helpers.shares import but, one_in
 from tests.oracle import confirms, known, objection
 from tests.statement_fuzz.__main__ import judged
 from tests.statement_fuzz.generators import GENERATORS, TRUE, draw, names
@@ -119,7 +119,7 @@ def test_each_kind_has_objections(kind):
     assert any(judge(draw(6, k, kind), 0, by=credulous).fault for k in range(60))
 
 
-@pytest.mark.parametrize("kind", one_in(4, OF_ARMS))
+@pytest.mark.parametrize("kind", but(["MassAbove"], OF_ARMS))
 def test_the_oracle_sees_by_itself_what_is_false_of_arms(kind):
     made = [draw(6, k, kind) for k in range(60)]
     result = [bool(judge(replace(one, truth=None), k, by=credulous).fault) for k, one in enumerate(made)]
