@@ -23,7 +23,7 @@ from lyapcheck.report.findings import as_the_gate_judges, findings, own_findings
 from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import render as page
-from lyapcheck.report.plots import draw_damping, draw_epsilon, draw_family, draw_indices, draw_set
+from lyapcheck.report.plots import draw_epsilon, draw_family, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     with temporary_folder() as place, pool(WORKERS, place) as workers:
         with main_unnamed():
             jobs = _submit(subject, notes, workers)
-        figures = draw_family(subject.ms) | draw_damping(gate) | _drawn(jobs, on_progress or silent)
+        figures = draw_family(subject.ms) | _drawn(jobs, on_progress or silent)
     (proofs, by_size), *parts, derived = (job.result().result for job in jobs)
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
@@ -62,7 +62,7 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         rows, fresh = as_the_gate_judges(rows, gate)
         gone = known - {row.certificate for row in rows}
         certificates = {path: text for path, text in certificates.items() if path not in gone} | fresh
-    figures |= draw_indices(runs) | draw_epsilon(epsilon)
+    figures |= draw_epsilon(epsilon)
     claims = tuple(row for row in rows if row.proof == "published")
     weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
     run_of = {row.name: row for row in runs}

@@ -127,10 +127,9 @@ def _front(report: Report) -> Iterator[Block]:
 
 
 def _findings(report: Report) -> Iterator[Section]:
-    drawn: set[str] = set()
     for weight, words in WEIGHTS.items():
         if result := report.weighing(weight):
-            cards = (Section(one.title, tuple(_card(report, one, drawn))) for one in result)
+            cards = (Section(one.title, tuple(_card(report, one))) for one in result)
             blocks = tuple(cards) if weight in "ABE" else (Bullets(tuple(map(_line, result))),)
             title = "What to mend" if report.own else f"{weight}: {words} ({len(result)})"
             yield Section(title, blocks)
@@ -163,8 +162,8 @@ def _line(finding: Finding) -> str:
     return f"{finding.subject}{ms}: {said}{finding.text}"
 
 
-def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
-    """One finding; a drawing that two of them share stands at the first."""
+def _card(report: Report, finding: Finding) -> Iterator[Block]:
+    """One finding."""
     if finding.claims:
         row = next((r for r in report.claims if r.id == finding.claims[0]), None)
         says = f": “{row.comment}”" if row else ""
@@ -172,12 +171,9 @@ def _card(report: Report, finding: Finding, drawn: set[str]) -> Iterator[Block]:
             f"{and_list([f'claim {name}' for name in finding.claims])}, {member_words(finding.ms)}{says}"
         )
     items = [f"{term}: {text}" for term, text in finding.about.items()]
-    witness, drawing = finding.witness, finding.note.figure
+    witness = finding.witness
     shown = f"Witness: {witness_place(witness)}: {witness_sides(witness)}" if witness else finding.text
     yield Bullets((*items, shown))
-    if drawing not in drawn:
-        yield from figure(report, drawing, finding.title)
-        drawn.add(drawing)
 
 
 def _claims(report: Report) -> Iterator[Section]:
@@ -292,7 +288,6 @@ RUN = (
 
 def _runs(report: Report) -> Iterator[Block]:
     yield table(RUN, [(row,) for row in report.runs], "Reference simulation of (11), in floating point")
-    yield from figure(report, "indices", "The L2 index (20), simulated and measured")
     for row in report.runs:
         yield from figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
 

@@ -74,7 +74,6 @@ class Note:
     consequence: str = ""
     repair: str = ""
     mended: tuple[str, ...] = ()
-    figure: str = ""
 
 
 @dataclass(frozen=True)
@@ -230,7 +229,7 @@ class Finding:
             # the keys of when witnesses were searched for as small as they are
             own["witness"] = {"m": row.m, "n": row.n, **point, "certificate": row.certificate}
             own["witness"] |= {"small": False, "figure": ""}
-        return own | {"figure": self.note.figure}
+        return own | {"figure": ""}
 
 
 @dataclass(frozen=True)

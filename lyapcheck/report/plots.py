@@ -1,4 +1,4 @@
-"""The figures: the family, one simulated run as in Figs. 3 to 10 of the paper, gain sets compared.
+"""The figures: the family, one simulated run as in Figs. 3 to 10 of the paper, the four ε₀.
 
 Colours are those that colour-blind readers can tell apart; equal data give equal bytes.
 """
@@ -6,7 +6,7 @@ Colours are those that colour-blind readers can tell apart; equal data give equa
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from io import BytesIO, StringIO
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +18,8 @@ from lyapcheck.output.escapes import csv_text, plot_text
 from lyapcheck.report.model import KINDS
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.report.jobs import GainData
-    from lyapcheck.report.model import EpsilonRow, RunRow
+    from lyapcheck.report.model import EpsilonRow
     from lyapcheck.simulate.run import Motion
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -243,62 +242,12 @@ def drawn(title: str, run: Motion) -> dict[str, Any]:
     )
 
 
-# --- Gain sets compared: performance indices, condition (19) and the four ε₀.
+# --- Figures of a report: the four ε₀, the family, the run of each gain set.
 
 
 TICK = 24
 """Characters of a name that fit beside or below an axis."""
 MARKERS = ("o", "s", "D", "X")
-HATCHES = ("", "///", "\\\\\\")
-"""One for each source, for grey prints."""
-Values = Mapping[str, Sequence[float | None]]
-"""By where they are from, one of each gain set; ``None`` where there is none."""
-
-
-def draw_indices(runs: Sequence[RunRow]) -> Files:
-    """The L2 index in degrees of each gain set, one bar a source; nothing where there are no runs.
-
-    References: (20) and Fig. 11 of reyes2019family.
-    """
-    if not runs:
-        return {}
-    every: Values = {
-        "simulation of (11)": [run.L2 for run in runs],
-        "measured in the paper": [run.printed["L2"] if run.printed else None for run in runs],
-    }
-    bars = {source: values for source, values in every.items() if any(x is not None for x in values)}
-    names = [run.name for run in runs]
-    with styled():
-        figure, axis = _bars(names, bars, ".1f", width=7.2, height=2.9)
-        axis.set(ylabel="L2 index [°]", title="Performance index (20), T = 5 s")
-        axis.margins(y=0.15)
-        figure.legend(ncols=len(bars), loc="outside lower center")
-    return _compared("indices", figure, names, bars, "deg")
-
-
-def draw_damping(gate: Sequence[GateResult]) -> Files:
-    """The largest k_v of each gain set beside the largest that (19) admits, N·m, where it applies to any.
-
-    References: (19) of reyes2019family.
-    """
-    bars: dict[str, list[float | None]] = {"λmax(K_v)": [], "λmin(B)/(√n γ)": []}
-    names = []
-    for result in gate:
-        checks = [check for check in result.checks if check.id == "19"]
-        admitted = [float(check.limit.lower) for check in checks if check.limit is not None]
-        if admitted:
-            names.append(result.name)
-            largest = max(float(check.value or 0) for check in checks)
-            for values, value in zip(bars.values(), (largest, admitted[0]), strict=True):
-                values.append(value)
-    if not names:
-        return {}
-    with styled():
-        figure, axis = _bars(names, bars, ".4g", width=4.6, height=2.4)
-        most = max(value or 0.0 for values in bars.values() for value in values)
-        axis.set(ylabel="N·m", ylim=(0, 1.25 * most))
-        axis.legend(loc="upper right", ncols=2, fontsize=8)
-    return _compared("damping", figure, names, bars, "N·m")
 
 
 def draw_epsilon(epsilon: Sequence[EpsilonRow]) -> Files:
@@ -325,27 +274,8 @@ def draw_epsilon(epsilon: Sequence[EpsilonRow]) -> Files:
         axis.margins(y=0.3)
         axis.set(xlabel="ε₀ [1/s]", title="ε₀: what is published, proved and refuted")
         figure.legend(ncols=4, loc="outside lower center")
-    return _compared("epsilon", figure, names, values, "1/s")
-
-
-def _bars(names: Sequence[str], bars: Values, form: str, **size: float) -> tuple[Any, Any]:
-    """Bars side by side for each gain set, each with its number."""
-    figure, axes = panels(1, 1, **size)
-    axis, width = axes[0, 0], 0.8 / len(bars)
-    for index, (source, values) in enumerate(bars.items()):
-        places = [i + (index - (len(bars) - 1) / 2) * width for i in range(len(names))]
-        look = {"color": COLOURS[index], "hatch": HATCHES[index % len(HATCHES)], "edgecolor": "white"}
-        drawn = axis.bar(places, [value or 0.0 for value in values], width, label=source, **look)
-        texts = ["" if value is None else format(value, form) for value in values]
-        axis.bar_label(drawn, texts, fontsize=8, padding=2)
-    axis.set_xticks(range(len(names)), [plot_text(name, TICK) for name in names])
-    axis.grid(axis="x", visible=False)
-    return figure, axis
-
-
-def _compared(stem: str, figure: Any, names: Sequence[str], values: Values, unit: str) -> Files:
-    rows = [[name, *(values[kind][i] for kind in values)] for i, name in enumerate(names)]
-    return files_of(stem, figure, ["gains", *(f"{kind} [{unit}]" for kind in values)], rows)
+    data = [[name, *some] for name, *some in zip(names, *values.values(), strict=True)]
+    return files_of("epsilon", figure, ["gains", *(f"{kind} [1/s]" for kind in values)], data)
 
 
 def draw_family(ms: Sequence[int]) -> Files:

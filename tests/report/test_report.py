@@ -63,7 +63,7 @@ class Balance(HTMLParser):
 def test_every_figure_is_there_in_three_forms(everything):
     figures = {Path(name) for name in everything if name.startswith("figures/")}
     stems = {figure.stem for figure in figures}
-    assert {"family", "damping", "indices", "epsilon", "tau_m1_errors"} <= stems
+    assert {"family", "epsilon", "tau_m1_errors"} <= stems
     assert {figure.name for figure in figures} == {
         f"{s}.{form}" for s in stems for form in ("svg", "png", "csv")
     }
