@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.tuning import tune as tune_gains
     from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
     from lyapcheck.check.numbers.polynomials import Enclosure
+    from lyapcheck.check.recheck import gather as read_certificates
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
     from lyapcheck.claims.decision import Decision
@@ -52,7 +53,6 @@ if TYPE_CHECKING:
         bounds,
         decide,
         export_controller,
-        read_certificates,
         simulate_motion,
         torque,
         tune_for_targets,
@@ -180,7 +180,7 @@ _HOMES = {
     "lyapunov_graph": "lyapunov.graph",
     "named_family": "family.base:named",
     "paper_gain_file": "control.gains",
-    "read_certificates": "tasks",
+    "read_certificates": "check.recheck:gather",
     "read_gain_file": "control.gains",
     "read_plan": "answers.sweep",
     "read_reference": "simulate.reference",

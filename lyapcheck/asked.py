@@ -62,19 +62,19 @@ def decreasing(
     except TooManyTerms:
         if arm.chain is None or coupling:
             raise
-        own = gains.family, gains.m, tuple(gains.kp), tuple(gains.kv)
-        return ChainDecreasing(arm.chain.links, viscous, *own, eps0)
+        return ChainDecreasing(arm.chain.links, viscous, eps0=eps0, **_controller(gains))
     return Decreasing(
         mass=mass,
         viscous=viscous,
         parameters=arm.ranges_of_mass,
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(gains.kp),
-        kv=tuple(gains.kv),
+        **_controller(gains),
         eps0=eps0,
         coupling=coupling,
     )
+
+
+def _controller(gains: GainSet) -> dict[str, Any]:
+    return {"family": gains.family, "m": gains.m, "kp": tuple(gains.kp), "kv": tuple(gains.kv)}
 
 
 def resting(gains: GainSet, dry: Sequence[Fraction], errors: Sequence[Fraction | None]) -> Resting:
@@ -111,10 +111,7 @@ def sampled(
     chain = None if arm is None or arm.n <= FEW_JOINTS else arm.chain
     model = arm if chain is None else None
     return SampledStable(
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(gains.kp),
-        kv=tuple(gains.kv),
+        **_controller(gains),
         viscous_min=tuple(viscous_min),
         k_g=() if arm else tuple(k_g),
         links=chain.links if chain else (),
@@ -146,10 +143,7 @@ def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: RobotModel, within:
 
     assert loop.period is not None
     return SampledFromRest(
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(gains.kp),
-        kv=tuple(gains.kv),
+        **_controller(gains),
         viscous=tuple(number.bounds for number in arm.viscous),
         mass=arm.mass_terms,
         potential=tuple(to_terms(arm.potential)),
@@ -246,10 +240,7 @@ def gate_accepted(
         k_g=k_g,
         viscous=viscous,
         limits=limits,
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(gains.kp),
-        kv=tuple(gains.kv),
+        **_controller(gains),
         conditions=tuple(name for name in ("10", "10p", "10i", "19") if name in conditions),
         stability=(),
     )

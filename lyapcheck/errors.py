@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
 from lyapcheck.output.escapes import printable
@@ -61,6 +62,15 @@ class InputError(Exception):
     def __reduce__(self) -> tuple[type[InputError], tuple[list[Problem]]]:
         """Its problems, not its text: so it comes back whole from another process."""
         return InputError, (self.problems,)
+
+
+@contextmanager
+def told_as(names: Mapping[str, str]) -> Iterator[None]:
+    """Have problems that are found inside told under other names of their keys."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError([replace(one, key=names.get(one.key, one.key)) for one in error.problems]) from None
 
 
 def argument_error(name: str, value: object, rule: str, repair: str) -> InputError:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import InputError, argument_error
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
     from pathlib import Path
 
     from numpy.typing import ArrayLike
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from lyapcheck.answers.bounds import Comparisons
     from lyapcheck.answers.export import Export
     from lyapcheck.answers.tune.response.answer import BenchTuning
-    from lyapcheck.check.recheck import Document
     from lyapcheck.check.statement import Statement
     from lyapcheck.claims.decision import Decision
     from lyapcheck.control.gains import GainFile, GainSet
@@ -226,20 +225,6 @@ def decide(statement: Statement, m: int | None = None, n: int | None = None) -> 
     about = About("statement", "", m, n, "")
     made = Certificate(about, statement, finding.verdict.value, finding.grade.label, finding.proof)
     return decided(finding, judge_afresh({key: made}).get(key), statement)
-
-
-def read_certificates(paths: Iterable[str | Path]) -> list[Document]:
-    """Find the certificates among files and folders, for `recheck`.
-
-    Args:
-        paths: files, and folders of which every ``.json`` file is read.
-
-    Raises:
-        Unreadable: a path that is no certificate file and no folder.
-    """
-    from lyapcheck.check.recheck import gather
-
-    return gather(paths)
 
 
 def _on_arm(gain_file: GainFile | str | Path, robot: str | None) -> tuple[GainFile, RobotModel]:

@@ -201,19 +201,13 @@ def _append_summary(path: str, document: Document) -> None:
     """Add a document to a file; of one that is too large the sections that did not pass, as many as fit."""
     from lyapcheck.output.markdown import render
 
-    text = render(document)
-    if len(text.encode()) > LARGEST_SUMMARY:
-        sections = [block for block in document.details if isinstance(block, Section)]
-        others = [section for section in sections if not section.title.startswith("✓")]
-        count = len(others)
-        while True:
-            title = f"{document.title}; {count} of {len(others)} that did not pass are shown"
-            text = render(replace(document, title=title, details=tuple(others[:count])))
-            size = len(text.encode())
-            if size <= LARGEST_SUMMARY or count <= 1:
-                break
-            # the first sections say more than those of sets that are not explained
-            count = max(1, min(count * LARGEST_SUMMARY // size, count - 1))
+    text, sections = render(document), [one for one in document.details if isinstance(one, Section)]
+    others = [section for section in sections if not section.title.startswith("✓")]
+    count = len(others)
+    while count and len(text.encode()) > LARGEST_SUMMARY:
+        title = f"{document.title}; {count} of {len(others)} that did not pass are shown"
+        text = render(replace(document, title=title, details=tuple(others[:count])))
+        count //= 2
     try:
         with open(path, "a", encoding="utf-8") as stream:
             stream.write(text)

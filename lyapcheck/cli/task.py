@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
-from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
 
 from lyapcheck.cli.parser import LOOP
 from lyapcheck.cli.values import Complaints, loop_of
-from lyapcheck.errors import InputError, argument_error, argument_problem
+from lyapcheck.errors import InputError, argument_error, argument_problem, told_as
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
@@ -26,7 +24,6 @@ MOST_DEGREES = 36_000.0
 CERTIFIED = "certified"
 MAX_BOXES = 100_000
 """Budget of branch and bound for one gain set; ``lyapcheck epsilon`` goes further."""
-Made = TypeVar("Made")
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""
 SMALL, TURN = 2.0, 360.0
@@ -42,7 +39,6 @@ _OPTIONS = {
     "reference": "--reference",
     "velocity_rad": "--velocity",
     "start_rad": "--start",
-    "target_rad": "--target",
 }
 _NEEDS = {"--spread": "--runs", "--seed": "--runs", "--band": "--reference"}
 _CLASHES = (
@@ -74,20 +70,19 @@ def parse_angles(option: str, text: str, joints: tuple[str, ...]) -> tuple[float
         many = "number" if len(words) == 1 else "numbers"
         rule = f"has {len(words)} {many}, but the arm has {len(joints)} joints ({', '.join(joints)})"
         raise argument_error(option, text, rule, example)
-    degrees = [_degrees(word) for word in words]
-    if any(math.isnan(angle) for angle in degrees):
+    degrees = [_number(word) for word in words]
+    if not all(abs(angle) <= MOST_DEGREES for angle in degrees):  # which no NaN is
         rule = f"each must be a number from {-MOST_DEGREES:g} to {MOST_DEGREES:g} degrees"
         raise argument_error(option, text, rule, example)
     return tuple(math.radians(angle) for angle in degrees)
 
 
-def _degrees(word: str) -> float:
-    """The number, NaN if it is none or out of range."""
+def _number(word: str) -> float:
+    """NaN where it is none."""
     try:
-        angle = float(word)
+        return float(word)
     except ValueError:
         return math.nan
-    return angle if abs(angle) <= MOST_DEGREES else math.nan
 
 
 def eps0_of(text: str | None) -> float | None:
@@ -98,10 +93,7 @@ def eps0_of(text: str | None) -> float | None:
     """
     if text is None or text == CERTIFIED:
         return None
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
+    number = _number(text)
     if math.isnan(number):
         rule = f"must be a number or {CERTIFIED}"
         raise argument_error("--eps0", text, rule, f"write --eps0 0.01, or --eps0 {CERTIFIED}")
@@ -115,8 +107,9 @@ def task_of(
     time: float | None,
     eps0: float | None = None,
     velocity: str | None = None,
+    goal: str = "--target",
 ) -> Task:
-    """The task that the options ask for.
+    """The task that the options ask for; ``goal`` is the name of the one with the target.
 
     Raises:
         InputError: every problem with it at once.
@@ -124,10 +117,11 @@ def task_of(
     from lyapcheck.simulate.task import task_for
 
     wrong = Complaints()
-    q_d = wrong.reading(_goal, target, model) or (0.0,) * model.n
+    q_d = wrong.reading(_target, goal, target, model) or (0.0,) * model.n
     q0, w0 = _begin(wrong, model, start, velocity)
     seconds = SECONDS if time is None else time
-    return wrong.result(_by_options(partial(task_for, model.n, q_d, q0, w0, seconds, eps0=eps0)))
+    with told_as(_OPTIONS | {"target_rad": goal}):
+        return wrong.result(task_for, model.n, q_d, q0, w0, seconds, eps0=eps0)
 
 
 def request_of(
@@ -153,8 +147,8 @@ def request_of(
         rule = "is for tasks without --reference"
         wrong.problems.append(argument_problem("--eps0", CERTIFIED, rule, repair))
     q0, rates = _begin(wrong, model, start, velocity)
-    made = partial(request_for, model.n, reference, q0, rates, time, eps0=eps0, band=band)
-    return wrong.result(_by_options(made))
+    with told_as(_OPTIONS):
+        return wrong.result(request_for, model.n, reference, q0, rates, time, eps0=eps0, band=band)
 
 
 def bench_of(
@@ -188,18 +182,17 @@ def starts_of(runs: int, spread: float | None, seed: int | None) -> Starts:
     """
     from lyapcheck.simulate.many import MOST_RUNS, Starts
 
-    problems = []
     size, number = SPREAD if spread is None else spread, 0 if seed is None else seed
-    if not 1 <= runs <= MOST_RUNS:
-        problems.append(
-            argument_problem("--runs", runs, f"must be from 1 to {MOST_RUNS}", "write --runs 1000")
-        )
-    if not 0.0 <= size <= 360.0:
-        problems.append(
-            argument_problem("--spread", size, "must be from 0 to 360 degrees", "write --spread 45")
-        )
-    if number < 0:
-        problems.append(argument_problem("--seed", number, "must not be negative", "write --seed 0"))
+    refused = [
+        ("--runs", runs, 1 <= runs <= MOST_RUNS, f"must be from 1 to {MOST_RUNS}", "1000"),
+        ("--spread", size, 0.0 <= size <= 360.0, "must be from 0 to 360 degrees", "45"),
+        ("--seed", number, number >= 0, "must not be negative", "0"),
+    ]
+    problems = [
+        argument_problem(name, value, rule, f"write {name} {good}")
+        for name, value, fits, rule, good in refused
+        if not fits
+    ]
     if problems:
         raise InputError(problems)
     return Starts(runs, math.radians(size), number)
@@ -237,23 +230,11 @@ def _begin(
     ]
 
 
-def _by_options(make: Callable[[], Made]) -> Callable[[], Made]:
-    """The same, with its problems under the names of options."""
-
-    def made() -> Made:
-        try:
-            return make()
-        except InputError as error:
-            raise InputError([replace(one, key=_OPTIONS[one.key]) for one in error.problems]) from None
-
-    return made
-
-
-def _goal(target: str | None, model: RobotModel) -> tuple[float, ...]:
+def _target(option: str, text: str | None, model: RobotModel) -> tuple[float, ...]:
     """What was asked for, or the published goal for an arm of three joints, 45° for each joint of others."""
     default = "45,45,90" if model.n == 3 else ",".join(["45"] * model.n)
-    goal = parse_angles("--target", default if target is None else target, model.joints)
+    goal = parse_angles(option, default if text is None else text, model.joints)
     farthest = math.degrees(max(map(abs, goal)))
     if 0 < farthest < SMALL or farthest >= TURN:
-        print(f"note: --target is in degrees, and goes {farthest:.4g}° at most", file=sys.stderr)
+        print(f"note: {option} is in degrees, and goes {farthest:.4g}° at most", file=sys.stderr)
     return goal

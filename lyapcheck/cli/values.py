@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.robots.vary import Vary
 
 Value = TypeVar("Value")
-_DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?", re.IGNORECASE | re.ASCII)
-_MOST_DIGITS = 1_000
+_WHOLE = re.compile(r"-?[0-9]{1,1000}")
 
 
 class Complaints:
@@ -28,24 +27,34 @@ class Complaints:
     def __init__(self) -> None:
         self.problems: list[Problem] = []
 
-    def reading(self, read: Callable[..., Value], *arguments: Any) -> Value | None:
+    def reading(self, read: Callable[..., Value], *arguments: Any, **named: Any) -> Value | None:
         """What ``read`` returns, ``None`` where it cannot use its arguments: the problems are kept."""
         try:
-            return read(*arguments)
+            return read(*arguments, **named)
         except InputError as error:
             self.problems += error.problems
             return None
 
-    def result(self, read: Callable[..., Value], *arguments: Any) -> Value:
+    def result(self, read: Callable[..., Value], *arguments: Any, **named: Any) -> Value:
         """What ``read`` returns, if nothing was wrong.
 
         Raises:
             InputError: this, or something before, could not be used.
         """
-        value = self.reading(read, *arguments)
+        value = self.reading(read, *arguments, **named)
         self.raise_all()
         assert value is not None
         return value
+
+    def each(self, read: Callable[[str], Value], texts: Iterable[str]) -> list[Value]:
+        """What ``read`` returns for each text, if nothing was wrong.
+
+        Raises:
+            InputError: one of them, or something before, could not be used.
+        """
+        values = [self.reading(read, text) for text in texts]
+        self.raise_all()
+        return [value for value in values if value is not None]
 
     def raise_all(self) -> None:
         """Raise what was gathered.
@@ -65,16 +74,15 @@ def parse_decimals(option: str, text: str | None) -> tuple[Fraction, ...] | None
     """
     if text is None:
         return None
-    words = [word.strip() for word in text.split(",")]
-    rule, repair = "is not a decimal number", f"write {option} 0.8, or 0.8,0.9,1"
-    problems = [
-        Problem("argument", None, option, word or repr(text), rule, repair)
-        for word in words
-        if not _DECIMAL.fullmatch(word)
-    ]
-    if problems:
-        raise InputError(problems)
-    return tuple(map(Fraction, words))
+    from lyapcheck.files.decimals import DECIMAL
+
+    def read(word: str) -> Fraction:
+        if not DECIMAL.fullmatch(word.strip()):
+            value, repair = word.strip() or repr(text), f"write {option} 0.8, or 0.8,0.9,1"
+            raise argument_error(option, value, "is not a decimal number", repair)
+        return Fraction(word)
+
+    return tuple(Complaints().each(read, text.split(",")))
 
 
 def parse_decimal(option: str, text: str | None) -> Fraction | None:
@@ -89,46 +97,31 @@ def parse_decimal(option: str, text: str | None) -> Fraction | None:
     return None if values is None else values[0]
 
 
-def parse_m(text: str, option: str = "--m") -> tuple[int, ...]:
+def parse_m(text: str) -> tuple[int, ...]:
     """The members named by a list of whole numbers and ranges ``low:high``, ascending, each once.
 
     Raises:
         InputError: one problem for every part of the list that cannot be used.
     """
-    result: set[int] = set()
-    problems: list[Problem] = []
-    for part in text.split(","):
-        rule, repair = _complaint(part)
-        if rule:
-            problems.append(Problem("argument", None, option, part.strip() or repr(text), rule, repair))
-        else:
-            ends = [int(end) for end in part.split(":")]
-            result.update(range(ends[0], ends[-1] + 1))
-    if problems:
-        raise InputError(problems)
-    return tuple(sorted(result))
-
-
-def _complaint(part: str) -> tuple[str, str]:
-    """What is wrong with one part, and the repair; two empty strings if nothing is."""
     from lyapcheck.family.base import LARGEST_M
 
-    ends = [end.strip() for end in part.split(":")]
-    if len(ends) > 2 or not all(_is_whole(end) for end in ends):
-        return "is not a whole number or a range of them", "write 3, 1,2,5 or 1:12"
-    low, high = int(ends[0]), int(ends[-1])
-    if low < 1:
-        return "m must be at least 1", "the family starts at m = 1"
-    if high > LARGEST_M:
-        return f"m must be at most {LARGEST_M}", f"stay within 1:{LARGEST_M}"
-    if low > high:
-        return "the range is empty", f"write {high}:{low}"
-    return "", ""
+    def read(part: str) -> range:
+        ends = [end.strip() for end in part.split(":")]
+        subject = part.strip() or repr(text)
+        if len(ends) > 2 or not all(map(_WHOLE.fullmatch, ends)):
+            rule = "is not a whole number or a range of them"
+            raise argument_error("--m", subject, rule, "write 3, 1,2,5 or 1:12")
+        low, high = int(ends[0]), int(ends[-1])
+        if low < 1:
+            raise argument_error("--m", subject, "m must be at least 1", "the family starts at m = 1")
+        if high > LARGEST_M:
+            rule = f"m must be at most {LARGEST_M}"
+            raise argument_error("--m", subject, rule, f"stay within 1:{LARGEST_M}")
+        if low > high:
+            raise argument_error("--m", subject, "the range is empty", f"write {high}:{low}")
+        return range(low, high + 1)
 
-
-def _is_whole(text: str) -> bool:
-    digits = text.removeprefix("-")
-    return digits.isascii() and digits.isdecimal() and len(digits) <= _MOST_DIGITS
+    return tuple(sorted(set().union(*Complaints().each(read, text.split(",")))))
 
 
 def robot_name(robot: str | None, gain_files: Iterable[GainFile]) -> str:
@@ -218,10 +211,7 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
         return ()
     from lyapcheck.robots.vary import Vary
 
-    wrong = Complaints()
-    result = [wrong.reading(Vary.parsed, text) for text in texts]
-    wrong.raise_all()
-    return tuple(one for one in result if one is not None)
+    return tuple(Complaints().each(Vary.parsed, texts))
 
 
 def loop_of(options: Mapping[str, Any]) -> LoopEntry:

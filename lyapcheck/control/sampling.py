@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import Any
 
 from lyapcheck.errors import InputError, argument_error
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import DECIMAL, decimal_text
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 
@@ -129,9 +128,6 @@ def record_of(
 # --- The same from a command line.
 
 
-_DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?", re.IGNORECASE | re.ASCII)
-
-
 def loop_of_options(options: Mapping[str, Any]) -> LoopEntry:
     """What the options of `lyapcheck.cli.parser.LOOP` say, each text as in a file; ``None`` is not given.
 
@@ -154,7 +150,7 @@ def _option(key: str) -> str:
 
 def _typed(value: Any) -> Any:
     text = value.strip() if isinstance(value, str) else ""
-    if not _DECIMAL.fullmatch(text):
+    if not DECIMAL.fullmatch(text):
         return value
     number = Fraction(text)
     return int(number) if number.denominator == 1 else number

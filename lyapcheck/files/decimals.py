@@ -20,6 +20,9 @@ RANGE = f"must be between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT} in size
 LONGEST = 1000
 """Characters of a decimal; what is longer was not written by anyone who meant it."""
 
+DECIMAL = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?", re.IGNORECASE | re.ASCII)
+"""What an option takes for an exact number."""
+
 
 class Written(Fraction):
     """An exact rational that remembers the text it was read from."""

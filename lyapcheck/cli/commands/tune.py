@@ -218,16 +218,7 @@ def _tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[T
 
     model = load(robot)
     default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
-    try:
-        return tuple(task_of(model, goal, start, None) for goal in goals or [default])
-    except InputError as error:
-        problems = [
-            replace(
-                one, **{part: getattr(one, part).replace("--target", "--goal") for part in ("key", "repair")}
-            )
-            for one in error.problems
-        ]
-        raise InputError(problems) from None
+    return tuple(task_of(model, goal, start, None, goal="--goal") for goal in goals or [default])
 
 
 def _targets_of(wrong: Complaints, options: dict[str, Any]) -> Targets:
