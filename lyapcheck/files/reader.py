@@ -34,7 +34,6 @@ URDF = Bound(5_000_000, "give a file of one robot")
 """A humanoid with all its meshes named has about half a million."""
 SCRIPT = Bound(2_000_000, "keep what is computed in modules that it imports")
 """The longest proof that comes with lyapcheck has fifty thousand."""
-"""Two hundred thousand samples of twelve joints with all their digits."""
 REPORT = Bound(50_000_000, "name a report.json, or the folder that holds it")
 """That of the paper's arm has a bit more than a million."""
 

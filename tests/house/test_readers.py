@@ -16,7 +16,7 @@ OURS = {
     ("answers/explain.py", "_cited"): "the bibliography of the package",
     ("lyapunov/loop.py", "source"): "source of the package",
     ("export/controller.py", "texts"): "source of the package",
-    ("cli/commands/export.py", "_free"): "what export has written before, whose size is looked at first",
+    ("cli/commands/init.py", "run"): "the first files of the package",
     ("lyapunov/compiler.py", "library"): "what the compiler has just written to a folder of ours",
     ("kernel/coq.py", "_compile_library"): "the library of the package",
     ("kernel/coq.py", "sources"): "the library of the package",

@@ -10,7 +10,7 @@ import pytest
 
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.script import find_script
-from lyapcheck.cli.commands.init import ARM_TEXT
+from lyapcheck.extensions import shipped
 from lyapcheck.family import hyperbolic
 from lyapcheck.report.model import published_notes
 from lyapcheck.robots import Number, load
@@ -257,7 +257,8 @@ def test_robot_properties_hold_for_other_arms(robot):
 @pytest.mark.slow
 def test_what_an_arm_file_does_not_say_leaves_claims_open_not_broken(tmp_path):
     path = tmp_path / "arm.toml"
-    path.write_text(re.sub(r"torque_limit.*\n", "", ARM_TEXT), encoding="utf-8")
+    text = (shipped("examples") / "init/arm.toml").read_text(encoding="utf-8")
+    path.write_text(re.sub(r"torque_limit.*\n", "", text), encoding="utf-8")
     rows = run_proof("published.py", ms=(2,), robot=str(path)).claims
     assert all(row.verdict is not Verdict.ERROR for row in rows)
     row = next(row for row in rows if row.id == "10j")

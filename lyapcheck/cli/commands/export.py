@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.cli.show import open_folder, show, write_whole
 from lyapcheck.cli.values import Complaints, gains_on_arm, loop_of, require_joints
 from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.files.reader import holds
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -67,22 +68,15 @@ def run(
     answer = export(gain_file, model, loop, robot, wrapped=wrapped, hold=hold_samples)
     files = {name: text for one in answer.sets for name, text in one.files.items()}
     folder = open_folder("--out", out)
-    others = [folder / name for name, text in files.items() if not _free(folder / name, text)]
+    paths = {folder / name: text.encode() for name, text in files.items()}
+    others = [path for path, data in paths.items() if path.exists() and not holds(path, data)]
     if others:
         rule, repair = "is there already, with other content", "name another folder, or move it away"
         raise InputError([Problem("argument", None, "--out", str(path), rule, repair) for path in others])
-    for name, text in files.items():
-        write_whole(folder / name, text)
+    for path, data in paths.items():
+        write_whole(path, data)
     show(answer, format)
     return Exit.PROVED
-
-
-def _free(path: Path, text: str) -> bool:
-    """Whether nothing else is lost where this is written."""
-    data = text.encode()
-    if not path.exists():
-        return True
-    return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
 
 
 def _runnable(loop: LoopRecord | None) -> LoopRecord:

@@ -7,54 +7,14 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import open_folder, write_whole
 from lyapcheck.errors import InputError, Problem, argument_error
+from lyapcheck.extensions import shipped
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
 
 GAINS, ARM = "gains.toml", "arm.toml"
-GAIN_TEXT = """\
-# Gains for lyapcheck gate. Every decimal is read exactly.
-robot = "arm.toml"              # arm file or URDF file, or the name of an arm, for example ur5
-
-[[gains]]
-name = "first"
-m = 1                           # order of h_m, where h_1 is tanh
-kp = [22, 10]                   # N·m, one per joint
-kv = [12, 3]                    # N·m
-condition = ["10p", "scalar"]   # conditions: torque limits, and a stability proof for this arm
-# Gains for your arm: lyapcheck tune arm.toml --m 1 --overshoot 5 --settle 2.5 --rest-error 3 --out tuned.toml
-"""
-ARM_TEXT = """\
-# Two-joint arm in a vertical plane. Edit the numbers. Mark a number that no data sheet has:
-#   viscous = { value = 0.3, assumed = true, low = 0.2, high = 0.5, note = "why" }
-# Have a URDF file? Run lyapcheck robot arm.urdf --export arm.toml instead.
-title = "My arm"
-gravity = [0, 0, -9.81]         # m/s², in the base frame
-
-[[links]]                       # one for each joint and the link that it moves, base first
-name = "shoulder"
-axis = [0, 1, 0]                # axis of rotation
-origin = [0, 0, 0]              # position of the joint, seen from the previous joint or the base, m
-mass = 6                        # kg
-com = [0, 0, -0.1]              # centre of mass, seen from the joint, m
-inertia = 0.12                  # about the centre of mass, kg·m². If axes are not parallel, a table:
-#   inertia = { ixx = 0.12, iyy = 0.12, izz = 0.02 }   and ixy, ixz, iyz if not zero
-viscous = 0.5                   # viscous friction, N·m·s/rad
-coulomb = 1                     # dry friction, N·m, optional
-torque_limit = 80               # motor limit, N·m, optional
-
-[[links]]
-name = "elbow"
-axis = [0, 1, 0]
-origin = [0, 0, -0.3]
-mass = 2
-com = [0, 0, -0.05]
-inertia = 0.02
-viscous = 0.3
-coulomb = 0.4
-torque_limit = 20
-"""
+"""Files of ``examples/init``."""
 
 
 def arguments(parser: Parser) -> None:
@@ -85,7 +45,8 @@ def run(folder: Path, source: Path | None, robot: str | None) -> Exit:
         repair = "write --from pid.yaml --arm arm.urdf"
         raise argument_error(missing, "", "is missing: gains are brought over for an arm", repair)
     place = open_folder("DIR", folder)
-    texts = {GAINS: GAIN_TEXT, ARM: ARM_TEXT}
+    first = shipped("examples") / "init"
+    texts = {name: (first / name).read_text(encoding="utf-8") for name in (GAINS, ARM)}
     if source is not None and robot is not None:
         from lyapcheck.answers.tune.gain_file import brought_file
 
