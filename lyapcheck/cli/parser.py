@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
-from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.output.answer import JUDGED_FORMATS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -111,7 +111,7 @@ class Parser(argparse.ArgumentParser):
         about = "Do not read or write the cache, $XDG_CACHE_HOME/lyapcheck."
         self.add_argument("--no-store", action="store_true", help=about)
 
-    def add_format(self, formats: Iterable[str] = JudgedFormat) -> None:
+    def add_format(self, formats: Iterable[str] = JUDGED_FORMATS) -> None:
         """``--format``, the name of one of some formats, and how a text is shown."""
         self.add_choice("--format", formats, "Output format.", default="text")
         self.add_argument("-q", "--quiet", action="store_true", help="Show the first line only.")

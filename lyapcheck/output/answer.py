@@ -1,4 +1,4 @@
-"""What every answer can say of itself."""
+"""What every answer can say of itself, and the formats by name."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from enum import StrEnum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from lyapcheck import output
+from lyapcheck.extensions import defining
 from lyapcheck.output.document import Bullets, Document
 from lyapcheck.output.escapes import document_text
 
@@ -60,7 +62,14 @@ class Annotation:
         return ": ".join(part for part in (self.group, self.case) if part)
 
 
+OF_JUDGEMENTS = ("github", "junit", "sarif")
+"""What only systems read that run checks."""
+JUDGED_FORMATS = defining("render", output.__path__)
+"""All that ``output`` has: for answers with verdicts."""
+FORMATS = tuple(name for name in JUDGED_FORMATS if name not in OF_JUDGEMENTS)
+"""What every answer can be written in."""
 DOCUMENTS = ("markdown", "html", "latex")
+"""Formats of the document alone."""
 
 
 class Answer(ABC):
@@ -104,7 +113,7 @@ class Answer(ABC):
         Its ``render`` gets the answer; those of ``text`` and ``DOCUMENTS`` only the document of the answer.
 
         Args:
-            format: a value of :class:`~lyapcheck.output.formats.JudgedFormat`: a file of ``output``.
+            format: a value of `JUDGED_FORMATS`: a file of ``output``.
             view: how much of a text is shown, how wide, and whether in colour.
         """
         renderer = import_module(f"lyapcheck.output.{format}")

@@ -15,8 +15,7 @@ from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.errors import InputError
-from lyapcheck.output.answer import Level
-from lyapcheck.output.formats import Format
+from lyapcheck.output.answer import FORMATS, Level
 from lyapcheck.promise import Promise
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, corners
@@ -85,7 +84,7 @@ def test_a_planted_certificate_raises_the_alarm(case):
         require_consistent(controlled, result.witness, {"scalar": result.falsified})
 
 
-@pytest.mark.parametrize("name", Format)
+@pytest.mark.parametrize("name", FORMATS)
 def test_seconds_are_there_where_they_were_asked_for(case, name):
     timed = EpsilonResults((case[1],), seconds=(1.5,))
     assert "seconds" in timed.written(name)

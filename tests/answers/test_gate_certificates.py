@@ -22,8 +22,8 @@ from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.judgement import JudgedStatement, degrees_above
 from lyapcheck.errors import InputError
+from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.output.digits import at_least
-from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.output.text import Depth, View
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import DecreaseProof
@@ -325,7 +325,7 @@ def test_without_friction_lasalle_is_what_is_known(tmp_path):
     assert all("no viscous friction" in check.reason for check in others.checks[-2:])
 
 
-@pytest.mark.parametrize("name", JudgedFormat)
+@pytest.mark.parametrize("name", JUDGED_FORMATS)
 def test_every_format_tells_the_value_or_the_reason(name, everywhere):
     results = list(everywhere.values())
     text = " ".join(GateAnswer(results).written(name, View(Depth.VERBOSE)).split())

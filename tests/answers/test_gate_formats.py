@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from lyapcheck.answers.gate import GateAnswer, gate
 from lyapcheck.answers.gate.words import significant_text
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
-from lyapcheck.output.answer import Level
+from lyapcheck.output.answer import JUDGED_FORMATS, Level
 from lyapcheck.output.document import Table
-from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.output.text import Depth, View
 
 
@@ -30,14 +29,14 @@ def undecided(tmp_path_factory):
     return gate(read_gain_file(path))
 
 
-@pytest.mark.parametrize("name", JudgedFormat)
+@pytest.mark.parametrize("name", JUDGED_FORMATS)
 def test_each_format_tells_the_whole_outcome(name, paper):
     text = paper.written(name, View(Depth.VERBOSE)).replace(r"\_", "_")
     for part in ("tau_m2", "tau_m3", "0.223", "0.222", "0.210", "shoulder"):
         assert part in text
 
 
-@pytest.mark.parametrize("name", JudgedFormat)
+@pytest.mark.parametrize("name", JUDGED_FORMATS)
 def test_what_is_undecided_says_why(name, undecided):
     text = undecided.written(name)
     assert "torque limit" in text

@@ -22,7 +22,7 @@ from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, varied
 from tests.helpers.arm_texts import arm_of
@@ -252,7 +252,7 @@ def test_every_format_says_it() -> None:
     asked = LoopEntry(period=Fraction(1, 500), unknown_payload=Fraction(1))
     answer = gate(read_gain_file(EXAMPLES / "panda_gains.toml"), loop=asked)
     assert answer.exit_code == 1
-    for form in JudgedFormat:
+    for form in JUDGED_FORMATS:
         assert "panda_joint2 falls" in " ".join(answer.written(form).replace("\\_", "_").split()), form
 
 

@@ -13,9 +13,8 @@ from markdown_it import MarkdownIt
 
 from lyapcheck.cli.main import main
 from lyapcheck.output import escapes
-from lyapcheck.output.answer import Answer
+from lyapcheck.output.answer import FORMATS, JUDGED_FORMATS, Answer
 from lyapcheck.output.escapes import document_text, printable
-from lyapcheck.output.formats import Format, JudgedFormat
 from tests.helpers.shares import but, one_in
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
@@ -170,17 +169,17 @@ CHECKS = {
 }
 SHORT = "--target 10 --time 0.1"
 COMMANDS = {
-    "gate gains.toml": JudgedFormat,
-    "table --m 1 --robot arm.toml": Format,
-    "check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd": JudgedFormat,
-    f"simulate gains.toml {SHORT}": JudgedFormat,
-    f"simulate gains.toml {SHORT} --runs 2": JudgedFormat,
-    "simulate gains.toml --reference reference.toml": JudgedFormat,
-    "epsilon one.toml --max-boxes 20 --starts 1": JudgedFormat,
-    f"bounds one.toml {SHORT} --friction 0.01": JudgedFormat,
-    "robot arm.toml --max-boxes 20": JudgedFormat,
-    "robot arm.urdf --max-boxes 20": JudgedFormat,
-    "tune arm.toml": Format,
+    "gate gains.toml": JUDGED_FORMATS,
+    "table --m 1 --robot arm.toml": FORMATS,
+    "check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd": JUDGED_FORMATS,
+    f"simulate gains.toml {SHORT}": JUDGED_FORMATS,
+    f"simulate gains.toml {SHORT} --runs 2": JUDGED_FORMATS,
+    "simulate gains.toml --reference reference.toml": JUDGED_FORMATS,
+    "epsilon one.toml --max-boxes 20 --starts 1": JUDGED_FORMATS,
+    f"bounds one.toml {SHORT} --friction 0.01": JUDGED_FORMATS,
+    "robot arm.toml --max-boxes 20": JUDGED_FORMATS,
+    "robot arm.urdf --max-boxes 20": JUDGED_FORMATS,
+    "tune arm.toml": FORMATS,
 }
 
 

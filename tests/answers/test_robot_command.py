@@ -20,8 +20,7 @@ from lyapcheck.claims.decision import undecided
 from lyapcheck.constants import ConstantResult, arm_constants
 from lyapcheck.errors import InputError
 from lyapcheck.output import text as plain
-from lyapcheck.output.answer import Level
-from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.output.answer import JUDGED_FORMATS, Level
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary
 from tests.helpers.command import invoke
@@ -206,7 +205,7 @@ def test_what_was_not_proved_is_seen_first_and_fails_at_its_file():
     assert cases["2.1"].level is Level.PASSED
     suite = ET.fromstring(report.written("junit"))[0]
     assert (suite.get("name"), suite.get("tests"), suite.get("failures")) == ("ur5", "8", "1")
-    for form in JudgedFormat:
+    for form in JUDGED_FORMATS:
         assert report.written(form) == report.written(form)
     rows = list(csv.DictReader(io.StringIO(report.written("csv")), strict=True))
     assert [row["id"] for row in rows if row["kind"] == "property"] == [f"2.{k}" for k in range(1, 9)]

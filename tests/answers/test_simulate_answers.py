@@ -21,8 +21,7 @@ from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
 from lyapcheck.answers.simulate.starts import RandomStarts
 from lyapcheck.answers.simulate.tracking import TrackingRuns
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
-from lyapcheck.output.answer import Level
-from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.output.answer import JUDGED_FORMATS, Level
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.many import Starts, sweep
 from lyapcheck.simulate.reference import MinimumJerk
@@ -177,7 +176,7 @@ def test_a_gain_set_without_a_run_is_told_all_the_same() -> None:
     assert answer.exit_code is Exit.UNDECIDED
     assert "nothing was reached" in str(answer)
     assert [case.level for case in answer.annotations()] == [Level.UNDECIDED]
-    for form in JudgedFormat:
+    for form in JUDGED_FORMATS:
         assert answer.written(form)
 
 

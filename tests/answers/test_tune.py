@@ -17,9 +17,9 @@ from lyapcheck.answers.tune.gain_file import gain_file_text
 from lyapcheck.answers.tune.largest import best_units, binding, damping_of, propose
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.answers.tune.tuning import _limits, _rooms, tune
-from lyapcheck.cli.commands.tune import FORMATS
 from lyapcheck.control.gains import Bounds, read_gain_file
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, at_values
@@ -331,7 +331,7 @@ def test_an_unknown_arm_does_not_hide_the_other_mistakes():
     assert sorted(problem.key for problem in problems) == ["--torque", "--viscous-min", "robot"]
 
 
-@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize("form", (*FORMATS, "toml"))
 def test_every_format_holds_the_gains(form):
     assert "63.112" in run("buap3", "--m", "1", "--viscous-min", "0.406", "--format", form).stdout
 

@@ -27,7 +27,7 @@ from lyapcheck.control.limits import varied_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
 from lyapcheck.files.loop import NOTHING
-from lyapcheck.output.formats import Format
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.output.text import Depth, View, render
 from lyapcheck.robots.vary import Vary
 from lyapcheck.simulate.closed_loop import simulate
@@ -301,7 +301,7 @@ def test_every_number_of_a_trial_has_words(
         )
         sets.append(Candidate(gains, trial, way, ("(10p)", "")))
     tuning = BenchTuning("arm", model, bench, tuple(sets))
-    for form in Format:
+    for form in FORMATS:
         assert tuning.written(form)
     assert (tuning.exit == Exit.PROVED) == tuning.document().title.startswith(("!", "✓"))
     assert "nan" not in str(tuning)

@@ -23,7 +23,7 @@ from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.decision import file_name
-from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.rechecking.command import as_json, text
 from lyapcheck.rechecking.trusted import GENERAL
 from tests.helpers.command import lyapcheck as command
@@ -277,7 +277,7 @@ def test_systems_that_run_checks_get_a_case_a_certificate(folder):
     assert cases["b.json"].path == str(folder / "b.json")
 
 
-@pytest.mark.parametrize("name", JudgedFormat)
+@pytest.mark.parametrize("name", JUDGED_FORMATS)
 def test_every_format_has_the_exit_code_and_names_the_file(folder, name):
     rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
     done = command("recheck", folder / "a.json", "--format", name.value)

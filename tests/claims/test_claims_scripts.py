@@ -10,8 +10,8 @@ from fastjsonschema import JsonSchemaException
 
 from lyapcheck.claims import run_proof
 from lyapcheck.errors import InputError
+from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.output.document import Section, Table
-from lyapcheck.output.formats import JudgedFormat
 from lyapcheck.verdicts import Exit, Verdict
 from tests.helpers.json_schema import follows
 
@@ -178,7 +178,7 @@ def test_a_claim_about_a_robot_is_undecided_without_one(write):
 def test_output_is_the_same_every_time_and_has_no_clock(write):
     path = write(CHAIN.replace("{slope}", "1"))
     one, two = (run_proof(path, ms=(1,), n=2) for _ in range(2))
-    for name in JudgedFormat:
+    for name in JUDGED_FORMATS:
         first, second = one.written(name), two.written(name)
         assert first == second
         assert "seconds" not in first
@@ -208,7 +208,7 @@ def test_the_statement_is_what_was_decided_and_the_comment_the_authors_words(wri
     assert "| the author's words: “All is stable.” |" in table
     (case,) = result.annotations()
     assert case.message.startswith("d refuted: 3 ≤ 1; ")
-    for name in JudgedFormat:
+    for name in JUDGED_FORMATS:
         shown = result.written(name)
         assert ("3 ≤ 1" if name != "latex" else r"3 \ensuremath{\le} 1") in shown
         assert shown.count("All is stable.") == (2 if name == "sarif" else 1)

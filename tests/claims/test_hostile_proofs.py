@@ -6,7 +6,7 @@ from lyapcheck.answers.explain import explain
 from lyapcheck.answers.recheck import Recheck
 from lyapcheck.check.recheck import gather, recheck
 from lyapcheck.claims import run_proof
-from lyapcheck.output.formats import Format, JudgedFormat
+from lyapcheck.output.answer import FORMATS, JUDGED_FORMATS
 from tests.answers.test_hostile_names import CHECKS, NASTY
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
@@ -33,18 +33,18 @@ def result(script):
     return run_proof(script, ms=(1,), n=1)
 
 
-@pytest.mark.parametrize("form", JudgedFormat)
+@pytest.mark.parametrize("form", JUDGED_FORMATS)
 def test_no_format_of_check_obeys_an_author(form, result):
     assert [row.verdict.value for row in result.claims[:2]] == ["proved", "refuted"]
     check(form, result.written(form))
 
 
-@pytest.mark.parametrize("form", Format)
+@pytest.mark.parametrize("form", FORMATS)
 def test_no_format_of_explain_obeys_an_author(form, script):
     check(form, explain("last", str(script)).written(form))
 
 
-@pytest.mark.parametrize("form", JudgedFormat)
+@pytest.mark.parametrize("form", JUDGED_FORMATS)
 def test_no_format_of_recheck_obeys_an_author(form, result, tmp_path):
     for k, certificate in enumerate(result.certificates.values()):
         (tmp_path / f"{k}|<script>_$&%#^~[x]`*.json").write_text(certificate.text(), encoding="utf-8")

@@ -12,10 +12,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from lyapcheck.output.answer import Annotation, Answer, Level
+from lyapcheck.output.answer import FORMATS, JUDGED_FORMATS, Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Code, Document, Paragraph, Section, Table
 from lyapcheck.output.escapes import document_text, latex_text, printable
-from lyapcheck.output.formats import Format, JudgedFormat
 from lyapcheck.output.json import LONGEST, laid_out
 from lyapcheck.output.text import Depth, View, render
 from tests.helpers.letters import letters
@@ -123,7 +122,7 @@ def test_junit_shows_what_prints(name):
     assert suite.findtext("system-out") == document_text(name)
 
 
-@pytest.mark.parametrize("format", JudgedFormat)
+@pytest.mark.parametrize("format", JUDGED_FORMATS)
 def test_a_format_ends_its_last_line_and_is_the_same_twice(format):  # noqa: A002
     once = Sample("a").written(format)
     assert once == Sample("a").written(format)
@@ -132,7 +131,7 @@ def test_a_format_ends_its_last_line_and_is_the_same_twice(format):  # noqa: A00
 
 
 def test_what_judges_has_the_formats_of_all_and_three_more():
-    assert {*Format} == {*JudgedFormat} - {"sarif", "junit", "github"}
+    assert {*FORMATS} == {*JUDGED_FORMATS} - {"sarif", "junit", "github"}
 
 
 def test_an_answer_prints_as_text_and_shows_itself_in_a_notebook():

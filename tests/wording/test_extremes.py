@@ -12,8 +12,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from lyapcheck.answers.table import Table
-from lyapcheck.output.answer import Answer
-from lyapcheck.output.formats import JudgedFormat
+from lyapcheck.output.answer import JUDGED_FORMATS, Answer
 from tests.helpers.command import invoke, lyapcheck
 from tests.helpers.redrawn import redrawn
 from tests.helpers.urdf_texts import generic
@@ -100,7 +99,7 @@ def answer_of(words, folder, monkeypatch):
 
 def hold(answer):
     """Written in every format, without a word for what is no number."""
-    for form in JudgedFormat:
+    for form in JUDGED_FORMATS:
         text = answer.written(form)
         found = [text[max(0, one.start() - 60) : one.end() + 20] for one in NO_NUMBER.finditer(text)]
         assert not found, (form, found[:2])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
 from lyapcheck.cli.values import parse_m
-from lyapcheck.output.formats import Format
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ def arguments(parser: Parser) -> None:
     parser.add_number("--n", int, "Number of joints for V and dV/dt.", default=2)
     about = "Arm by name or file. Its M, C and g are printed, and it sets n."
     parser.add_robot(about)
-    parser.add_format(Format)
+    parser.add_format(FORMATS)
 
 
 def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002

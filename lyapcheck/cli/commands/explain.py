@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import progress, show
-from lyapcheck.output.formats import Format
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ def arguments(parser: Parser) -> None:
     about = "Proof script with the claim. Default: the first script of lyapcheck that has it."
     parser.add_argument("--proof", metavar="FILE", help=about)
     parser.add_no_store()
-    parser.add_format(Format)
+    parser.add_format(FORMATS)
 
 
 def run(

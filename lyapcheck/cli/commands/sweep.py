@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from lyapcheck._types import Progress
 from lyapcheck.cli.show import progress, show
 from lyapcheck.errors import argument_error
-from lyapcheck.output.formats import Format
+from lyapcheck.output.answer import FORMATS
 
 if TYPE_CHECKING:
     from lyapcheck.answers.sweep.question import Answered
@@ -32,7 +32,7 @@ def arguments(parser: Parser) -> None:
     about = "Continue the sweep in --out. Kept answers are verified again."
     parser.add_argument("--resume", action="store_true", help=about)
     parser.add_no_store()
-    parser.add_format(Format)
+    parser.add_format(FORMATS)
 
 
 def run(

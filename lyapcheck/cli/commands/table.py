@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.cli.show import PATIENCE, certificate_folder, progress, show, write_certificates
 from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import argument_error
-from lyapcheck.output.formats import Format
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def arguments(parser: Parser) -> None:
     about = "Add the largest k_p + k_v that the motors of this arm allow, for each joint."
     parser.add_robot(about)
     parser.add_certificates("Write the certificates of γ and ρ to this folder")
-    parser.add_format(Format)
+    parser.add_format(FORMATS)
 
 
 def run(

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.cli.show import progress, require_writable, show, write_whole
 from lyapcheck.cli.values import Complaints, loop_of, parse_decimal, parse_decimals, parse_m, varies
 from lyapcheck.errors import InputError, argument_error
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.output.escapes import document_text
-from lyapcheck.output.formats import Format
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -30,8 +30,6 @@ MOST_RUNS, MOST_SPREAD = 64, 90.0
 """Random motions, and degrees about their middle."""
 WAYS = ("19", "proof")
 """How stability may be shown."""
-FORMATS = (*Format, "toml")
-"""What every answer can be written in, and the gain file alone."""
 TARGETS = ("overshoot", "settle", "rest_error")
 FOR_LARGEST = ("kv_share", "kv_min", "damping")
 """Options that have a meaning without targets only."""
@@ -80,7 +78,7 @@ def arguments(parser: Parser) -> None:
     parser.add_argument("--out", metavar="FILE", type=Path, help="Write the gains to this file.")
     about = "With targets, write the best set, marked, if no set meets the targets."
     parser.add_argument("--best", action="store_true", help=about)
-    parser.add_format(FORMATS)
+    parser.add_format((*FORMATS, "toml"))  # the gain file alone
 
 
 def run(

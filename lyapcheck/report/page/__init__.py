@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.document import Block, Figure
-from lyapcheck.output.html import blocks
-from lyapcheck.output.mathml import Markup, element, joined, latex, sentence
+from lyapcheck.output.html import Markup, blocks, element, joined, latex, sentence
 from lyapcheck.report import findings
 from lyapcheck.report.document import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, Tile, anchor, behind
@@ -70,7 +69,7 @@ def markup(template: str, **values: Any) -> Markup:
 
 @cache
 def _templates() -> Environment:
-    """Templates in which ``output.mathml.joined`` escapes whatever is not markup."""
+    """Templates in which ``output.html.joined`` escapes whatever is not markup."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     result = Environment(
