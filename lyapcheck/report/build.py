@@ -18,11 +18,11 @@ from lyapcheck.errors import argument_error
 from lyapcheck.files.reader import holds
 from lyapcheck.process_tree import pending, temporary_folder
 from lyapcheck.report.document import ReportAnswer
-from lyapcheck.report.document import render as pdf
 from lyapcheck.report.findings import as_the_gate_judges, findings, own_findings
 from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
 from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import render as page
+from lyapcheck.report.pdf import render as pdf
 from lyapcheck.report.plots import draw_epsilon, draw_family, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
 

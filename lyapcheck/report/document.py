@@ -6,18 +6,14 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
-from pathlib import Path
 from typing import Any
 
-from lyapcheck.errors import argument_error
 from lyapcheck.files.fields import file_stem
 from lyapcheck.kernel.coq import GRADE
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most, shown
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table
 from lyapcheck.output.fields import Field, table
-from lyapcheck.output.typst import markup
-from lyapcheck.process_tree import temporary_folder
 from lyapcheck.report.findings import and_list, member_words, witness_place, witness_sides
 from lyapcheck.report.model import KINDS, SIGNS, WEIGHTS, EpsilonRow, Finding, Report, RunRow
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
@@ -349,42 +345,3 @@ def _kernel(report: Report) -> Iterator[Block]:
             f"{len(kernel)} of {len(rows)} verdicts. With Coq installed, it judges them anew by"
         )
         yield Code("lyapcheck recheck --kernel certificates/*/")
-
-
-# --- The report on paper: typeset by Typst, which needs no browser.
-
-
-def require_typst() -> None:
-    """Refuse before any work what could not be written at its end.
-
-    Raises:
-        InputError: the typesetter is not installed.
-    """
-    try:
-        import typst  # noqa: F401
-    except ImportError as error:
-        repair = "install it with: pip install lyapcheck[pdf]"
-        raise argument_error("--format", "pdf", "needs the package typst", repair) from error
-
-
-def render(report: Report, appendix: bool = False) -> bytes:
-    """A PDF of a few pages; the same report gives the same bytes.
-
-    Args:
-        appendix: whether claims, gate and runs follow one by one.
-    """
-    import typst
-
-    document = ReportAnswer(report, appendix).document()
-    running = document.title if report.own else f"{document.title} · {report.notes.paper.source}"
-    with temporary_folder() as folder:
-        source = Path(folder, "report.typ")
-        source.write_text(markup(document, running), encoding="utf-8")
-        for name, drawing in report.figures.items():
-            if isinstance(drawing, str) and name.endswith(".svg"):
-                path = Path(folder, "figures", name)
-                path.parent.mkdir(exist_ok=True)
-                path.write_text(drawing, encoding="utf-8")
-        pages = typst.compile(str(source), root=folder, ignore_system_fonts=True)
-    assert isinstance(pages, bytes)
-    return pages

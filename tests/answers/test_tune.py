@@ -331,7 +331,7 @@ def test_an_unknown_arm_does_not_hide_the_other_mistakes():
     assert sorted(problem.key for problem in problems) == ["--torque", "--viscous-min", "robot"]
 
 
-@pytest.mark.parametrize("form", (*FORMATS, "toml"))
+@pytest.mark.parametrize("form", [*FORMATS, "toml"])
 def test_every_format_holds_the_gains(form):
     assert "63.112" in run("buap3", "--m", "1", "--viscous-min", "0.406", "--format", form).stdout
 

@@ -7,11 +7,11 @@ import pytest
 from lyapcheck.answers.derive import derivation
 from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.table import build_table
-from lyapcheck.output.typst import markup
 from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.jobs import derive_job
 from lyapcheck.report.model import Report, published_notes
+from lyapcheck.report.pdf import markup
 from lyapcheck.robots import load
 
 TITLE = "What SymPy derives, and what the checker says of it"

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from lyapcheck.output.document import Bullets, Code, Document, Figure, Paragraph, Section, Table
-from lyapcheck.output.typst import markup, quoted
+from lyapcheck.report.pdf import markup, quoted
 
 typst = pytest.importorskip("typst")
 NASTY = [

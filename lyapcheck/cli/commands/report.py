@@ -75,7 +75,8 @@ def run(
     from lyapcheck.report.build import build, render, write
     from lyapcheck.report.compare import compare as compared
     from lyapcheck.report.compare import read_report
-    from lyapcheck.report.document import ReportAnswer, require_typst
+    from lyapcheck.report.document import ReportAnswer
+    from lyapcheck.report.pdf import require_typst
     from lyapcheck.report.tiles import with_before
 
     formats = _formats(format)

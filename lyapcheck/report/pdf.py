@@ -1,4 +1,4 @@
-"""A document in the language of the typesetter Typst, for paper.
+"""The report on paper: typeset by Typst, which needs no browser.
 
 All text is in string literals, in which nothing but the quote and the backslash has a meaning.
 """
@@ -6,9 +6,14 @@ All text is in string literals, in which nothing but the quote and the backslash
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
+from lyapcheck.errors import argument_error
 from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import printable
+from lyapcheck.process_tree import temporary_folder
+from lyapcheck.report.document import ReportAnswer
+from lyapcheck.report.model import Report
 
 LAYOUT = """#set document(title: {title}, date: none)
 #set page(paper: "a4", margin: (x: 17mm, top: 18mm, bottom: 15mm), numbering: "1 / 1",
@@ -29,6 +34,42 @@ LAYOUT = """#set document(title: {title}, date: none)
 SIDES = {"l": "left", "r": "right"}
 WIDE = 9
 """A column of words that is longer than this many characters shares the width that others leave."""
+
+
+def require_typst() -> None:
+    """Refuse before any work what could not be written at its end.
+
+    Raises:
+        InputError: the typesetter is not installed.
+    """
+    try:
+        import typst  # noqa: F401
+    except ImportError as error:
+        repair = "install it with: pip install lyapcheck[pdf]"
+        raise argument_error("--format", "pdf", "needs the package typst", repair) from error
+
+
+def render(report: Report, appendix: bool = False) -> bytes:
+    """A PDF of a few pages; the same report gives the same bytes.
+
+    Args:
+        appendix: whether claims, gate and runs follow one by one.
+    """
+    import typst
+
+    document = ReportAnswer(report, appendix).document()
+    running = document.title if report.own else f"{document.title} · {report.notes.paper.source}"
+    with temporary_folder() as folder:
+        source = Path(folder, "report.typ")
+        source.write_text(markup(document, running), encoding="utf-8")
+        for name, drawing in report.figures.items():
+            if isinstance(drawing, str) and name.endswith(".svg"):
+                path = Path(folder, "figures", name)
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(drawing, encoding="utf-8")
+        pages = typst.compile(str(source), root=folder, ignore_system_fonts=True)
+    assert isinstance(pages, bytes)
+    return pages
 
 
 def markup(document: doc.Document, running: str) -> str:
