@@ -18,9 +18,8 @@ from lyapcheck.constants.storage import BoundWithProof
 # --- Trigonometric polynomials over boxes of angles: a linear part around the middle, and what it leaves.
 #
 # Over a box with half widths r a harmonic cos(k·q) or sin(k·q) turns by at most d = Σ |k_i| r_i from its
-# value in the middle. It moves by at most d within [−1, 1], and by at most d²/2 from its linear part.
-# Harmonics that turn far are bounded by the former, those that hardly turn by their slope and what is
-# sharper than the square.
+# value in the middle, and by at most d²/2 from its linear part. Harmonics that turn far are bounded by their
+# exact range, those that hardly turn by their slope and what is sharper than the square.
 #
 # Soundness: floating point with the error bounded beforehand: every value is trusted within ``SLACK`` times
 # the sum of the sizes of all coefficients, far more than the rounding of sines, products and sums amounts to.
@@ -45,7 +44,7 @@ def _sheared(multiples: Array, sizes: Array) -> tuple[Array, Array]:
 
 PI_ABOVE = 3.1415926535897936
 SLACK = 1e-12
-_NEAR = 0.5
+_NEAR = 0.25
 """Harmonics that turn by less than this many radians over half a box are bounded by their slope."""
 
 
@@ -65,6 +64,12 @@ class AffineForms:
     linear: Array
     radius: Array
 
+    @property
+    def reach(self) -> tuple[Array, Array]:
+        """Both ends of what each polynomial reaches."""
+        radius = np.abs(self.linear).sum(axis=1) + self.radius
+        return self.middle - radius, self.middle + radius
+
     def corners(self) -> Array:
         """middle + Σ_i ± linear_i for all signs, (boxes, 2 to the number of angles, entries).
 
@@ -83,9 +88,10 @@ class Torus:
     Args:
         entries: the polynomials.
         n: number of joints.
+        sheared: whether sums of angles may be coordinates.
     """
 
-    def __init__(self, entries: Sequence[Harmonics], n: int) -> None:
+    def __init__(self, entries: Sequence[Harmonics], n: int, sheared: bool = True) -> None:
         self.n = n
         sums = [
             {(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries
@@ -97,7 +103,8 @@ class Torus:
         self.slack: Array = SLACK * self._sizes.sum(axis=0)
         # q = back p, where back is whole and of determinant ±1
         multiples = np.array([k for k, _ in keys], dtype=np.float64)
-        self._multiples, self._back = _sheared(multiples, self._sizes.sum(axis=1))
+        sizes = self._sizes.sum(axis=1)
+        self._multiples, self._back = _sheared(multiples, sizes) if sheared else (multiples, np.eye(n))
         self._sine = np.array([sine for _, sine in keys]) > 0
         self._frequency: Array = np.abs(self._multiples)
         used = self._sizes.any(axis=1)
@@ -123,7 +130,11 @@ class Torus:
         values, turned = self._harmonics(middle)
         turn = half @ self._frequency.T
         near = turn < _NEAR
-        low, high = np.maximum(values - turn, -1.0), np.minimum(values + turn, 1.0)
+        far = np.minimum(turn, np.pi)
+        along, across = np.cos(far), turned * np.sin(far)
+        ends = values * along + across, values * along - across
+        low = np.where(-values >= along, -1.0, np.minimum(*ends))
+        high = np.where(values >= along, 1.0, np.maximum(*ends))
         # v cos d + u sin d at the distance d, v the value and u the slope: what is left of it without u d
         most = np.minimum(turn, _NEAR)
         least = np.cos(most)

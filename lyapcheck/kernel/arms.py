@@ -36,7 +36,8 @@ from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
-from lyapcheck.search.cover import SchurProblem, Splitter, cover
+from lyapcheck.search.cover import cover
+from lyapcheck.search.schur import SchurProblem
 
 FUEL = 30
 """How often a box of angles may be halved until M(q) ≻ 0 shows."""
@@ -106,15 +107,14 @@ def _finer(loop: ClosedLoop, tree: str) -> str:
     except BrokenTree:
         return tree
     problem = SchurProblem(loop)
-    splitter = Splitter.of(problem)
 
     def sides(boxes: Array) -> NDArray[np.intp]:
-        result = splitter.sides(boxes)
+        result = problem.by_estimate(boxes)
         for k, box in enumerate(boxes):
             result[k] = known.get(box.tobytes(), result[k])
         return result
 
-    return cover(np.array(loop.start).T[None], problem.proved, sides, MOST_BOXES).tree or tree
+    return cover(np.array(loop.start).T[None], problem.by_ranges, sides, MOST_BOXES).tree or tree
 
 
 def by_norms(loop: ClosedLoop, moving: bool = False) -> str:

@@ -26,10 +26,10 @@ from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.centred import judge_of
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
-from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, CoverOutcome, SchurProblem, cover
+from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, CoverOutcome, cover
 from lyapcheck.search.link_bounds import linked_epsilon
+from lyapcheck.search.schur import SchurProblem
 
 
 def certify(
@@ -47,8 +47,7 @@ def certify(
     if certifies(loop.tail, loop.eps0):
         return CoverOutcome(True, 0, tree=".")
     start = np.array(loop.start).T[None]
-    prove, sides = judge_of(problem)
-    return cover(start, prove, sides, max_boxes, on_progress, deadline)
+    return cover(start, problem.proved, problem.sides, max_boxes, on_progress, deadline)
 
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)

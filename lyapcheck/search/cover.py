@@ -1,104 +1,16 @@
-"""P of ``lyapcheck.check.loop`` over many boxes at once, as intervals, and how smaller boxes cover a box.
-
-What is found positive definite here is only a proposal: the checker looks at every box again, in balls.
-"""
+"""How smaller boxes cover a box: it is cut into halves, level after level, until a property is proved."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress
-from lyapcheck.check.loop.arithmetic import Ring
-from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.schur import Errors, form
-from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
 from lyapcheck.computing import computing_time
-from lyapcheck.family import Family, named
-from lyapcheck.search.interval import Interval, inverse_one_plus, norm, positive_definite, unit_vector
-from lyapcheck.search.interval_arm import ArmIntervals, dh_range, h_range
-
-RING = Ring(float, Interval.square)
-"""Intervals beside exact numbers."""
-
-
-@dataclass(frozen=True)
-class BoxSides:
-    """The columns of boxes (count, 2, sides) as intervals: q of every joint, e, parameters, and B."""
-
-    q: list[Interval]
-    e: list[Interval]
-    parameters: list[Interval]
-    viscous: list[Interval]
-
-
-@dataclass(frozen=True, eq=False)
-class SchurProblem:
-    """One controller on one arm at one ε₀, ready to be enclosed over boxes.
-
-    Args:
-        loop: what is to be proved; its ``start`` says which side is which.
-    """
-
-    loop: ClosedLoop
-    arm: ArmIntervals = field(init=False)
-    family: Family = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "arm", ArmIntervals(self.loop.mass))
-        object.__setattr__(self, "family", named(self.loop.family, self.loop.m))
-
-    def proved(self, boxes: Array) -> NDArray[np.bool_]:
-        """Where P ≻ 0 on the whole box, or all of the box lies beyond the radius of the tail.
-
-        A box with an undefined end, or with its ends the wrong way round, is not proved.
-        """
-        sides = self.sides(boxes)
-        inside: NDArray[np.bool_] = positive_definite(self.schur(sides))
-        ordered: NDArray[np.bool_] = np.all(boxes[:, 0] <= boxes[:, 1], axis=1)
-        beyond = norm(sides.e).lo >= self.loop.radius
-        return np.asarray(ordered & (inside | beyond))
-
-    def sides(self, boxes: Array) -> BoxSides:
-        """Boxes taken apart."""
-        columns = [Interval(boxes[:, 0, k], boxes[:, 1, k]) for k in range(boxes.shape[2])]
-        first, last = len(self.loop.angles), len(self.loop.angles) + self.loop.n
-        q = [Interval.exact(0.0)] * self.loop.n
-        for joint, column in zip(self.loop.angles, columns[:first], strict=True):
-            q[joint] = column
-        free = iter(columns[last:])
-        ranges = (*self.loop.parameters, *self.loop.friction)
-        filled = [next(free) if low < high else Interval.of(low) for low, high in ranges]
-        count = len(self.loop.parameters)
-        return BoxSides(q, columns[first:last], filled[:count], filled[count:])
-
-    def schur(self, sides: BoxSides) -> list[list[Interval]]:
-        """P: the entries on and below the diagonal."""
-        box, shrink = self.arm.at(sides.q, sides.parameters), inverse_one_plus(norm(sides.e))
-        eps = shrink * Interval.of(self.loop.eps0)
-        quarter = eps * 0.25
-        weights = [Interval.of(scale) for scale in self.loop.Lambda]
-        h, dh = (
-            [f(self.family, x) * scale for x, scale in zip(sides.e, weights, strict=True)]
-            for f in (h_range, dh_range)
-        )
-        errors = Errors(
-            None,
-            eps,
-            [quarter * Interval.of(k).reciprocal() for k in self.loop.stiffness],
-            h,
-            dh,
-            [unit * shrink for unit in unit_vector(sides.e)],
-        )
-        return form(box.mass(), box.symbols(), errors, sides.viscous, RING)
-
-
-# --- The cuts of boxes into halves: as a tree, and which side of a box is cut.
-
 
 Boxes = Array
 """(count, 2, dimensions): lower and upper ends."""
@@ -150,67 +62,6 @@ def halve(boxes: Boxes, side: Indices) -> Boxes:
     left[rows, 1, side] = middle
     right[rows, 0, side] = middle
     return np.concatenate([left, right])
-
-
-# --- Which side of a box branch and bound halves.
-
-
-ANGLES = 0.25
-"""Share of the estimate of an angle that counts: the mean value form encloses M more tightly than its slopes.
-
-Trees for 0.99 of the falsified ε₀ and beyond have a tenth to all of the boxes that they have with 1.
-"""
-
-
-@dataclass(frozen=True, eq=False)
-class Splitter:
-    """Chooses for each box the side to halve: the one whose length moves P most, by rough estimates."""
-
-    problem: SchurProblem
-    angle_slopes: Array
-    inertia: Array
-    coriolis: float
-
-    @classmethod
-    def of(cls, problem: SchurProblem) -> Splitter:
-        """Estimates from the sizes of the polynomials, relative to the friction of each joint."""
-        loop, arm = problem.loop, problem.arm
-        root = np.sqrt([float(low) for low, _ in loop.friction])
-        sizes = np.zeros((loop.n, loop.n))
-        slopes = np.zeros(len(loop.angles))
-        for (i, j), entry in arm.mass.items():
-            sizes[i, j] = sizes[j, i] = _size(problem, entry) / (root[i] * root[j])
-            for column, joint in enumerate(loop.angles):
-                slope = {p: derivative(terms, joint) for p, terms in entry.items()}
-                slopes[column] = max(slopes[column], _size(problem, slope) / (root[i] * root[j]))
-        coriolis = max((_size(problem, t) for t in arm.christoffel.values()), default=0.0) / float(
-            root.min() ** 2
-        )
-        return cls(problem, slopes, sizes.sum(axis=0), coriolis)
-
-    def sides(self, boxes: Array) -> NDArray[np.intp]:
-        """The side of every box that should be halved."""
-        first, n = len(self.problem.loop.angles), self.problem.loop.n
-        half = 0.5 * (boxes[:, 1] - boxes[:, 0])
-        weights = np.empty_like(half)
-        family, e = self.problem.family, self.problem.sides(boxes).e
-        steep = max(float(family.constants().rho.upper), 1.0)
-        weights[:, :first] = ANGLES * half[:, :first] * self.angle_slopes * steep
-        for i, x in enumerate(e):
-            bend, move = dh_range(family, x).radius, h_range(family, x).radius
-            weights[:, first + i] = self.inertia[i] * (bend + half[:, first + i] * 0.5) + self.coriolis * move
-        uncertain = boxes[:, :, first + n :]
-        middle = np.maximum(np.abs(uncertain.mean(axis=1)), 1e-12)
-        weights[:, first + n :] = half[:, first + n :] / middle * self.inertia.max(initial=1.0)
-        return np.asarray(np.argmax(weights, axis=1))
-
-
-def _size(problem: SchurProblem, entry: Uncertain) -> float:
-    """A rough bound of the size of a polynomial at the upper ends of its parameters."""
-    ends = [float(max(abs(low), abs(high))) for low, high in problem.loop.parameters]
-    return float(
-        sum(float(largest(terms)) * float(np.prod(np.power(ends, powers))) for powers, terms in entry.items())
-    )
 
 
 Prover = Callable[[Boxes], NDArray[np.bool_]]

@@ -15,16 +15,14 @@ from numpy.typing import NDArray
 from lyapcheck._types import Array, Progress
 from lyapcheck.check.kinds.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.field import Box
+from lyapcheck.check.loop.field import Box, ball
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.computing import computing_time
 from lyapcheck.constants.storage import energy_problem, prices_shown, propose, rate_problem
-from lyapcheck.family import named
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, CoverOutcome, Nodes, halve
-from lyapcheck.search.interval import Interval
-from lyapcheck.search.interval_arm import dh_range, h_range
+from lyapcheck.search.interval import Interval, of_sides
 
 SHARES = tuple(Fraction(n, 100) for n in (30, 60, 75, 85, 90, 93, 95, 97))
 """Shares of the falsified ε₀ that are tried one after the other; then middles below the one that fails."""
@@ -158,7 +156,7 @@ class ErrorBoxes:
         self.loop, self.n = loop, loop.n
         with precision(BITS):
             self.form = BoxForm(loop, bounds.inertia.prices, [bound.prices for bound in bounds.rising])
-        self.family = named(loop.family, loop.m)
+        self.of_error = of_sides(lambda side: (loop.member.h(ball(side)), loop.member.dh(ball(side))))
         self.U = np.array([float(x) for x in bounds.inertia.prices])
         Q = [[0.0] * loop.n, *([float(x) for x in bound.prices] for bound in bounds.rising)]
         self.Q = np.array(Q)
@@ -237,13 +235,12 @@ class ErrorBoxes:
         low, high = boxes[:, 0], boxes[:, 1]
         middle = (low + high) / 2
         r = np.linalg.norm(middle, axis=1)[:, None]
-        slopes = dh_range(self.family, Interval(low, high))
-        rise = self.family.h(high) - self.family.h(low)
+        values, slopes = self.of_error(Interval(low, high))
         root = np.sqrt(self.U / self.b)
         weight = np.sqrt(self.b)
-        size = np.linalg.norm(self.family.h(high) * weight, axis=1)[:, None]
+        size = np.linalg.norm(values.hi * weight, axis=1)[:, None]
         turned = size / weight * np.minimum((high - low) / r, 1.0)
-        score = (slopes.hi - slopes.lo) * root + 0.5 * (rise * weight / weight.min() + turned) / (1 + r)
+        score = slopes.radius * root + 0.5 * (values.radius * weight / weight.min() + turned / 2) / (1 + r)
         return np.asarray(np.argmax(score, axis=1))
 
 
@@ -255,8 +252,7 @@ class FormAt:
         n, b, root = of.n, of.b, np.sqrt(of.b)
         near, far = np.linalg.norm(low, axis=1), np.linalg.norm(high, axis=1)
         self.eps = eps = (float(of.loop.eps0) / (1 + near))[:, None]
-        x = Interval(low, high)
-        h, dh = h_range(of.family, x), dh_range(of.family, x)
+        h, dh = of.of_error(Interval(low, high))
         unit = _units(low, high)
         scaled = unit[0] / (1 + far[:, None]), unit[1] / (1 + near[:, None])
         products = [h.lo[:, :, None] * scaled[0][:, None, :], h.hi[:, :, None] * scaled[1][:, None, :]]
@@ -265,7 +261,7 @@ class FormAt:
         upper = -products[0] + dh.hi[:, :, None] * diagonal
         scale = root[:, None] / root
         self.N, self.spread = 0.5 * (lower + upper) * scale, 0.5 * (upper - lower) * scale
-        self.H = H = np.maximum(np.abs(h.lo), np.abs(h.hi))
+        self.H = H = h.size
         k = np.maximum(of.kp - eps * of.fast, 1e-12)
         self.t = t = np.sqrt((eps * k)[:, :, None] / b)
         R = of.Q.T * H[:, :, None]

@@ -26,8 +26,8 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.convex import solved
 from lyapcheck.search.certified import MAX_BOXES, certify
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
-from lyapcheck.search.cover import SchurProblem
 from lyapcheck.search.sample import States, fast
+from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.worst_states import SOFTEST, resisting_program
 
 SAMPLES = 20_000

@@ -17,7 +17,7 @@ from lyapcheck.kernel.arms import _finer
 from lyapcheck.robots import load
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import SchurProblem
+from lyapcheck.search.schur import SchurProblem
 
 F = Fraction
 FUNCTIONS = [("hyperbolic", m) for m in (1, 2, 3, 6)] + [

@@ -27,7 +27,7 @@ from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import SchurProblem
+from lyapcheck.search.schur import SchurProblem
 from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 
@@ -260,7 +260,7 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path):
         "from lyapcheck.computing import shared_between\n"
         "from lyapcheck.search.certified import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
-        "from lyapcheck.search.cover import SchurProblem\n"
+        "from lyapcheck.search.schur import SchurProblem\n"
         "gains = read_gain_file(paper_gain_file('table2_shoulder_elbow')).gains[0]\n"
         "loop = ControlledArm(gains, load_robot('reyes-kelly2')).loop(Fraction(7, 10))\n"
         "proof.WORTH_SHARING = 0\n"

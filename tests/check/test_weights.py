@@ -18,7 +18,7 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.cover import SchurProblem
+from lyapcheck.search.schur import SchurProblem
 from lyapcheck.search.weights import Effort, weighted_epsilon
 from lyapcheck.search.worst_states import resisting_program
 from tests.helpers.schur import schur_of

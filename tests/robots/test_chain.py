@@ -13,7 +13,6 @@ from lyapcheck.errors import InputError
 from lyapcheck.lyapunov import graph
 from lyapcheck.robots.dynamics import Chain, TooManyTerms
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.interval import Interval, cosine, sine
 from tests.helpers.arm_texts import arm_of
 from tests.helpers.robot_cases import circle
 from tests.helpers.urdf_texts import generic
@@ -50,24 +49,15 @@ def test_rational_points_of_the_circle_give_the_same_rationals(arm):
 
 
 @pytest.mark.slow
-def test_balls_and_intervals_hold_the_values_of_all_they_hold(arm):
+def test_balls_hold_the_values_of_all_they_hold(arm):
     half = 1e-5
     wide = [arb(q).union(arb(q + half)) for q in Q]
     along = all_of(arm.at([q.sin() for q in wide], [q.cos() for q in wide], to_arb), list(map(arb, X)))
-    boxes = [Interval(np.array([q]), np.array([q + half])) for q in Q]
-    ranges = all_of(
-        arm.at(list(map(sine, boxes)), list(map(cosine, boxes)), Interval.of), [Interval.exact(x) for x in X]
-    )
     for share in (0.0, 0.4, 1.0):
         q = [arb(x) + half * share * (1 - 1e-9) for x in Q]
         sin, cos = [x.sin() for x in q], [x.cos() for x in q]
         _, exact = both(arm, sin, cos, list(map(arb, X)), to_arb)
         assert all(ball.overlaps(value) for ball, value in zip(along, exact, strict=True))
-        assert all(
-            float(result.lo.item()) <= float(value.upper())
-            and float(value.lower()) <= float(result.hi.item())
-            for result, value in zip(ranges, exact, strict=True)
-        )
     sharp = max(float(ball.rad()) for ball in along)
     assert sharp < 0.01
 

@@ -11,13 +11,15 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.field import leaves
 from lyapcheck.check.loop.proof import proves
 from lyapcheck.check.verify import verify
+from lyapcheck.constants.constant import Torus
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import load
-from lyapcheck.search import certified, cover
+from lyapcheck.search import certified, schur
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, certify, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
-from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome, SchurProblem
+from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome
 from lyapcheck.search.scalar_program import norm_epsilon
+from lyapcheck.search.schur import SchurProblem, _Boxes
 from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import generic
@@ -54,15 +56,14 @@ def test_a_wrong_sign_of_coriolis_would_be_noticed():
     q, e = np.array([0.0, 1.0]), np.array([0.5, -0.3])
     point = np.concatenate([q[1:], e])
     exact = exact_schur(case, 0.25, q, e)
-    sides = task.sides(np.stack([point, point])[None])
-    for sign, agrees in ((F(1), True), (F(0), False), (F(-1), False)):
-        symbols = {
-            place: {p: {k: (sign * a, sign * b) for k, (a, b) in part.items()} for p, part in entry.items()}
-            for place, entry in task.arm.christoffel.items()
-        }
+    for sign, agrees in ((1, True), (0, False), (-1, False)):
+        signed = [
+            {k: (sign * a, sign * b) for k, (a, b) in x.items()} if len(place) == 3 else x
+            for place, _, x in task.parts
+        ]
         changed = problem("reyes-kelly2", 0, F(1, 4))
-        changed.arm.christoffel = symbols
-        entry = changed.schur(sides)[1][0]
+        changed.torus = Torus(signed, 2, sheared=False)
+        entry = _Boxes(changed, np.stack([point, point])[None], slopes=False).P()[1][0]
         assert bool(entry.lo[0] - 1e-12 <= exact[1, 0] <= entry.hi[0] + 1e-12) is agrees
 
 
@@ -121,7 +122,7 @@ def test_every_state_lies_in_a_proved_leaf_or_in_the_tail(index):
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (-0.6, 0.8), (0.6, 0.8)])
 def test_errors_are_left_to_the_tail_from_its_radius_on(direction, monkeypatch):
     """Seen with a P that is never found positive definite: only the tail is left to prove anything."""
-    monkeypatch.setattr(cover, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
+    monkeypatch.setattr(schur, "positive_definite", lambda rows: np.zeros(1, dtype=bool))
     task = problem("reyes-kelly2", 0, F(1, 2))
     for share, left in ((0.5, False), (0.999, False), (1.001, True)):
         point = np.array([0.0, *(share * task.loop.radius * np.array(direction))])

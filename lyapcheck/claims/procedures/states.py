@@ -151,7 +151,7 @@ def _witness(controlled: ControlledArm, eps0: Fraction, state: State) -> dict[st
 
 def _by_boxes(statement: Decreasing) -> SearchResult:
     from lyapcheck.search.certified import certify
-    from lyapcheck.search.cover import SchurProblem
+    from lyapcheck.search.schur import SchurProblem
 
     n = len(statement.kp)
     if n > FEW_JOINTS:
