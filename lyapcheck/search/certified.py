@@ -13,7 +13,7 @@ values of what is uncertain about the arm. Boxes are enclosed in intervals, kept
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -21,14 +21,16 @@ import numpy as np
 
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop.closed_loop import certifies
+from lyapcheck.check.kinds.link_bounds import LinkBounds
+from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
 from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
+from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, RateData
 from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, CoverOutcome, cover
-from lyapcheck.search.link_bounds import linked_epsilon
+from lyapcheck.search.link_bounds import MAX_BOXES as LINKED_BOXES
+from lyapcheck.search.link_bounds import ErrorBoxes, link_bounds
 from lyapcheck.search.schur import SchurProblem
 
 
@@ -54,6 +56,8 @@ HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
 """Shares of the falsified ε₀ that are tried first, in turn; where boxes are few, the last one at once."""
 SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
 """Those that are tried one after the other where not even the first of these is proved."""
+SHARES_OF_LINKS = tuple(Fraction(n, 1000) for n in (300, 600, 750, 850, 900, 930, 950, 970, 985))
+"""The same by bounds along the links."""
 _CHECKING = 0.8
 """The share of the work done when the checker begins."""
 ENOUGH = Fraction(9, 10)
@@ -66,6 +70,8 @@ RESERVE = Fraction(1, 4)
 DIGITS = 7
 MAX_BOXES = 400_000
 _UNBOUNDED = "h is unbounded: branch and bound needs its γ for the states far away"
+Attempt = Callable[[ClosedLoop, int, Progress, float], tuple[CoverOutcome, RateData]]
+"""What may prove one ε₀ with so many boxes by a deadline, and the data that do."""
 
 
 @dataclass(frozen=True)
@@ -108,23 +114,44 @@ def certified_epsilon(
         return CertifiedEpsilon(None, 0, _UNBOUNDED)
     progress = on_progress or silent
     if controlled.n > FEW_JOINTS:
-        deadline = computing_time() + (math.inf if seconds is None else seconds)
-        return CertifiedEpsilon(*linked_epsilon(controlled, ceiling, max_boxes, deadline, progress))
-    search = _Search(controlled, ceiling, progress)
+        return _along_links(controlled, ceiling, max_boxes, seconds, progress)
+
+    def by_boxes(
+        loop: ClosedLoop, most: int, advance: Progress, deadline: float
+    ) -> tuple[CoverOutcome, BoxTree]:
+        outcome = certify(SchurProblem(loop), most, advance, deadline)
+        return outcome, BoxTree(outcome.tree)
+
+    search = _Search(controlled, ceiling, progress, by_boxes)
     began, seconds = computing_time(), math.inf if seconds is None else seconds
     # no more than half of everything for what may be too much
     first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
     result = search.climb([first], max_boxes // 2, began + seconds / 2)
     otherwise = SHARES if more else (*SHARES, HOPED[0])
     result += search.climb(more if result else otherwise, max_boxes, began + seconds)
-    while result:
-        proof = result.pop()
-        progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
-        accepted = proof.accepted(jobs)
-        if accepted is not None:
-            return CertifiedEpsilon(accepted, search.looked_at, search.reason)
-        search.reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
-    return CertifiedEpsilon(None, search.looked_at, search.reason)
+    return search.accepted(result, jobs)
+
+
+def _along_links(
+    controlled: ControlledArm, ceiling: Fraction, max_boxes: int, seconds: float | None, progress: Progress
+) -> CertifiedEpsilon:
+    """The same by bounds along the links and boxes of errors alone; no attempt begins after the time."""
+    progress(0.0, "bounds along the links")
+    bounds = link_bounds(controlled)
+    if bounds is None:
+        return CertifiedEpsilon(None, 0, "no bounds along the links were shown")
+
+    def by_links(
+        loop: ClosedLoop, most: int, advance: Progress, late: float
+    ) -> tuple[CoverOutcome, LinkBounds]:
+        if computing_time() > late:
+            return CoverOutcome(False, 0, LATE), bounds
+        outcome = ErrorBoxes(loop, bounds).covered(most)
+        return outcome, replace(bounds, tree=outcome.tree, scales=outcome.scales)
+
+    search = _Search(controlled, ceiling, progress, by_links, LINKED_BOXES)
+    deadline = computing_time() + (math.inf if seconds is None else seconds)
+    return search.accepted(search.climb(SHARES_OF_LINKS, max_boxes, deadline), 1)
 
 
 def linked_otherwise(
@@ -149,12 +176,9 @@ def linked_otherwise(
     near = boxes.eps0 is not None and boxes.eps0 >= ENOUGH * ceiling
     if near or max_boxes <= 0 or not links_follow(controlled):
         return boxes
-    deadline = computing_time() + (math.inf if seconds is None else seconds)
-    found = linked_epsilon(controlled, ceiling, max_boxes, deadline, on_progress or silent)
-    result, looked_at = CertifiedEpsilon(*found), boxes.looked_at + found[1]
-    if (result.eps0 or 0) > (boxes.eps0 or 0):
-        return replace(result, looked_at=looked_at)
-    return replace(boxes, looked_at=looked_at)
+    result = _along_links(controlled, ceiling, max_boxes, seconds, on_progress or silent)
+    better = result if (result.eps0 or 0) > (boxes.eps0 or 0) else boxes
+    return replace(better, looked_at=boxes.looked_at + result.looked_at)
 
 
 def links_follow(controlled: ControlledArm) -> bool:
@@ -166,12 +190,15 @@ def links_follow(controlled: ControlledArm) -> bool:
 class _Search:
     """The attempts at shares of a ceiling: boxes looked at so far, and why the last one failed.
 
-    Where the budget of a share is spent, the middle between it and the last that was proved is tried.
+    The middle between a share that fails and the last that was proved is tried once: where the budget of the
+    share is spent, or always where each has a budget of its own.
     """
 
     controlled: ControlledArm
     ceiling: Fraction
     progress: Progress
+    attempt: Attempt
+    each: int = 0
     looked_at: int = 0
     attempts: int = 0
     reason: str = ""
@@ -190,17 +217,28 @@ class _Search:
             advance(0.0, "")
             budget = max_boxes - self.looked_at
             most = int(MOST * budget) if left and proved < ENOUGH and budget > 0 else budget
-            outcome = certify(SchurProblem(loop), most, advance, deadline)
+            outcome, by = self.attempt(loop, min(self.each, budget) if self.each else most, advance, deadline)
             self.attempts += 1
             self.looked_at += outcome.boxes
             if outcome.proved:
-                result.append(self.controlled.proof(loop, BoxTree(outcome.tree)))
+                result.append(self.controlled.proof(loop, by))
                 proved = share
                 continue
-            self.reason = _advice(outcome.reason, loop.eps0, max_boxes)
+            self.reason = _advice(outcome.reason, loop.eps0, self.each or max_boxes)
             spent = outcome.reason == EXHAUSTED and max_boxes > self.looked_at
-            left, between = [(proved + share) / 2] if proved and spent and not between else [], True
+            again = proved and (spent or self.each) and not between
+            left, between = [(proved + share) / 2] if again else [], True
         return result
+
+    def accepted(self, result: list[DecreaseProof], jobs: int) -> CertifiedEpsilon:
+        """The last of some proofs that the checker accepts."""
+        while result:
+            proof = result.pop()
+            self.progress(_CHECKING, f"checking {proof.boxes} boxes in balls")
+            if (accepted := proof.accepted(jobs)) is not None:
+                return CertifiedEpsilon(accepted, self.looked_at, self.reason)
+            self.reason = f"the boxes found for ε₀ = {float(proof.loop.eps0):.6g} were refused by the checker"
+        return CertifiedEpsilon(None, self.looked_at, self.reason)
 
 
 def _part(progress: Progress, index: int, label: str) -> Progress:
@@ -208,7 +246,7 @@ def _part(progress: Progress, index: int, label: str) -> Progress:
 
     def advance(fraction: float, note: str) -> None:
         decided = f", {note}, {fraction:.1%} of the volume decided" if note else ""
-        progress(_CHECKING * (index + fraction) / (1 + len(SHARES)), f"{label}{decided}")
+        progress(_CHECKING * min((index + fraction) / (1 + len(SHARES)), 1.0), f"{label}{decided}")
 
     return advance
 

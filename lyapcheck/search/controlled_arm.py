@@ -10,8 +10,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
+from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import Bisection, Links, Mass, MassAbove, MassAtCorners, PostureWitness
+from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop, corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
@@ -25,16 +26,13 @@ from lyapcheck.robots.plant import RobotModel
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
-    from lyapcheck.check.kinds.decreasing import BoxTree
-    from lyapcheck.check.kinds.link_bounds import LinkBounds
     from lyapcheck.check.statement import Proof, Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.robots.numeric import NumericModel
 
-    RateData = BoxTree | LinkBounds
-    """What may show dV/dt < 0."""
-    from lyapcheck.robots.plant import RobotModel
+RateData = BoxTree | LinkBounds
+"""What may show dV/dt < 0."""
 
 
 @dataclass(frozen=True)

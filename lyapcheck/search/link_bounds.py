@@ -1,4 +1,4 @@
-"""The largest ε₀ that bounds along the links and boxes of e prove, for arms of many joints.
+"""Bounds along the links, and boxes of e that prove dV/dt < 0 by them, for arms of many joints.
 
 There is no least U, nor a least Q_j: what one entry gives up, others may gain. All entries are equally dear.
 """
@@ -12,70 +12,22 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from lyapcheck._types import Array, Progress
+from lyapcheck._types import Array
 from lyapcheck.check.kinds.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import Box, ball
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.computing import computing_time
 from lyapcheck.constants.storage import energy_problem, prices_shown, propose, rate_problem
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, CoverOutcome, Nodes, halve
 from lyapcheck.search.interval import Interval, of_sides
 
-SHARES = tuple(Fraction(n, 100) for n in (30, 60, 75, 85, 90, 93, 95, 97))
-"""Shares of the falsified ε₀ that are tried one after the other; then middles below the one that fails."""
-GAP = Fraction(2, 100)
-"""The shares that remain unknown between one that is proved and one that is not."""
 MAX_BOXES = 40_000
 """Of one share: as many as the checker judges in a quarter of a minute."""
 MORE = 1.01
 """How far an entry of U may exceed the largest eigenvalue of B^−½MB^−½, which lets the others be smaller."""
 _MARGIN = 1e-6
-
-
-def linked_epsilon(
-    controlled: ControlledArm, ceiling: Fraction, max_boxes: int, deadline: float, progress: Progress
-) -> tuple[DecreaseProof | None, int, str]:
-    """The proof of the largest share of a ceiling, by bounds along the links; boxes looked at; why no more.
-
-    Args:
-        ceiling: an ε₀ that is known to fail, or any guess above what can be hoped for.
-        deadline: by the computing time of `lyapcheck.computing`, s; no attempt begins after it.
-
-    Soundness: every proof has been accepted by ``lyapcheck.check.verify``.
-    """
-    progress(0.0, "bounds along the links")
-    bounds = link_bounds(controlled)
-    if bounds is None:
-        return None, 0, "no bounds along the links were shown"
-    result, looked_at, reason = None, 0, _not_proved(ceiling, RESISTS)
-    proved, top, shares, between = Fraction(0), Fraction(1), [*SHARES], False
-    while shares or (proved and not between):
-        if not shares:
-            shares, between = [(proved + top) / 2], True
-        share = shares.pop(0)
-        progress(0.9 * float(share), f"{float(share):.1%} of falsified")
-        loop = controlled.loop(Fraction(f"{float(ceiling * share):.6g}"))
-        if computing_time() > deadline:
-            reason = "the time is up: allow more seconds"
-            break
-        if not loop.admissible:
-            reason = f"K_p is too small beside K_v for ε₀ = {float(loop.eps0):.6g}"
-            break
-        outcome = ErrorBoxes(loop, bounds).covered(min(MAX_BOXES, max_boxes - looked_at))
-        looked_at += outcome.boxes
-        if outcome.proved:
-            result = controlled.proof(loop, replace(bounds, tree=outcome.tree, scales=outcome.scales))
-            proved = share
-        else:
-            reason = _not_proved(loop.eps0, outcome.reason)
-            top, shares = share, []
-    accepted = None if result is None else result.accepted()
-    if result is not None and accepted is None:
-        return None, looked_at, "the checker refused the boxes"
-    return accepted, looked_at, reason
 
 
 def linked_proof(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof | None:
@@ -92,15 +44,8 @@ def linked_proof(controlled: ControlledArm, eps0: Fraction) -> DecreaseProof | N
 
 def link_bounds(controlled: ControlledArm) -> LinkBounds | None:
     """Bounds of M and its rates, without boxes yet; ``None`` where some were not found."""
-    return bounds_along(controlled.chains, _friction(controlled)) if controlled.chains else None
-
-
-def _not_proved(eps0: Fraction, why: str) -> str:
-    return f"ε₀ = {float(eps0):.6g} was not proved: {why}"
-
-
-def _friction(controlled: ControlledArm) -> tuple[Fraction, ...]:
-    return tuple(low for low, _ in controlled.loop(Fraction(1)).friction)
+    friction = tuple(low for low, _ in controlled.loop(Fraction(1)).friction)
+    return bounds_along(controlled.chains, friction) if controlled.chains else None
 
 
 @lru_cache(maxsize=4)
@@ -178,7 +123,7 @@ class ErrorBoxes:
                     boxes, names = boxes[: CHUNK // 4], names[: CHUNK // 4]
                 seen += len(boxes)
                 if seen > max_boxes:
-                    return CoverOutcome(False, seen, f"{EXHAUSTED}; allow more boxes")
+                    return CoverOutcome(False, seen, EXHAUSTED)
                 proved, signs = self.judged(boxes)
                 shown.append((boxes[proved], names[proved], signs[proved]))
             else:  # balls take longer than doubles, and have the last word
