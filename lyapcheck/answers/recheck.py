@@ -15,8 +15,7 @@ from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import View
 from lyapcheck.process_tree import temporary_folder
-from lyapcheck.rechecking.command import Writer, as_json
-from lyapcheck.rechecking.trusted import GENERAL
+from lyapcheck.rechecking.command import GENERAL, Writer, as_json
 
 if TYPE_CHECKING:
     from lyapcheck.kernel.coq import Kernel
@@ -216,8 +215,7 @@ def writer(
     Raises:
         InputError: there is no Coq, or the folder cannot take the files.
     """
-    from lyapcheck.kernel.coq import require_coq
-    from lyapcheck.kernel.judge import graded, judged
+    from lyapcheck.kernel.coq import graded, judged, require_coq
 
     require_coq()
 

@@ -36,7 +36,7 @@ from lyapcheck.check.numbers.harmonics import angles_in, largest
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
-from lyapcheck.search.cover import cover
+from lyapcheck.search.boxes import cover
 from lyapcheck.search.schur import SchurProblem
 
 FUEL = 30

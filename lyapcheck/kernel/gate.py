@@ -1,4 +1,4 @@
-"""The gate's verdict before Coq's kernel: ``GateAccepted`` in the words of ``formal/GateDefinitions.v``.
+"""The gate's verdict, and (S) of a sampled loop, in the words of Coq's pages of definitions for them.
 
 The statement is printed from the certificate's data; how it is to be proved is only a hint.
 """
@@ -6,16 +6,14 @@ The statement is printed from the certificate's data; how it is to be proved is 
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Callable, Iterator
 from fractions import Fraction
 from math import floor, isqrt
 from typing import Any
 
-from lyapcheck.check.expressions.expression import CONSTANTS, Tree
-from lyapcheck.check.kinds.bound_every_n import terms_of
+from lyapcheck.check.expressions.expression import CONSTANTS
 from lyapcheck.check.kinds.gate_accepted import BrokenCondition, GateAccepted, GateParts, SaturatingState
 from lyapcheck.check.kinds.inertia import HarmonicSizes
+from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import Enclosure
@@ -24,70 +22,10 @@ from lyapcheck.kernel.terms import (
     NotPrinted,
     exact,
     exact_list,
-    expression,
-    identifier,
     monomials,
     ranges_of,
     rational,
 )
-
-# --- How Coq is to see that one side exceeds another: no term of the difference is negative.
-
-
-Monomial = tuple[tuple[str, int], ...]
-
-
-def spare(upper: Tree, right: Tree) -> str:
-    """That ``right`` exceeds ``upper``: they are equal, or no term of the difference is negative."""
-    roots: set[str] = set()
-    difference = terms_of(_plain(("add", right, ("neg", upper)), roots))
-    groups: dict[Monomial, dict[Monomial, Fraction]] = {}
-    for c, powers in difference:
-        value = Fraction(int(c.p), int(c.q))
-        constants: Counter[str] = Counter()
-        monomial: Counter[str] = Counter()
-        for name, k in powers.items():
-            root = name.startswith("sqrt ")
-            value *= Fraction(name.split()[1]) ** (k // 2) if root else 1
-            (constants if " " in name else monomial)[name] += k % 2 if root else k
-        place, fixed = (tuple(sorted((+some).items())) for some in (monomial, constants))
-        groups.setdefault(place, {})
-        groups[place][fixed] = groups[place].get(fixed, Fraction(0)) + value
-    squares = "".join(
-        f"assert (Q{k} : sqrt {a} * sqrt {a} = {a}) by (apply sqrt_sqrt; lra). "
-        for k, a in enumerate(sorted(roots))
-    )
-    using = " ".join(f"Q{k}" for k, _ in enumerate(roots))
-    known = f"field [{using}]" if using else "field"
-    sums = []
-    for place, constant in groups.items():
-        parts = [" * ".join([rational(c), *_repeated(fixed, str)]) for fixed, c in constant.items() if c]
-        if parts:
-            sums.append(f"(({' + '.join(parts)}) * ({' * '.join(_repeated(place, identifier)) or '1'}))")
-    if not sums:
-        return f"{squares}right. {known}."
-    steps = "".join(
-        f"assert (0 <= {one}) by (apply Rmult_le_pos; [first [solve [nonneg] | lra | numbers]|nonneg]). "
-        for one in sums
-    )
-    both = f"{expression(upper)} + ({' + '.join(sums)})"
-    return f"{squares}{steps}apply Rle_trans with ({both}); [lra|right; {known}]."
-
-
-def _repeated(powers: Monomial, printed: Callable[[str], str]) -> Iterator[str]:
-    return (printed(name) for name, k in powers for _ in range(k))
-
-
-def _plain(tree: Tree, roots: set[str]) -> Tree:
-    """An expression with constants and roots as variables, whose names have a blank in them."""
-    kind, *parts = tree
-    if kind in CONSTANTS:
-        return ("var", f"{kind} {parts[0]}")
-    if kind == "sqrt" and parts[0][0] == "num":
-        roots.add(str(parts[0][1]))
-        return ("var", f"sqrt {parts[0][1]}")
-    return (kind, *(_plain(part, roots) if isinstance(part, tuple) else part for part in parts))
-
 
 # --- How Coq is to bound the suprema γ_m and ρ_m of h_m and its slope.
 
@@ -239,12 +177,11 @@ def gate_refutation_script(statement: GateAccepted, proof: Proof) -> str:
     )
 
 
-def _m(statement: GateAccepted) -> int:
-    if statement.family == "tanh":
-        return 1
-    if statement.family != "hyperbolic" or statement.m is None:
-        raise NotPrinted(f"the function {statement.family}")
-    return statement.m
+def _m(statement: GateAccepted | SampledStable, most: float = math.inf) -> int:
+    m = 1 if statement.family == "tanh" else statement.m
+    if statement.family not in ("hyperbolic", "tanh") or m is None or m > most:
+        raise NotPrinted(f"the function {statement.family}{f' with m = {m}' if m else ''}")
+    return m
 
 
 def _asked(statement: GateAccepted) -> str:
@@ -268,4 +205,68 @@ def _gated(statement: GateAccepted) -> str:
         f"{ranges_of(statement.parameters)} {exact_list(statement.k_g)} {ranges_of(statement.viscous)} "
         f"{limits} {_m(statement)} "
         f"{exact_list(statement.kp)} {exact_list(statement.kv)})"
+    )
+
+
+# --- ``SampledStable`` in the words of ``formal/SampledDefinitions.v``.
+
+
+LARGEST_M = 12
+"""``formal/Sharp.v`` has γ_m, ρ_m and L_m up to it."""
+
+
+def sampled_proposition(statement: SampledStable) -> str:
+    """Of any robot with the same friction, which says more where M is given.
+
+    Raises:
+        NotPrinted: there is no such theorem.
+    """
+    says = f"sampled_{statement.conclusion}"
+    if statement.links:
+        raise NotPrinted("the gravity of a chain of links")
+    if statement.k_g:
+        return f"of_bounds {_computed(statement)} {exact_list(statement.k_g)} {says}"
+    pulled = f"{monomials(statement.potential)} {ranges_of(statement.parameters)}"
+    return f"of_potential {_computed(statement)} {pulled} {says}"
+
+
+def sampled_script(statement: SampledStable, proof: Proof) -> str:
+    """The tactics: constants of the library, then booleans that Coq computes.
+
+    Raises:
+        NotPrinted: a bound of gravity is shown in another way than by the sizes of harmonics, or (S) holds
+            with finer constants than those of the library alone.
+    """
+    sizes = isinstance(proof, ShortPeriod) and all(isinstance(own, HarmonicSizes) for own in proof.gravity)
+    if not isinstance(proof, ShortPeriod) or not sizes:
+        raise NotPrinted("a bound of gravity by boxes or levers")
+    if _is_near(statement, statement.k_g or proof.k_g):
+        raise NotPrinted("a border nearer than ρ_m and L_m to four digits tell")
+    m, by = _m(statement, LARGEST_M), "bounds" if statement.k_g else "potential"
+    bounds = " ".join(f"Sharp.{name}_{m}_bound" for name in ("h", "dh", "secant"))
+    return (
+        f"match goal with |- of_{by} ?D {'_' if statement.k_g else '_ _'} _ => "
+        f"apply (Period.{by}_{statement.conclusion} D _ _ _ "
+        f"{exact_list(statement.k_g or proof.k_g)} ltac:(cbn; lia) {bounds}) end; "
+        "vm_cast_no_check (eq_refl true)."
+    )
+
+
+def _is_near(statement: SampledStable, k_g: tuple[Fraction, ...]) -> bool:
+    """Whether (S) fails with the constants of ``formal/Sharp.v``, which are rounded up to four digits."""
+    known = member(statement.family, statement.m)
+    secant, slope = (Fraction(math.ceil(x * DIGITS), DIGITS) - x for x in (known.L, known.rho))
+    spread = sum(map(abs, statement.taps))
+    late = (Fraction(1, 2) + statement.delay) * statement.period
+    gains = zip(statement.kp, statement.kv, strict=True)
+    more = [statement.stretch * (secant * v * spread + late * slope * p) for p, v in gains]
+    rows = zip(statement.viscous_min, statement.needed(k_g), more, strict=True)
+    return any(have <= want + rest for have, want, rest in rows)
+
+
+def _computed(statement: SampledStable) -> str:
+    numbers = (statement.kp, statement.kv, statement.viscous_min, statement.taps)
+    return (
+        f"(Computed {statement.n} {_m(statement, LARGEST_M)} {' '.join(map(exact_list, numbers))} "
+        f"{statement.delay} {exact(statement.period)} {exact(statement.stretch)})"
     )

@@ -27,8 +27,8 @@ from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
+from lyapcheck.search.boxes import EXHAUSTED, LATE, RESISTS, CoverOutcome, cover
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, RateData
-from lyapcheck.search.cover import EXHAUSTED, LATE, RESISTS, CoverOutcome, cover
 from lyapcheck.search.link_bounds import MAX_BOXES as LINKED_BOXES
 from lyapcheck.search.link_bounds import ErrorBoxes, link_bounds
 from lyapcheck.search.schur import SchurProblem

@@ -19,9 +19,18 @@ from lyapcheck.check.loop.field import Box, ball
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.constants.storage import energy_problem, prices_shown, propose, rate_problem
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
+from lyapcheck.search.boxes import (
+    CHUNK,
+    EXHAUSTED,
+    RESISTS,
+    SMALLEST,
+    CoverOutcome,
+    Interval,
+    Nodes,
+    halve,
+    of_sides,
+)
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
-from lyapcheck.search.cover import CHUNK, EXHAUSTED, RESISTS, SMALLEST, CoverOutcome, Nodes, halve
-from lyapcheck.search.interval import Interval, of_sides
 
 MAX_BOXES = 40_000
 """Of one share: as many as the checker judges in a quarter of a minute."""

@@ -21,7 +21,7 @@ from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.check.loop.schur import Centred, Errors, form, of_error, transformed, triangle
 from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
 from lyapcheck.constants.constant import Torus
-from lyapcheck.search.interval import Interval, norm, of_sides, positive_definite, unit_vector
+from lyapcheck.search.boxes import Interval, norm, of_sides, positive_definite, unit_vector
 
 SMALL = 1.0
 """Length of sides, rad, below which slopes are tried."""

@@ -23,7 +23,7 @@ OURS = {
     ("kernel/coq.py", "golden"): "the library of the package",
     ("kernel/coq.py", "_record"): "a record of the package",
     ("kernel/coq.py", "_definitions"): "the library of the package",
-    ("rechecking/trusted.py", "_imported"): "source of the package",
+    ("rechecking/command.py", "_imported"): "source of the package",
     ("report/plots.py", "_with_palette"): "a picture in memory",
     ("report/model.py", "published_notes"): "a proof of the package",
     ("report/page/__init__.py", "raw"): "style and script of the package",

@@ -32,9 +32,18 @@ from lyapcheck.check.verify import verify
 from lyapcheck.errors import InputError
 from lyapcheck.extensions import shipped
 from lyapcheck.kernel import coq
-from lyapcheck.kernel.coq import Coq, CoqRefused, Kernel, axioms_of, golden, sources
-from lyapcheck.kernel.judge import HEAD, judged, theorem_file
-from lyapcheck.kernel.loops import sampled_script
+from lyapcheck.kernel.coq import (
+    HEAD,
+    Coq,
+    CoqRefused,
+    Kernel,
+    axioms_of,
+    golden,
+    judged,
+    sources,
+    theorem_file,
+)
+from lyapcheck.kernel.gate import sampled_script
 from lyapcheck.kernel.statements import proposition
 from tests.arena.sampled import ONE as ONE_JOINT
 from tests.arena.sampled import PRINTED, not_shown

@@ -15,9 +15,9 @@ from lyapcheck.constants.constant import Torus
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.search import certified, schur
+from lyapcheck.search.boxes import EXHAUSTED, RESISTS, CoverOutcome
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, certify, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
-from lyapcheck.search.cover import EXHAUSTED, RESISTS, CoverOutcome
 from lyapcheck.search.scalar_program import norm_epsilon
 from lyapcheck.search.schur import SchurProblem, _Boxes
 from tests.helpers.schur import schur_of

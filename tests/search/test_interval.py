@@ -12,8 +12,8 @@ from lyapcheck.constants.constant import Torus
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load, trig
+from lyapcheck.search.boxes import Interval, of_sides, positive_definite, unit_vector
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.interval import Interval, of_sides, positive_definite, unit_vector
 from lyapcheck.search.schur import SchurProblem, _Boxes
 from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
