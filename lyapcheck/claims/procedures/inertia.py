@@ -1,4 +1,4 @@
-"""How small and how large M(q), the Coriolis matrix and gravity of one arm are.
+"""How small and how large M(q), the Coriolis matrix, gravity and other polynomials of one arm are.
 
 M ≻ 0 by its links where they are known, else by boxes of angles that are cut until each shows it; upper
 bounds by the sizes of harmonics; against any of them the worst of many random postures.
@@ -7,15 +7,17 @@ bounds by the sizes of harmonics; against any of them the worst of many random p
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 import numpy as np
 
 from lyapcheck._types import SEED
+from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
 from lyapcheck.check.kinds.chain import ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     HarmonicSizes,
@@ -24,8 +26,21 @@ from lyapcheck.check.kinds.inertia import (
     MassBelow,
     PostureWitness,
 )
-from lyapcheck.check.loop.inertia import Inertia
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.kinds.trigonometric import (
+    EntryWitness,
+    FourierBounds,
+    TrigonometricBound,
+    TrigonometricPositive,
+    above_zero,
+    is_bounded,
+    largest,
+    lowest,
+    within,
+)
+from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.statement import Proof, Relation
+from lyapcheck.claims.procedures.implication import counterexample, sampled
+from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
 from lyapcheck.claims.search_result import (
     SearchResult,
     between,
@@ -36,6 +51,7 @@ from lyapcheck.claims.search_result import (
     shown,
     still_open,
 )
+from lyapcheck.claims.statements import reals
 from lyapcheck.constants.arm import extreme
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.control.judgement import proves, refutes
@@ -44,10 +60,12 @@ from lyapcheck.robots.fields import Number
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.search.controlled_arm import mass_proof
 
-METHOD = "inertia"
+INERTIA, GRAVITY = "inertia", "gravity"
 SAMPLES = 400
 MOST_BOXES_JOINTS = 4
-OfArm = MassAbove | MassBelow | CoriolisBelow
+OfArm = MassAbove | MassBelow | CoriolisBelow | GravityBelow
+Posture = tuple[float, PostureWitness]
+"""What a bound is about there, and the witness with its vectors."""
 
 
 @procedure(MassAbove)
@@ -55,119 +73,61 @@ def find_mass_above(statement: MassAbove) -> SearchResult:
     """The links, else a posture that refutes it, else boxes."""
     known = mass_proof(statement.mass) if statement.low == 0 and not statement.parameters else Bisection()
     quick: list[Proof] = [known] if isinstance(known, Links) else []
-    advice = "take a smaller bound, or name an arm whose links are known"
-    return _found(statement, quick, advice)
+    return _found(statement, quick, INERTIA, "take a smaller bound, or name an arm whose links are known")
 
 
 @procedure(MassBelow, CoriolisBelow)
 def find_upper(statement: MassBelow | CoriolisBelow) -> SearchResult:
     """The sizes of harmonics, else a posture that refutes it, else boxes."""
-    return _found(statement, [HarmonicSizes()], "take a larger bound")
-
-
-def _found(statement: OfArm, quick: list[Proof], advice: str) -> SearchResult:
-    """Boxes come last: where the statement is false they end only with their budget."""
-    for proof in quick:
-        if proves(statement, proof):
-            return shown(proof, f"{METHOD}: {proof.rule}")
-    for against in _postures(statement):
-        if refutes(statement, against):
-            return broken(against, f"{METHOD}: a posture", _witness(statement, against))
-    if len(statement.mass) <= MOST_BOXES_JOINTS and proves(statement, Bisection()):
-        return shown(Bisection(), f"{METHOD}: {Bisection.rule}")
-    return still_open(f"it is not shown, and no posture breaks it; {advice}", METHOD)
-
-
-def _postures(statement: OfArm) -> Iterator[PostureWitness]:
-    """The worst of many random postures, in double precision."""
-    random, inertia, n = np.random.default_rng(SEED), statement.inertia, len(statement.mass)
-    worst: tuple[float, PostureWitness] | None = None
-    for _ in range(SAMPLES):
-        q = tuple(Fraction(int(k), 64) for k in random.integers(-201, 202, n))
-        shares = [Fraction(int(k), 8) for k in random.integers(0, 9, len(statement.parameters))]
-        parameters = tuple(
-            low + (high - low) * share
-            for (low, high), share in zip(statement.parameters, shares, strict=True)
-        )
-        value, proof = _at(statement, inertia, q, parameters, random)
-        if worst is None or value > worst[0]:
-            worst = value, proof
-    if worst is not None:
-        yield worst[1]
-
-
-def _at(
-    statement: OfArm,
-    inertia: Inertia,
-    q: tuple[Fraction, ...],
-    parameters: tuple[Fraction, ...],
-    random: np.random.Generator,
-) -> tuple[float, PostureWitness]:
-    """How far a posture breaks the bound, and the witness with its worst vectors."""
-    n = inertia.n
-    if isinstance(statement, CoriolisBelow):
-        x, y = (tuple(Fraction(int(k), 8) for k in random.integers(-8, 9, n)) or None for _ in range(2))
-        x, y = (v if v is not None and any(v) else (Fraction(1),) * n for v in (x, y))
-        turned = np.array([float(c) for c in inertia.coriolis(q, parameters, _balls(x), _balls(y))])
-        size = float(np.linalg.norm(turned)) / (_norm(x) * _norm(y))
-        return size - float(statement.high), PostureWitness(q, parameters, x, y)
-    rows = np.array([[float(c) for c in row] for row in inertia.at(q, parameters)])
-    values, vectors = np.linalg.eigh(rows)
-    low = isinstance(statement, MassAbove)
-    x = tuple(Fraction(float(c)).limit_denominator(10**6) for c in vectors[:, 0 if low else -1])
-    gap = (
-        float(statement.low) - values[0]
-        if isinstance(statement, MassAbove)
-        else values[-1] - float(statement.high)
-    )
-    return float(gap), PostureWitness(q, parameters, x)
-
-
-def _balls(x: tuple[Fraction, ...]) -> list[object]:
-    from lyapcheck.check.numbers.balls import to_arb
-
-    return [to_arb(value) for value in x]
-
-
-def _norm(x: tuple[Fraction, ...]) -> float:
-    return math.sqrt(sum(value * value for value in x))
-
-
-def _witness(statement: OfArm, proof: PostureWitness) -> dict[str, object]:
-    point = entries(q=proof.q, x=proof.x, y=proof.y, p=proof.parameters)
-    value, _ = _at(statement, statement.inertia, proof.q, proof.parameters, np.random.default_rng(SEED))
-    if isinstance(statement, MassAbove):
-        return failing(point, statement.low, "<", between(statement.low - Fraction(value), 6))
-    return failing(point, between(Fraction(value) + statement.high, 6), "<=", statement.high)
-
-
-# --- How large the torque of gravity is: sizes of harmonics, else a posture against it, else boxes of angles.
-
-
-GRAVITY = "gravity"
+    return _found(statement, [HarmonicSizes()], INERTIA, "take a larger bound")
 
 
 @procedure(GravityBelow)
 def find_gravity_below(statement: GravityBelow) -> SearchResult:
-    """A bound of the sizes of harmonics, a posture that refutes it, or boxes."""
-    if proves(statement, HarmonicSizes()):
-        return shown(HarmonicSizes(), f"{GRAVITY}: {HarmonicSizes.rule}")
-    worst = max((_sampled(statement, k) for k in range(SAMPLES)), key=lambda row: row[0])
-    if refutes(statement, worst[1]):
-        point = entries(q=worst[1].q, p=worst[1].parameters)
-        witness = failing(point, between(Fraction(worst[0]), 6), "<=", statement.high)
-        return broken(worst[1], f"{GRAVITY}: a posture", witness)
-    if proves(statement, Bisection()):
-        return shown(Bisection(), f"{GRAVITY}: {Bisection.rule}")
-    return still_open("it is not shown, and no posture breaks it; take a larger bound", GRAVITY)
+    """The sizes of harmonics, else a posture that refutes it, else boxes."""
+    return _found(statement, [HarmonicSizes()], GRAVITY, "take a larger bound")
 
 
-def _sampled(statement: GravityBelow, k: int) -> tuple[float, PostureWitness]:
-    random = np.random.default_rng(SEED + k)
-    q = tuple(Fraction(int(step), 64) for step in random.integers(-201, 202, statement.joints))
-    ends = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
-    values = [float(value) for value in statement.at(q, ends)]
-    return float(np.linalg.norm(values)), PostureWitness(q, ends, ())
+def _found(statement: OfArm, quick: list[Proof], method: str, advice: str) -> SearchResult:
+    """Boxes come last: where the statement is false they end only with their budget."""
+    for proof in quick:
+        if proves(statement, proof):
+            return shown(proof, f"{method}: {proof.rule}")
+    random = np.random.default_rng(SEED)
+    value, against = max((_sampled(statement, random) for _ in range(SAMPLES)), key=lambda row: row[0])
+    if refutes(statement, against):
+        point = entries(q=against.q, x=against.x, y=against.y, p=against.parameters)
+        if isinstance(statement, MassAbove):
+            witness = failing(point, statement.low, "<", between(-Fraction(value), 6))
+        else:
+            witness = failing(point, between(Fraction(value), 6), "<=", statement.high)
+        return broken(against, f"{method}: a posture", witness)
+    few = isinstance(statement, GravityBelow) or len(statement.mass) <= MOST_BOXES_JOINTS
+    if few and proves(statement, Bisection()):
+        return shown(Bisection(), f"{method}: {Bisection.rule}")
+    return still_open(f"it is not shown, and no posture breaks it; {advice}", method)
+
+
+def _sampled(statement: OfArm, random: np.random.Generator) -> Posture:
+    """A random posture, at a corner of the ranges, with the vectors at which it breaks the bound most."""
+    n = statement.joints if isinstance(statement, GravityBelow) else len(statement.mass)
+    q = tuple(Fraction(int(k), 64) for k in random.integers(-201, 202, n))
+    parameters = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
+    if isinstance(statement, GravityBelow):
+        torques = [float(value) for value in statement.at(q, parameters)]
+        return float(np.linalg.norm(torques)), PostureWitness(q, parameters, ())
+    if isinstance(statement, CoriolisBelow):
+        drawn = (tuple(Fraction(int(k), 8) for k in random.integers(-8, 9, n)) for _ in range(2))
+        x, y = (v if any(v) else (Fraction(1),) * n for v in drawn)
+        balls = [list(map(to_arb, v)) for v in (x, y)]
+        turned = [float(c) for c in statement.inertia.coriolis(q, parameters, *balls)]
+        size = math.hypot(*turned) / (math.hypot(*x) * math.hypot(*y))
+        return size, PostureWitness(q, parameters, x, y)
+    rows = [[float(c) for c in row] for row in statement.inertia.at(q, parameters)]
+    values, vectors = np.linalg.eigh(np.array(rows))
+    sign, place = (-1, 0) if isinstance(statement, MassAbove) else (1, -1)
+    x = tuple(Fraction(float(c)).limit_denominator(10**6) for c in vectors[:, place])
+    return float(sign * values[place]), PostureWitness(q, parameters, x)
 
 
 # --- Bounds along a chain of links: forms that show them, else the posture at which the bound fails.
@@ -204,3 +164,80 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
             LINKS,
         )
     return shown(result.proof, f"{LINKS}: {result.proof.rule}")
+
+
+# --- Bounds of polynomials in sines and cosines, from the mean and the amplitudes of their Fourier sums.
+#
+# The bounds are exact but coarse; where they do not reach a claimed one, points are searched.
+#
+# References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
+
+SUMS = "mean and amplitudes of the Fourier sum"
+
+Doubt = tuple[str, list[tuple[bool, Relation]]]
+"""Why Fourier sums do not settle an entry, and the relations (from below?) to break."""
+
+
+@procedure(TrigonometricBound)
+def find_bounds(statement: TrigonometricBound) -> SearchResult:
+    """Compute |mean| plus amplitudes of each entry; where that is above the bound, look for angles."""
+
+    def doubt(entry: tuple[Tree, Fraction | None]) -> Doubt | None:
+        tree, bound = entry
+        if bound is None:
+            if is_bounded(tree):
+                return None
+            raise Unsupported("a variable outside sin and cos has no bound")
+        reached = largest(tree)
+        if reached <= bound:
+            return None
+        above, below = within(tree, bound)
+        return f"{reached} is above {bound}", [(False, above), (True, below)]
+
+    return _each(statement.entries, doubt, lambda entry: entry[0])
+
+
+@procedure(TrigonometricPositive)
+def find_positive(statement: TrigonometricPositive) -> SearchResult:
+    """Compute mean minus amplitudes of each entry; where that is not positive, look for angles."""
+
+    def doubt(tree: Tree) -> Doubt | None:
+        reached = lowest(tree)
+        if reached > 0:
+            return None
+        return f"mean minus amplitudes is {reached}", [(True, above_zero(tree))]
+
+    return _each(statement.entries, doubt, lambda tree: tree)
+
+
+def _each(
+    entries: Sequence[tuple[object, ...]],
+    doubt: Callable[..., Doubt | None],
+    tree_of: Callable[..., Tree],
+) -> SearchResult:
+    open_ones: list[str] = []
+    for k, entry in enumerate(entries):
+        try:
+            doubted = doubt(entry)
+        except Unsupported as problem:
+            return still_open(f"{problem}; give the entries as polynomials in sin and cos", SUMS)
+        if doubted is not None:
+            why, relations = doubted
+            result = _angles_against(k, tree_of(entry), relations)
+            if result is not None:
+                return result
+            open_ones.append(f"entry {k + 1}: {why}, and no angle that decides was found")
+    if open_ones:
+        return still_open(f"{open_ones[0]}; bisect over the angles", SUMS)
+    return shown(FourierBounds(), SUMS)
+
+
+def _angles_against(entry: int, tree: Tree, relations: list[tuple[bool, Relation]]) -> SearchResult | None:
+    names = reals(*sorted(variables(tree)))
+    for lower, relation in relations:
+        result = counterexample(Implies(names, (), relation))
+        if result is not None:
+            proof = EntryWitness(entry, lower, point_of(result[1]), BITS)
+            method = f"{SUMS}: angles at which entry {entry + 1} leaves its bound"
+            return broken(proof, method, witness_data(result), **sampled())
+    return None
