@@ -32,7 +32,6 @@ from lyapcheck.search.sample import (
 from lyapcheck.search.worst_states import (
     fast_states,
     finite_states,
-    level_states,
     require_one_rate,
     slow_states,
 )
@@ -108,9 +107,10 @@ def _candidates(
     yield "sampled", chosen
     speed, directions = fastest_directions(controlled, states.q, states.e)
     picked = spread(states, speed, starts)
-    fast = fast_states(controlled, States(states.q[picked], states.e[picked], directions[picked]))
+    begin = States(states.q[picked], states.e[picked], directions[picked])
+    fast = fast_states(controlled, begin)
     yield "fast", fast
-    yield "level", level_states(controlled, States(states.q[picked], states.e[picked], directions[picked]))
+    yield "level", fast_states(controlled, begin, level=True)
     yield "finite", finite_states(controlled, chosen)
     yield "finite", finite_states(controlled, _leaving(controlled, fast, starts))
     yield from _slow_candidates(controlled, starts, samples, seed)

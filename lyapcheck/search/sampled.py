@@ -23,11 +23,11 @@ from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 from lyapcheck.check.loop.closed_loop import corners_of
 from lyapcheck.check.numbers.members import member
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Ends, Monomials, Proof
 from lyapcheck.control.judgement import refutes
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.robots import trig
-from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, Dynamics, Polynomials
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, Polynomials
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import RobotModel
@@ -215,18 +215,25 @@ def loops(statement: SampledStable, arm: RobotModel | None = None) -> Iterator[L
 
 def plant_of(statement: SampledStable | SampledFromRest) -> RobotModel:
     """The arm of a statement, with its ranges."""
-    names = [f"p{k}" for k, _ in enumerate(statement.parameters, 1)]
-    numbers = {
-        name: Number(low, low=low, high=high)
-        for name, (low, high) in zip(names, statement.parameters, strict=True)
-    }
     if isinstance(statement, SampledStable) and statement.links:
-        dynamics: Dynamics = Chain(statement.links, statement.fall)
-    else:
-        ring = trig.trig_ring(len(statement.mass), names)
-        mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
-        dynamics = Polynomials(mass, trig.from_terms(ring, statement.potential), tuple(names))
-    return RobotModel(name="arm", joints=(), dynamics=dynamics, viscous=(), parameters=numbers)
+        chain = Chain(statement.links, statement.fall)
+        return RobotModel(name="arm", joints=(), dynamics=chain, viscous=())
+    return arm_of_terms(statement.mass, statement.parameters, statement.potential)
+
+
+def arm_of_terms(
+    mass: Sequence[Sequence[Monomials]], parameters: Sequence[Ends], potential: Monomials = ()
+) -> RobotModel:
+    """An arm from its polynomials as statements have them, at the middle of its ranges."""
+    names = [f"p{k}" for k, _ in enumerate(parameters, 1)]
+    numbers = {
+        name: Number((low + high) / 2, low=low, high=high)
+        for name, (low, high) in zip(names, parameters, strict=True)
+    }
+    ring = trig.trig_ring(len(mass), names)
+    entries = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in mass)
+    dynamics = Polynomials(entries, trig.from_terms(ring, potential), tuple(names))
+    return RobotModel(name="the arm", joints=(), dynamics=dynamics, viscous=(), parameters=numbers)
 
 
 def corners(plant: RobotModel) -> Iterator[tuple[Fraction, ...]]:

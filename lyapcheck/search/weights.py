@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,7 +116,7 @@ def weighted_epsilon(
     for index, share in enumerate(SHARES):
         progress(0.5 + 0.5 * index / len(SHARES), f"{float(share):.0%} of the proposed weights")
         loop = controlled.loop(*_rounded([Fraction(float(x)) * share for x in weights]))
-        if not _larger(loop.eps0, loop.Lambda, certified.loop.eps0):
+        if prod(loop.eps0 * scale / certified.loop.eps0 for scale in loop.Lambda) <= 1:
             reason = "the convex program proposes none with a larger product"
             continue
         if not loop.admissible:
@@ -134,14 +135,6 @@ def weighted_epsilon(
             return Weighted(accepted, states, looked_at, reason)
         reason = "the boxes found were refused by the checker"
     return Weighted(certified, states, looked_at, reason)
-
-
-def _larger(eps0: Fraction, scales: tuple[Fraction, ...], than: Fraction) -> bool:
-    """Whether the product of ε₀Λ is larger than with Λ = I and another ε₀."""
-    product = Fraction(1)
-    for scale in scales:
-        product *= eps0 * scale / than
-    return product > 1
 
 
 def _rounded(weights: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:

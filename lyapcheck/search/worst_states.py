@@ -1,6 +1,6 @@
 """Worst-case states by CasADi and IPOPT from many starts.
 
-Five programs, all smooth, all started from the best of many sampled states:
+Programs, all smooth, all started from the best of many sampled states:
 
     fast     max over (q, e, v) of the 1/ε₀ that the state w = t v, t → ∞, refutes: a generalised eigenvalue
     level    the same at e = 0, where ‖e‖ has a kink and an optimiser that comes from outside stays behind
@@ -110,29 +110,15 @@ def require_one_rate(controlled: ControlledArm, states: States) -> None:
         raise Disagreement(f"{controlled.gains.name}: V by automatic differentiation has another dV/dt")
 
 
-def fast_states(controlled: ControlledArm, starts: States) -> States:
-    """Where the fast program ends from each start; w has unit length."""
-    x = expressions(controlled)
-    n = controlled.n
+def fast_states(controlled: ControlledArm, starts: States, level: bool = False) -> States:
+    """Where the fast program ends from each start, or the level one, with e held at 0; w has unit length."""
+    x, n, bound = expressions(controlled), controlled.n, _bound(controlled.n, 2.0)
     damping = ca.dot(x.w, ca.DM(controlled.fast_damping) * x.w)
-    bound = _bound(n, 2.0)
-    result = Program(ca.vertcat(x.q, x.e, x.w), x.fast / damping, bound).climb(_stack(starts))
-    return _unit(controlled, States(*_parts(result, n)))
-
-
-def level_states(controlled: ControlledArm, starts: States) -> States:
-    """Where the fast program ends with e held at 0."""
-    n = controlled.n
-    q, w = ca.SX.sym("q", n), ca.SX.sym("w", n)
-    slopes = ca.DM(controlled.family.dh(np.zeros(n)))
-    top = ca.dot(slopes * w, graph.mass(controlled.fixed, q) @ w)
-    program = Program(
-        ca.vertcat(q, w),
-        top / ca.dot(w, ca.DM(controlled.fast_damping) * w),
-        np.concatenate([np.full(n, 2 * np.pi), np.full(n, 2.0)]),
-    )
-    result = program.climb(np.hstack([starts.q, starts.w]))
-    return _unit(controlled, States(result[:, :n], np.zeros_like(result[:, :n]), result[:, n:]))
+    if level:
+        bound[n : 2 * n], starts = 0.0, States(starts.q, np.zeros_like(starts.e), starts.w)
+    ends = Program(ca.vertcat(x.q, x.e, x.w), x.fast / damping, bound).climb(_stack(starts))
+    q, e, _ = _parts(ends, n)
+    return States(q, e, fastest_directions(controlled, q, e)[1])
 
 
 def finite_states(controlled: ControlledArm, starts: States) -> States:
@@ -204,8 +190,3 @@ def _stack(states: States) -> Array:
 
 def _parts(rows: Array, n: int) -> tuple[Array, Array, Array]:
     return rows[:, :n], rows[:, n : 2 * n], rows[:, 2 * n : 3 * n]
-
-
-def _unit(controlled: ControlledArm, states: States) -> States:
-    """The same (q, e) with the direction of w that is worst there."""
-    return States(states.q, states.e, fastest_directions(controlled, states.q, states.e)[1])

@@ -36,7 +36,7 @@ SAID = {
     "answers.sweep.asks": (1, "the name of a reason"),
     "answers.sweep.question": (2, "the words for the exit codes of answers"),
     "claims.decision": (1, "what a fresh process of the checker said"),
-    "claims.procedures.__init__": (1, "what parts are looked at for"),
+    "claims.procedures": (1, "what parts are looked at for"),
     "claims.search_result": (2, "what a search proposes, which the rules are asked about before it is shown"),
     "answers.check.run": (1, "what a search proposed before, which a fresh process of the checker judges"),
     "cli.commands.simulate": (1, "the word of an option"),

@@ -42,9 +42,8 @@ from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.control.sampled import largest_period, sampled_proof
 from lyapcheck.errors import installed
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
-from lyapcheck.robots import Number, trig
-from lyapcheck.robots.dynamics import FEW_JOINTS, Polynomials
-from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots import Number
+from lyapcheck.robots.dynamics import FEW_JOINTS
 from lyapcheck.search.controlled_arm import mass_proof
 from lyapcheck.verdicts import Verdict
 
@@ -168,20 +167,13 @@ def controlled_arm_of(statement: Decreasing) -> ControlledArm:
     """The arm at the middle of its ranges under the controller, for a search."""
     from lyapcheck.control.gains import GainSet
     from lyapcheck.search.controlled_arm import ControlledArm
+    from lyapcheck.search.sampled import arm_of_terms
 
     gains = GainSet("gains", statement.m, statement.kp, statement.kv, statement.family)
-    n, (viscous, parameters) = len(statement.kp), _middles(statement)
-    names = tuple(f"p{k + 1}" for k in range(len(parameters)))
-    ring = trig.trig_ring(n, names)
-    mass = tuple(tuple(trig.from_terms(ring, entry) for entry in row) for row in statement.mass)
-    ranging = Polynomials(mass, trig.constant(ring, 0), names)
-    arm = RobotModel(
-        name="the arm",
-        joints=tuple(f"joint {i + 1}" for i in range(n)),
-        dynamics=ranging.fixed(dict(zip(names, parameters, strict=True))),
-        viscous=tuple(map(Number, viscous)),
-    )
-    return ControlledArm(gains, arm)
+    arm = arm_of_terms(statement.mass, statement.parameters).fixed()
+    joints = tuple(f"joint {i + 1}" for i in range(len(statement.kp)))
+    viscous = tuple(map(Number, _middles(statement)[0]))
+    return ControlledArm(gains, replace(arm, joints=joints, viscous=viscous))
 
 
 def _middles(statement: Decreasing) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
