@@ -18,12 +18,13 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from lyapcheck._types import SEED, Array, Progress, silent
-from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.kinds.chain import ChainAbove, ChainCoriolisBelow
+from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.check.numbers.vectors import Algebra
 from lyapcheck.constants.constant import ConstantResult, SupremumTask
 from lyapcheck.constants.spectrum import (
     ArmHarmonics,
@@ -32,10 +33,9 @@ from lyapcheck.constants.spectrum import (
     lambda_max_task,
     lambda_min_task,
 )
-from lyapcheck.constants.storage import storage_proof
+from lyapcheck.constants.storage import Bound, joints_of, storage_proof, zero_bound
 from lyapcheck.errors import argument_error
 from lyapcheck.lyapunov.scalar import RobotBounds
-from lyapcheck.robots.chain import ChainInMotion
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.plant import RobotModel
 
@@ -89,11 +89,6 @@ def arm_constants(
 def _task(arm: ArmHarmonics, name: str) -> SupremumTask:
     tasks = {"lambda_min": lambda_min_task, "lambda_max": lambda_max_task, "k_c": coriolis_task}
     return tasks[name](arm) if name in tasks else gravity_task(arm, name, joints_of(name, arm.n))
-
-
-def joints_of(name: str, n: int) -> Sequence[int]:
-    """The joints, from 0, whose torque of gravity a constant bounds: all for ``k_g``, one for ``k_g2``."""
-    return range(n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
 
 
 # --- The constants that certificates of stability need, once an arm.
@@ -175,8 +170,7 @@ def extreme(plant: RobotModel, name: str) -> Extreme:
 
     chain = plant.dynamics
     assert isinstance(chain, Chain)
-    n, directed = plant.n, not name.startswith("k_g")
-    sign, merit = _merit(plant, name)
+    n, directed, merit = plant.n, not name.startswith("k_g"), _merit(plant, name)
     rng = np.random.default_rng(SEED)
     turns = rng.uniform(-np.pi, np.pi, (STARTS, n))
     starts = np.hstack([turns * (np.arange(STARTS) > 0)[:, None], rng.normal(size=(STARTS, n))])
@@ -190,11 +184,12 @@ def extreme(plant: RobotModel, name: str) -> Extreme:
     q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
     x = best[n:] / np.linalg.norm(best[n:])
     q_exact, x_exact = _short(q), _short(x) if directed else ()
-    return Extreme(q_exact, x_exact, _in_balls(chain, name, q_exact, x_exact, sign))
+    value = _in_balls(zero_bound(chain, name), PostureWitness(q_exact, (), x_exact))
+    return Extreme(q_exact, x_exact, value)
 
 
-def _merit(plant: RobotModel, name: str) -> tuple[int, Callable[..., tuple[float, Array]]]:
-    """1 for a supremum, −1 for an infimum; what is to be small at (q, x), by a size, and its slopes."""
+def _merit(plant: RobotModel, name: str) -> Callable[..., tuple[float, Array]]:
+    """What is to be small at (q, x), by a size, and its slopes."""
     import casadi as ca
 
     from lyapcheck.lyapunov import graph
@@ -219,38 +214,17 @@ def _merit(plant: RobotModel, name: str) -> tuple[int, Callable[..., tuple[float
         result: Any = function(point)
         return float(result[0]) / size, np.array(result[1])[:, 0] / size
 
-    return sign, merit
+    return merit
 
 
-def _in_balls(
-    chain: Chain, name: str, q: tuple[Fraction, ...], x: tuple[Fraction, ...], sign: int
-) -> Fraction:
-    """The constant there, on the safe side."""
-    with ctx.workprec(BITS):
-        angles, direction = [to_arb(a) for a in q], [to_arb(a) for a in x]
-        sines, cosines = [a.sin() for a in angles], [a.cos() for a in angles]
-        posture = ChainInMotion(chain.links, chain.fall, sines, cosines, Algebra(to_arb))
-        if name.startswith("k_g"):
-            torque = posture.gravity()
-            return Enclosure.from_arb(_norm([torque[i] for i in joints_of(name, len(q))])).lower
-        if name == "k_c":
-            turned = _times(posture.coriolis(direction), direction)
-            return Enclosure.from_arb(_norm(turned) / _norm(direction) ** 2).lower
-        moved, size = _times(posture.mass(), direction), _norm(direction)
-        if sign > 0:
-            return Enclosure.from_arb(_norm(moved) / size).lower
-        form = sum((a * b for a, b in zip(direction, moved, strict=True)), arb(0))
-        return Enclosure.from_arb(form / size**2).upper
-
-
-def _times(rows: list[list[arb]], x: list[arb]) -> list[arb]:
-    return [sum((a * b for a, b in zip(row, x, strict=True)), arb(0)) for row in rows]
-
-
-def _norm(x: list[arb]) -> arb:
-    square = sum((a * a for a in x), arb(0))
-    # a sum of squares that may be 0 has a ball that reaches below
-    return square.sqrt() if square > 0 else square.abs_upper().sqrt().union(arb(0))
+def _in_balls(statement: Bound, at: PostureWitness) -> Fraction:
+    """The constant there, on the safe side, from how far a bound of 0 fails."""
+    with precision(BITS):
+        excess, square = statement.excess(at), sum((to_arb(x) ** 2 for x in at.x), arb(int(not at.x)))
+        if isinstance(statement, ChainAbove):
+            return Enclosure.from_arb(-excess / square).upper
+        size = excess / (square**2 if isinstance(statement, ChainCoriolisBelow) else square)
+        return Enclosure.from_arb(size.lower().max(arb(0)).sqrt()).lower
 
 
 def _short(values: Array) -> tuple[Fraction, ...]:

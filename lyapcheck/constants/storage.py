@@ -279,14 +279,18 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProo
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
     """
+    statement = zero_bound(chain, name)
     if name == "k_c":
         bounds = rate_bounds(chain.links)
         if bounds is None:
             return None
-        return _accepted(BoundWithProof(ChainCoriolisBelow(chain.links, _above(bounds.reached)), bounds))
-    problem, statement = _question(chain, name)
+        return _accepted(BoundWithProof(with_end(statement, _above(bounds.reached)), bounds))
     if still:
         return _accepted(BoundWithProof(statement, NoTorque()))
+    if isinstance(statement, ChainGravityBelow):
+        problem = StorageProblem(weight(chain.links, joints_of(name, chain.n)), 3, chain.fall)
+    else:
+        problem = energy_problem(chain, -1 if name == "lambda_min" else 1)
     for margin in _MARGINS:
         result = propose([problem], margin)
         if result is None:
@@ -305,16 +309,19 @@ def _accepted(shown: BoundWithProof) -> BoundWithProof | None:
     return shown if proves(shown.statement, shown.proof) else None
 
 
-def _question(chain: Chain, name: str) -> tuple[StorageProblem, Bound]:
-    zero = Fraction(0)
+def joints_of(name: str, n: int) -> Sequence[int]:
+    """The joints, from 0, whose torque of gravity a constant bounds: all for ``k_g``, one for ``k_g2``."""
+    return range(n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
+
+
+def zero_bound(chain: Chain, name: str) -> Bound:
+    """That a constant is at least, or at most, 0."""
     if name == "lambda_min":
-        return energy_problem(chain, -1), ChainAbove(chain.links, zero)
-    if name == "lambda_max":
-        return energy_problem(chain, 1), ChainBelow(chain.links, zero)
-    joints = range(chain.n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
-    counted = tuple(i + 1 for i in joints)
-    problem = StorageProblem(weight(chain.links, joints), 3, chain.fall)
-    return problem, ChainGravityBelow(chain.links, chain.fall, counted, zero)
+        return ChainAbove(chain.links, Fraction(0))
+    if name in ("lambda_max", "k_c"):
+        return (ChainBelow if name == "lambda_max" else ChainCoriolisBelow)(chain.links, Fraction(0))
+    counted = tuple(i + 1 for i in joints_of(name, chain.n))
+    return ChainGravityBelow(chain.links, chain.fall, counted, Fraction(0))
 
 
 def with_end(statement: Bound, value: Fraction) -> Bound:
