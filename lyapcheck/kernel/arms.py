@@ -32,11 +32,13 @@ from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBe
 from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
 from lyapcheck.check.loop.field import PI_ABOVE, BrokenTree, Side, nodes
 from lyapcheck.check.loop.proof import MORE_HALVINGS
-from lyapcheck.check.numbers.harmonics import angles_in, largest
+from lyapcheck.check.numbers.harmonics import angles_in
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
+from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.boxes import cover
+from lyapcheck.search.sampled import arm_of_terms
 from lyapcheck.search.schur import SchurProblem
 
 FUEL = 30
@@ -48,6 +50,8 @@ SLACK = 2.0**-20
 PIECES = range(2, 7)
 """The members of ``formal/Turns.v``."""
 MOST_BOXES = 1_000_000
+STEPS = 25
+"""Of a grid of angles, along each."""
 LITERAL = 4000
 """Longer texts overflow the stack of Coq's parser."""
 
@@ -173,12 +177,11 @@ def _lower(angles: Sequence[int], alpha: Fraction) -> dict[str, str]:
 
 def _robot(loop: ClosedLoop) -> dict[str, str]:
     """What shows that the arm is a robot and the gains are positive: for every theorem about one arm."""
-    viscous, n = loop.arm.viscous, loop.n
-    return _lower(
-        loop.angles, Fraction(0.9 * _lowest(loop.arm.mass, loop.angles)).limit_denominator(10**6)
-    ) | {
-        "beta": exact(max(sum((_size(loop, i, j) for j in range(n)), Fraction(0)) for i in range(n))),
-        "kc": exact(root_above(_squares(loop))),
+    viscous = loop.arm.viscous
+    lowest = Fraction(0.9 * _lowest(loop.arm.mass, loop.angles)).limit_denominator(10**6)
+    return _lower(loop.angles, lowest) | {
+        "beta": exact(loop.inertia.largest_row),
+        "kc": exact(root_above(loop.inertia.squares_of_symbols)),
         "lo": exact(min(viscous)),
         "hi": exact(max(viscous)),
         "kmin": exact(min(loop.kp)),
@@ -200,31 +203,12 @@ def _range(name: str, m: int | None) -> str:
     return f"{name}_R_{m}" if m in PIECES else f"({name}_I {m} 3)"
 
 
-def _size(loop: ClosedLoop, i: int, j: int) -> Fraction:
-    return sum(map(largest, loop.mass[i][j].values()), Fraction(0))
-
-
-def _squares(loop: ClosedLoop) -> Fraction:
-    """Σ c_ijk², of bounds of the Christoffel symbols."""
-    sizes = {place: sum(map(largest, parts.values()), Fraction(0)) for place, parts in loop.symbols.items()}
-    return sum(((1 if j == k else 2) * size**2 for (_, j, k), size in sizes.items()), Fraction(0))
-
-
 def _lowest(mass: Mass, angles: Sequence[int]) -> float:
     """The least eigenvalue of M(q) on a grid; only a proposal."""
-    n, steps = len(mass), 25
-    result = math.inf
-    for place in product(np.linspace(-math.pi, math.pi, steps), repeat=len(angles)):
-        q = np.zeros(n)
-        q[list(angles)] = place
-        rows = [[_value(entry, q) for entry in row] for row in mass]
-        result = min(result, float(np.linalg.eigvalsh(np.array(rows))[0]))
-    return result
-
-
-def _value(entry: Sequence[tuple[tuple[int, ...], Fraction]], q: Array) -> float:
-    harmonics = np.concatenate([np.sin(q), np.cos(q)])
-    return math.fsum(float(c) * float(np.prod(harmonics ** np.array(powers))) for powers, c in entry)
+    places = np.array([*product(np.linspace(-math.pi, math.pi, STEPS), repeat=len(angles))])
+    q = np.zeros((len(places), len(mass)))
+    q[:, list(angles)] = places
+    return float(np.linalg.eigvalsh(NumericModel(arm_of_terms(mass, ())).mass(q)).min())
 
 
 def _signs(loop: ClosedLoop, joint: int) -> str:

@@ -141,18 +141,19 @@ def arm(mass: Sequence[Sequence[Monomials]], viscous: Sequence[Fraction]) -> str
     Raises:
         NotPrinted: its entries have parameters.
     """
-    n = len(mass)
-    if any(len(powers) != 2 * n for row in mass for entry in row for powers, _ in entry):
+    if any(len(powers) != 2 * len(mass) for row in mass for entry in row for powers, _ in entry):
         raise NotPrinted("an arm with uncertain parameters")
-    rows = [f"[{'; '.join(monomials(entry) for entry in row)}]" for row in mass]
-    return f"(Arm {n} [{'; '.join(rows)}] {exact_list(viscous)})"
+    return _arm(mass, viscous)
 
 
 def any_arm(mass: Sequence[Sequence[Monomials]], parameters: Iterable[Ends]) -> str:
     """An arm of which M(q) alone is said something, and the ranges of its parameters."""
-    rows = [f"[{'; '.join(monomials(entry) for entry in row)}]" for row in mass]
-    ranges = (f"({exact(low)}, {exact(high)})" for low, high in parameters)
-    return f"(Arm {len(mass)} [{'; '.join(rows)}] []%Q) [{'; '.join(ranges)}]"
+    return f"{_arm(mass, ())} {ranges_of(parameters)}"
+
+
+def _arm(mass: Sequence[Sequence[Monomials]], viscous: Sequence[Fraction]) -> str:
+    rows = [f"[{'; '.join(map(monomials, row))}]" for row in mass]
+    return f"(Arm {len(mass)} [{'; '.join(rows)}] {exact_list(viscous)})"
 
 
 def monomials(terms: Monomials) -> str:

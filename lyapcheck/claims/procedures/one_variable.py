@@ -8,7 +8,6 @@ References: ``reyes2019family`` (7), (8); ``tucker2011validated``.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 
@@ -193,7 +192,7 @@ def find_norm_bound(statement: NormBound) -> SearchResult:
     result, proof = first_refutation(claim, doubtful(claim, points)), None
     if result is None:
         proof = _by_supremum(statement)
-        proof = proof or (_prove_uniform(statement) if statement.power == 0 else _prove_linear(statement))
+        proof = proof or _by_one_variable(statement)
         result = None if proof.is_proof else first_refutation(claim, points)
     if result is not None:
         return broken(witness_of(result), f"{NORMS}: a vector where it fails", witness_data(result))
@@ -225,30 +224,19 @@ def _by_supremum(statement: NormBound) -> SearchResult | None:
     return shown(Supremum(numbers.proof), numbers.method)
 
 
-def _prove_uniform(statement: NormBound) -> SearchResult:
-    parts = [find_for_all(part) for part in rules.uniform_parts(statement)]
-    labels = ("f(t) <= c/√n", "-f(t) <= c/√n")
-    why = "all entries equal is the worst case"
-    return _reduced(parts, labels, why, lambda proofs: EqualEntries(proofs[0], proofs[1]))
-
-
-def _prove_linear(statement: NormBound) -> SearchResult:
-    parts = [find_for_all(part) for part in rules.linear_parts(statement)]
-    labels = ("f(t) <= c|t|", "-f(t) <= c|t|") * 2
-    return _reduced(parts, labels, "one entry alone is the worst case", OneEntry)
-
-
-def _reduced(
-    parts: list[SearchResult],
-    labels: tuple[str, ...],
-    why: str,
-    combine: Callable[[tuple[Proof, ...]], Proof],
-) -> SearchResult:
+def _by_one_variable(statement: NormBound) -> SearchResult:
     """The norm bound from its inequalities in one variable; a part that fails leaves it open."""
-    for label, part in zip(labels, parts, strict=True):
+    reduced: tuple[ForAll, ...]
+    if statement.power == 0:
+        reduced, most, why = rules.uniform_parts(statement), "c/√n", "all entries equal is the worst case"
+    else:
+        reduced, most, why = rules.linear_parts(statement), "c|t|", "one entry alone is the worst case"
+    parts = [find_for_all(part) for part in reduced]
+    for side, part in zip(("f(t)", "-f(t)") * 2, parts, strict=False):
         if not part.is_proof:
-            reason = part.reason or "the inequality in one variable fails"
-            return still_open(f"reduced to one variable ({why}), which stays open: {label}: {reason}", NORMS)
+            reason = f"{side} <= {most}: {part.reason or 'the inequality in one variable fails'}"
+            return still_open(f"reduced to one variable ({why}), which stays open: {reason}", NORMS)
     methods = "; ".join(dict.fromkeys(part.method for part in parts))
     proofs = tuple(part.proof for part in parts if part.proof is not None)
-    return shown(combine(proofs), f"{NORMS}: {why}; {methods}")
+    by: Proof = EqualEntries(proofs[0], proofs[1]) if statement.power == 0 else OneEntry(proofs)
+    return shown(by, f"{NORMS}: {why}; {methods}")
