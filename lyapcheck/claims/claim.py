@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from inspect import Parameter, signature
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.stability import Stable
@@ -14,9 +14,6 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.verdicts import STANDS
-
-if TYPE_CHECKING:
-    from lyapcheck.claims.handover import ClaimData
 
 # --- The case a claim is decided for: m, n, a robot and gains, and which of them a statement looked at.
 
@@ -80,7 +77,21 @@ class Case:
 # --- Claims in an order in which each comes after all that it uses.
 
 
-S = TypeVar("S", bound="Claim | ClaimData")
+class Ordered(Protocol):
+    """What has an id and uses others."""
+
+    @property
+    def id(self) -> str:
+        """The name by which others use it."""
+        ...
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The ids that it uses."""
+        ...
+
+
+S = TypeVar("S", bound=Ordered)
 
 
 def in_order(claims: Mapping[str, S], file: str) -> list[S]:

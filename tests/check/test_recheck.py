@@ -279,10 +279,10 @@ def test_systems_that_run_checks_get_a_case_a_certificate(folder):
 @pytest.mark.parametrize("name", JUDGED_FORMATS)
 def test_every_format_has_the_exit_code_and_names_the_file(folder, name):
     rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
-    done = command("recheck", folder / "a.json", "--format", name.value)
+    done = command("recheck", folder / "a.json", "--format", name)
     assert done.returncode == 1, done.stderr
     assert "a.json" in done.stdout
-    assert command("recheck", folder / "x.json", "--format", name.value).returncode == 2
+    assert command("recheck", folder / "x.json", "--format", name).returncode == 2
 
 
 def test_a_genuine_certificate_under_other_words_is_shown_by_what_it_states(folder):
