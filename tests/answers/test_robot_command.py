@@ -59,19 +59,6 @@ def test_every_constant_is_shown_by_its_state(name):
         assert value == pytest.approx(inside, rel=1e-6, abs=1e-9)
 
 
-def test_known_extremes_of_the_two_joint_arm():
-    """M is largest stretched and k_g is reached stretched and level: g = (38.465 + 1.825, 1.825)."""
-    result = {
-        constant.name: constant.enclosure for constant in arm_constants(robots.load("reyes-kelly2"), 5000)
-    }
-    stretched = np.linalg.eigvalsh([[2.351 + 0.168, 0.102 + 0.084], [0.102 + 0.084, 0.102]])[-1]
-    assert float(result["lambda_max"].lower) == pytest.approx(stretched, rel=1e-6)
-    assert float(result["lambda_max"].width) < 2e-3 * stretched
-    level = np.hypot(38.46501 + 1.82466, 1.82466)
-    assert result["k_g"].lower <= Fraction(level) * (1 + Fraction(1, 10**9))
-    assert Fraction(level) * (1 - Fraction(1, 10**9)) <= result["k_g"].upper
-
-
 @pytest.mark.parametrize(
     ("name", "advice"),
     [

@@ -1,17 +1,13 @@
 """Identities for every n: against NumPy, against the same entry by entry, and with faults of every kind."""
 
-import json
 import runpy
 from dataclasses import replace
 
 import pytest
 
 from lyapcheck.answers.explain import explain
-from lyapcheck.certificate import to_json
-from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     any_matrix,
@@ -32,20 +28,13 @@ from lyapcheck.claims import (
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.script import find_script
 from lyapcheck.rechecking import drawn_entries
+from tests.helpers.stated import verdict
 
 A, B, S = (any_matrix(name) for name in "ABS")
 x, y, z, d = (any_vector(name) for name in "xyzd")
 s, t = var("s"), var("t")
 PUBLISHED = runpy.run_path(str(find_script("published.py")))
 L = loops.letters()
-
-
-def verdict(statement):
-    result = propose(statement)
-    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    if result.proof is not None:
-        assert verify(again, result.proof).verdict == result.verdict.value
-    return result.verdict.value
 
 
 TRUE = {

@@ -1,16 +1,11 @@
 """ODEs of a few variables: textbook examples, and loops and regions that come close to them and are false."""
 
-import json
 from dataclasses import replace
 from fractions import Fraction as F
 from random import Random
 
 import pytest
 
-from lyapcheck.certificate import to_json
-from lyapcheck.check.codec import from_json
-from lyapcheck.check.statement import Statement
-from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
     converges_to,
     enters,
@@ -25,6 +20,7 @@ from lyapcheck.claims import (
 )
 from lyapcheck.claims.procedures import propose
 from tests.helpers.shares import one_in
+from tests.helpers.stated import put, trees, verdict, why
 from tests.oracle.flows import flow
 
 x, y, z, k = map(var, "xyzk")
@@ -47,20 +43,10 @@ TRUE = {
 }
 
 
-def why(statement):
-    result = propose(statement)
-    assert result.verdict.value != "proved"
-    return result.reason
-
-
 @pytest.mark.parametrize("name", one_in(2, TRUE))
 def test_textbook_examples(name):
     statement = TRUE[name]
-    result = propose(statement)
-    assert result.verdict.value == "proved"
-    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    assert again == statement
-    assert verify(again, result.proof).verdict == "proved"
+    assert verdict(statement) == "proved"
     assert flow(statement, Random(1)) is None
 
 
@@ -155,22 +141,6 @@ def test_what_is_no_polynomial_or_has_other_names():
         local(LINEAR, SUM, region=SQUARE <= 1, within=1)
     with pytest.raises(ValueError, match="with the V of the theorem"):
         enters(LINEAR, SUM, region=SUM < 1)
-
-
-def trees(value, path=()):
-    """All parts of expressions, with their places."""
-    if isinstance(value, tuple):
-        if value and value[0] in ("num", "var", "add", "mul", "neg", "pow"):
-            yield path, value
-        for index, part in enumerate(value):
-            yield from trees(part, (*path, index))
-
-
-def put(value, path, new):
-    if not path:
-        return new
-    first, *rest = path
-    return (*value[:first], put(value[first], rest, new), *value[first + 1 :])
 
 
 def changed(statement, random):

@@ -1,17 +1,14 @@
 """Upper bounds for every n: against numbers with the actual norms, with faults, and forged covers."""
 
-import json
 from dataclasses import replace
 
 import pytest
 
-from lyapcheck.certificate import Certificate, to_json
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
-from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, terms_in_words
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.recheck import gather, recheck
-from lyapcheck.check.statement import Statement
 from lyapcheck.check.systems.system import minus
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import (
@@ -33,6 +30,7 @@ from lyapcheck.claims import (
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.procedures.norm_bounds import find_bound_every_n
 from tests.helpers.shares import one_in
+from tests.helpers.stated import verdict
 
 A, S = any_matrix("A"), any_matrix("S")
 x, y, d = (any_vector(name) for name in "xyd")
@@ -79,14 +77,6 @@ OPEN = {
     "a quotient": bound(form(x, A, y) / s, p * k * q / s),
     "a function": bound(form(x, A, y), p * k * q + tanh(p)),
 }
-
-
-def verdict(statement):
-    result = propose(statement)
-    again = from_json(Statement, json.loads(json.dumps(to_json(statement))), "statement")
-    if result.proof is not None:
-        assert verify(again, result.proof).verdict == result.verdict.value
-    return result.verdict.value
 
 
 @pytest.mark.parametrize("name", TRUE)

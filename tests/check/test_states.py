@@ -1,6 +1,5 @@
 """V and dV/dt in balls at exact states: against differences along the motion, and against planted faults."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -128,19 +127,6 @@ def test_fast_state_at_zero_error_by_hand():
 def test_fast_state_confirms_only_above_the_threshold(eps0, confirmed):
     state = State((F(0), F(0)), (F(0), F(0)), (F("522229.112"), F("852805.227")))
     assert confirms_positive(ARM, controller(1), F(eps0), state) is confirmed
-
-
-def test_tampered_state_is_refused():
-    good = State((F(0), F(0)), (F(0), F(0)), (F("522229.112"), F("852805.227")))
-    assert confirms_positive(ARM, controller(1), F("0.811"), good)
-    for bad in (
-        replace(good, w=(F("522229.112"), F("-852805.227"))),
-        replace(good, q=(F(0), F(3))),
-        replace(good, e=(F(1), F(0))),
-        replace(good, w=(F(0), F(0))),
-        replace(good, w=(F("522229.112"),)),
-    ):
-        assert not confirms_positive(ARM, controller(1), F("0.811"), bad)
 
 
 def test_a_nan_never_confirms():

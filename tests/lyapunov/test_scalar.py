@@ -81,14 +81,6 @@ def test_sharp_form_keeps_the_rate_negative_up_to_its_eps0(arm, h):
     assert plain is None or plain <= sharp.eps0
 
 
-@given(forms, st.fractions(min_value=0, max_value=1), positive)
-def test_a_certified_eps0_holds_for_every_smaller_one(form, share, eps0):
-    eps = eps0 * share
-    if certifies(form, eps0) and eps > 0:
-        t11, t12, t22 = theta(form, eps)
-        assert min(t11, t11 * t22 - t12**2) > 0
-
-
 @given(forms, positive)
 def test_the_check_is_sylvesters_criterion_at_eps0(form, eps0):
     t11, t12, t22 = theta(form, eps0)
