@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from lyapcheck.answers.check.run import paper_case
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About, judge, parse, read
+from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
 from lyapcheck.claims.claim import Lacking
@@ -85,6 +86,14 @@ def test_gains_that_break_19_have_an_eps0(against):
 def test_gains_within_the_bound_are_scaled_until_they_break_it():
     small = replace(STATEMENT, kv=(F(1, 100),) * 3)
     assert F(propose(small).witness["point"]["factor of K_v"]) > 20
+
+
+@pytest.mark.parametrize(
+    "change", [{"kv": (F(0),) * 3}, {"kp": (F(1),)}, {"bound": ("var", "x")}, {"viscous": ()}]
+)
+def test_a_statement_that_says_nothing_is_refused(against, change):
+    with pytest.raises(Refused):
+        verify(replace(STATEMENT, **change), against.proof)
 
 
 def test_an_arm_without_friction_leaves_it_open():
