@@ -48,8 +48,8 @@ Moved = TypeVar("Moved", bound=Motion)
 class Loop:
     """The state y of a run and its rate, with the goal as a parameter: q_d, or q_d, q̇_d and q̈_d.
 
-    y holds q and w, n each, then an energy D or W and S with S' = ‖e‖²: these ride along so that the account
-    of energy and the L2 index are as accurate as the motion itself.
+    y holds q and w, or e and w along a reference, n each, then an energy D or W and S with S' = ‖e‖²: these
+    ride along so that the account of energy and the L2 index are as accurate as the motion itself.
     """
 
     n: int
@@ -71,7 +71,7 @@ class Course(ABC, Generic[Moved]):
     Args:
         setup: controller, arm and task.
         loop: what moves.
-        y0: (2n,) q and w at the start.
+        y0: (2n,) the state at the start, without what rides along.
         points: samples of the run.
     """
 
@@ -172,7 +172,8 @@ def closed_loop(gains: Gains, model: RobotModel, moving: bool = False) -> Loop:
     """
     n = model.n
     state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("goal", 3 * n if moving else n)
-    q, w, e = state[:n], state[n : 2 * n], goal[:n] - state[:n]
+    first, w, other = state[:n], state[n : 2 * n], goal[:n] - state[:n]
+    q, e = (other, first) if moving else (first, other)
     of: dict[str, Any] = {"speed": goal[n : 2 * n], "acceleration_d": goal[2 * n :]} if moving else {}
     at = at_symbols(model, q, e, w, ca.DM(gains.kp), ca.DM(gains.kv), gains.family.casadi, **of)
     torque, velocity = ca.vertcat(*at.torque()), ca.vertcat(*at.velocity)
@@ -180,7 +181,7 @@ def closed_loop(gains: Gains, model: RobotModel, moving: bool = False) -> Loop:
     if moving:
         change = ca.dot(velocity, torque - ca.DM(at.viscous) * velocity)
         energy = ca.bilin(graph.matrix(at.mass), velocity, velocity) / 2 + at.arm.potential()
-    rate = ca.vertcat(velocity, *at.acceleration(), change, ca.dot(e, e))
+    rate = ca.vertcat(-w if moving else w, *at.acceleration(), change, ca.dot(e, e))
     return Loop(n, state, goal, rate, torque, energy)
 
 

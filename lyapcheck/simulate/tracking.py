@@ -363,29 +363,27 @@ class Tracking(Course[TrackingRun]):
             reason=UNBOUNDED if self.form is None else NO_EPS0 if largest is None else "",
         )
         setup = Setup(gains, model, task, eps0, controlled)
-        super().__init__(setup, closed_loop(gains, model, moving=True), [*task.q0, *w0], points)
+        super().__init__(setup, closed_loop(gains, model, moving=True), [*e0, *w0], points)
 
     def goal(self, t: Array) -> Array:
         return self.reference.at(t).reshape(t.size, -1)
 
     def watched(self, path: Trajectory) -> Array:
         """τ and e."""
-        n = self.loop.n
-        return np.hstack((self.signals(path)[0], self.goal(path.t)[:, :n] - path.y[:, :n]))
+        return np.hstack((self.signals(path)[0], path.y[:, : self.loop.n]))
 
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
         n, t, y, setup = self.loop.n, path.t, path.y, self.setup
         goal, speed, acceleration = np.split(self.goal(t), 3, axis=1)
         tau, energy = self.signals(path)
-        q, w, change = y[:, :n], y[:, n:-2], energy - energy[0]
-        e = goal - q
+        e, w, change = y[:, :n], y[:, n:-2], energy - energy[0]
         return TrackingRun(
             **motion_of(
                 setup,
                 "tracking",
                 t,
                 e,
-                q,
+                goal - e,
                 w,
                 tau,
                 L2=l2_of(float(y[-1, -1]), float(t[-1])),
