@@ -48,7 +48,8 @@ from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.dynamics import ArmAtAngles, Chain
+    from lyapcheck.robots.dynamics import Chain
+    from lyapcheck.robots.trig import ArmAtAngles
 
 
 Function = tuple[Expr, Expr, Expr]

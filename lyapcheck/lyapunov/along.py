@@ -28,11 +28,11 @@ from lyapcheck.derive.lyapunov import (
     value_13,
 )
 from lyapcheck.family.base import Arithmetic
-from lyapcheck.robots.chain import solve_definite
-from lyapcheck.robots.dynamics import ArmAtAngles
 from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots.trig import ArmAtAngles
 
 Vector = Sequence[Any]
+Named = Callable[[Vector], list[Any]]
 FormsAt = Callable[[Any], Any]
 
 
@@ -198,6 +198,37 @@ class AtState:
         return self.of.names([x * inverse for x in self.e])
 
 
+def solve_definite(matrix: Sequence[Vector], right: Vector, names: Named = list) -> list[Any]:
+    """x with matrix · x = right, symmetric and positive definite, by LDLᵀ, in any arithmetic.
+
+    Args:
+        matrix: (n, n).
+        right: (n,).
+        names: of values that are used more than once.
+
+    Soundness: with M not definite the pivots vanish or change sign; property 2.1 is decided elsewhere.
+    """
+    x, lower, pivots = list(right), list[list[Any]](), list[Any]()
+    for i, row in enumerate(matrix):
+        scaled: list[Any] = []  # L_ik d_k
+        for k in range(i):
+            scaled += names([_less(row[k], scaled, lower[k])])
+        lower.append([names([a / d])[0] for a, d in zip(scaled, pivots, strict=True)])
+        pivots += names([_less(row[i], scaled, lower[i])])
+        (x[i],) = names([_less(x[i], lower[i], x)])
+    x = [a / d for a, d in zip(x, pivots, strict=True)]
+    for i in reversed(range(len(x))):
+        (x[i],) = names([_less(x[i], [row[i] for row in lower[i + 1 :]], x[i + 1 :])])
+    return x
+
+
+def _less(value: Any, left: Vector, right: Vector) -> Any:
+    """The value without the products of as many pairs as there are."""
+    for a, b in zip(left, right, strict=False):
+        value = value - a * b
+    return value
+
+
 def total(terms: Any) -> Any:
     """The sum of one term or more."""
     first, *rest = terms
@@ -214,7 +245,6 @@ def total(terms: Any) -> Any:
 # a₂ is linear in w. F and the gradient of a₂ are the same terms with the unit matrix in place of w.
 
 
-Named = Callable[[Sequence[Any]], list[Any]]
 QUADRATIC = slice(2, 5)
 """Terms 3 to 5: all of a₁ that M and C enter."""
 

@@ -17,8 +17,7 @@ import casadi as ca
 
 from lyapcheck.family import Family
 from lyapcheck.family.base import Arithmetic, graphs
-from lyapcheck.lyapunov.along import AtState
-from lyapcheck.robots.chain import solve_definite
+from lyapcheck.lyapunov.along import AtState, solve_definite
 from lyapcheck.robots.plant import RobotModel
 
 

@@ -15,7 +15,7 @@ from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.robots.dynamics import Chain, Dynamics, ParameterShare
+from lyapcheck.robots.dynamics import Chain, ParameterShare
 from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, Sign, read_joints
 from lyapcheck.robots.plant import RobotModel, of_a_body
 
@@ -123,7 +123,7 @@ class ChainPlan:
         """All of them."""
         return set(self.numbers())
 
-    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Chain:
         def entry(name: str) -> Any:
             if name in parameters:
                 return ParameterShare(name)

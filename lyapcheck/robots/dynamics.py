@@ -1,33 +1,37 @@
-"""M, C, g and the potential of an arm in any arithmetic, from polynomials or from links.
+"""The dynamics of a chain of links, in any arithmetic.
 
-Up to three joints the polynomials are the shortest form. With more they grow tenfold a joint where axes are
-skew, and a chain of links is evaluated along the links.
+Up to three joints polynomials are the shortest form. With more they grow tenfold a joint where axes are skew,
+and a chain is evaluated along its links, C(q, x), g(q) and the potential in O(n²) steps beside M(q).
+
+With J = ∫ p̂p̂ᵀ dm, p̂ = (p, 1), of all bodies that joint m moves, X_i the twist of joint i as a 4 × 4 matrix,
+V_l = Σ_{k≤l} x_k X_k and K = Σ_l J_l V_lᵀ of the same bodies,
+
+    C_ij = tr(X_i K X_jᵀ) + tr(X_i J Ẋ_jᵀ),      Ẋ_j = V_{j−1} X_j − X_j V_{j−1},
+
+J and K of the bodies behind both i and j. As c_ijk = ∫ ∂p/∂q_i · ∂²p/∂q_j∂q_k dm, this C is that of the
+Christoffel symbols of M.
+
+References: composite rigid bodies, ``featherstone2008rigid`` chapter 6; ``echeandia2021numerical`` for C.
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 from flint import fmpq_mpoly
 
-from lyapcheck.check.loop.chain import RigidLink
-from lyapcheck.check.numbers.vectors import Algebra, Entry
+from lyapcheck.check.loop.chain import Posture, RigidLink, Wrench, own_body
+from lyapcheck.check.numbers.vectors import ZERO, Algebra, Entry, Matrix, Vector, transposed
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.robots import trig
-from lyapcheck.robots.chain import ChainInMotion
+from lyapcheck.robots.trig import ArmAtAngles, Dynamics, Lift, Polynomials, Rows, T, Tidy, Values
 
-T = TypeVar("T")
-Lift = Callable[[Fraction], T]
-Tidy = Callable[[Any], Any] | None
-Values = Mapping[str, Any]
-Rows = list[list[Any]]
-
+Twist = tuple[Vector, Vector]
+"""ω, and the velocity of the origin of the frame."""
 FEW_JOINTS = 3
 """Up to so many joints all angles are gone through: M(q) by its polynomials, bounds and proofs by boxes.
 
@@ -39,163 +43,6 @@ MOST_TERMS = 2_500
 
 class TooManyTerms(InputError):
     """M(q) has more terms than are worth writing out."""
-
-
-class ArmAtAngles(Protocol):
-    """An arm at some angles, in the arithmetic of their sines and cosines.
-
-    Soundness: with containing ``+``, ``-``, ``*`` and numbers the results contain the exact ones.
-    """
-
-    def mass(self) -> Rows:
-        """M(q), (n, n), kg·m²."""
-
-    def coriolis(self, x: Sequence[Any]) -> Rows:
-        """C(q, x) of the Christoffel symbols of M, (n, n), kg·m²/s, for rates x (n,), rad/s."""
-
-    def gravity(self) -> list[Any]:
-        """g(q) = ∂U/∂q, (n,), N·m."""
-
-    def potential(self) -> Any:
-        """U(q), J."""
-
-
-class Dynamics(ABC):
-    """M(q), C(q, x), g(q) and the potential energy of n revolute joints, with exact numbers and parameters.
-
-    Args:
-        n: number of joints.
-        names: of the parameters.
-    """
-
-    n: int
-    names: tuple[str, ...]
-
-    @abstractmethod
-    def at(
-        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
-    ) -> ArmAtAngles:
-        """The arm at some angles.
-
-        Args:
-            sin: sines of the angles, (n,), in any arithmetic.
-            cos: (n,).
-            values: of the parameters by name.
-            lift: turns an exact number into a value of that arithmetic.
-            tidy: brings values on the way into a form that stays short.
-        """
-
-    @property
-    @abstractmethod
-    def polynomials(self) -> Polynomials:
-        """The same as polynomials; raises `TooManyTerms` where those are not worth writing out."""
-
-    @abstractmethod
-    def fixed(self, values: Mapping[str, Fraction]) -> Dynamics:
-        """The same with exact numbers for all parameters."""
-
-
-@dataclass(frozen=True, eq=False)
-class Polynomials(Dynamics):
-    """M and the potential as polynomials in s1 … sn, c1 … cn and the parameters, in normal form.
-
-    Args:
-        mass: M(q), rows of polynomials, kg·m².
-        potential: J.
-        names: of the parameters, in the order of their generators.
-    """
-
-    mass: tuple[tuple[fmpq_mpoly, ...], ...]
-    potential: fmpq_mpoly
-    names: tuple[str, ...] = ()
-
-    @property
-    def n(self) -> int:  # type: ignore[override]
-        return len(self.mass)
-
-    @property
-    def polynomials(self) -> Polynomials:
-        return self
-
-    @cached_property
-    def christoffel(self) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], ...]:
-        """c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), so that C(q,x)_ij = Σ_k c_ijk x_k."""
-        joints = range(self.n)
-        slope = [[[trig.derivative(entry, k) for k in joints] for entry in row] for row in self.mass]
-        return tuple(
-            tuple(
-                tuple((slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) / 2 for k in joints) for j in joints
-            )
-            for i in joints
-        )
-
-    @cached_property
-    def gravity(self) -> tuple[fmpq_mpoly, ...]:
-        """g(q) = ∂potential/∂q, N·m."""
-        return tuple(trig.derivative(self.potential, i) for i in range(self.n))
-
-    @cached_property
-    def mass_terms(self) -> dict[tuple[int, int], trig.Terms]:
-        return {(i, j): trig.to_terms(self.mass[i][j]) for i in range(self.n) for j in range(i, self.n)}
-
-    @cached_property
-    def symbol_terms(self) -> dict[tuple[int, int, int], trig.Terms]:
-        places = product(range(self.n), repeat=3)
-        return {(i, j, k): trig.to_terms(c) for i, j, k in places if (c := self.christoffel[i][j][k]) != 0}
-
-    @cached_property
-    def gravity_terms(self) -> list[trig.Terms]:
-        return [trig.to_terms(entry) for entry in self.gravity]
-
-    def at(
-        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
-    ) -> ArmAtAngles:
-        return _Evaluated(self, [*sin, *cos, *(values[name] for name in self.names)], lift)
-
-    def fixed(self, values: Mapping[str, Fraction]) -> Polynomials:
-        ring = trig.trig_ring(self.n)
-        mass = tuple(tuple(trig.substitute(entry, values, ring) for entry in row) for row in self.mass)
-        return Polynomials(mass, trig.substitute(self.potential, values, ring))
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Plain terms: polynomials of python-flint cannot be pickled."""
-        rows = [[trig.to_terms(entry) for entry in row] for row in self.mass]
-        return {"mass": rows, "potential": trig.to_terms(self.potential), "names": self.names}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        ring = trig.trig_ring(len(state["mass"]), state["names"])
-        mass = tuple(tuple(trig.from_terms(ring, terms) for terms in row) for row in state["mass"])
-        potential = trig.from_terms(ring, state["potential"])
-        self.__dict__.update(mass=mass, potential=potential, names=state["names"])
-
-
-class _Evaluated(ArmAtAngles):
-    """The values of polynomials; each monomial is computed once for each question."""
-
-    def __init__(self, of: Polynomials, point: Sequence[Any], lift: Lift[Any]) -> None:
-        self._of, self._point, self._lift = of, point, lift
-
-    def mass(self) -> Rows:
-        known = dict(zip(self._of.mass_terms, self._values(self._of.mass_terms.values()), strict=True))
-        joints = range(self._of.n)
-        return [[known[min(i, j), max(i, j)] for j in joints] for i in joints]
-
-    def coriolis(self, x: Sequence[Any]) -> Rows:
-        terms: dict[tuple[int, int], list[Any]] = {}
-        symbols = self._of.symbol_terms
-        for (i, j, k), symbol in zip(symbols, self._values(symbols.values()), strict=True):
-            terms.setdefault((i, j), []).append(symbol * x[k])
-        joints = range(self._of.n)
-        return [[trig.total(terms.get((i, j), []), self._lift) for j in joints] for i in joints]
-
-    def gravity(self) -> list[Any]:
-        return self._values(self._of.gravity_terms)
-
-    def potential(self) -> Any:
-        return trig.evaluate(self._of.potential, self._point, self._lift)
-
-    def _values(self, polys: Iterable[trig.Terms]) -> list[Any]:
-        return trig.evaluate_all(list(polys), self._point, self._lift)
 
 
 @dataclass(frozen=True)
@@ -274,3 +121,105 @@ def _filled(part: Any, values: Values, of: Algebra) -> Any:
     if isinstance(part, tuple):
         return tuple(_filled(x, values, of) for x in part)
     return of.times(part.factor, values[part.name]) if isinstance(part, ParameterShare) else part
+
+
+@dataclass(frozen=True)
+class _Moving:
+    """K of a body: ∫ p ṗᵀ dm and the momentum ∫ ṗ dm."""
+
+    second: Matrix
+    momentum: Vector
+
+
+class ChainInMotion(Posture):
+    """A chain with its joints at some angles, and in motion.
+
+    Args:
+        links: base first; their numbers are exact, or values of the arithmetic.
+        fall: acceleration of free fall in the base frame, (3,), m/s²; likewise.
+        sines: of the angles, (n,), in the arithmetic.
+        cosines: (n,).
+        of: the arithmetic.
+    """
+
+    def __init__(
+        self,
+        links: Sequence[RigidLink],
+        fall: Vector,
+        sines: Vector,
+        cosines: Vector,
+        of: Algebra,
+    ) -> None:
+        super().__init__(links, sines, cosines, of)
+        self.fall = fall
+
+    def coriolis(self, x: Vector) -> Rows:
+        """C(q, x) of the Christoffel symbols, (n, n), kg·m²/s, for rates x (n,), rad/s."""
+        of, n = self.of, self.n
+        rows: Rows = [[ZERO] * n for _ in range(n)]
+        twists, slopes = self._twists(x)
+        moving = self._moving(twists)
+        for m in range(n):
+            axis, body, flow = self.links[m].axis, self.bodies[m], moving[m]
+            spin, speed = slopes[m]
+            momentum = self.momentum(m)
+            second = [
+                of.add(of.cross(axis, flow.second[i]), of.cross(spin, body.second[i]), of.scaled(s, speed))
+                for i, s in enumerate(body.moment)
+            ]
+            force = of.add(
+                of.cross(axis, flow.momentum), of.cross(spin, body.moment), of.scaled(body.mass, speed)
+            )
+            right = Wrench(of.axial(second), force)
+            left = Wrench(
+                of.axial([of.cross(axis, column) for column in transposed(flow.second)]), [ZERO] * 3
+            )
+            rows[m][m] = of.value(of.dot(axis, right.torque))
+            for i in range(m - 1, -1, -1):
+                momentum, right, left = (self.carried(i + 1, w) for w in (momentum, right, left))
+                rows[i][m] = of.value(of.dot(self.links[i].axis, right.torque))
+                moved = of.plus(of.dot(slopes[i][0], momentum.torque), of.dot(slopes[i][1], momentum.force))
+                rows[m][i] = of.value(of.plus(of.dot(self.links[i].axis, left.torque), moved))
+        return rows
+
+    def gravity(self) -> list[Any]:
+        return self.torques(self.fall)
+
+    def potential(self) -> Any:
+        """The potential energy −Σ m_k γᵀp_k, J."""
+        of, first = self.of, self.bodies[0]
+        place = of.add(of.apply(self.turns[0], first.moment), of.scaled(first.mass, self.links[0].origin))
+        return of.value(of.dot(of.scaled(Fraction(-1), self.fall), place))
+
+    def _twists(self, x: Vector) -> tuple[list[Twist], list[Twist]]:
+        of = self.of
+        twists: list[Twist] = []
+        slopes: list[Twist] = []
+        spin: Vector = [ZERO] * 3
+        speed: Vector = [ZERO] * 3
+        for k, link in enumerate(self.links):
+            back = transposed(self.turns[k])
+            speed = of.apply(back, of.add(speed, of.cross(spin, link.origin)))
+            spin = of.apply(back, spin)
+            slopes.append((of.cross(spin, link.axis), of.cross(speed, link.axis)))
+            spin = of.add(spin, of.scaled(x[k], link.axis))
+            twists.append((spin, speed))
+        return twists, slopes
+
+    def _moving(self, twists: Sequence[Twist]) -> list[_Moving]:
+        of = self.of
+        result: list[_Moving] = []
+        for k in reversed(range(self.n)):
+            body, (spin, speed) = own_body(of, self.links[k]), twists[k]
+            second = [
+                of.add(of.cross(spin, row), of.scaled(s, speed))
+                for row, s in zip(body.second, body.moment, strict=True)
+            ]
+            momentum = of.add(of.cross(spin, body.moment), of.scaled(body.mass, speed))
+            if result:
+                turned = of.apply(self.turns[k + 1], result[0].momentum)
+                carried = of.congruent(self.turns[k + 1], result[0].second)
+                second = of.sum(second, carried, of.outer(self.links[k + 1].origin, turned))
+                momentum = of.add(momentum, turned)
+            result.insert(0, _Moving(second, momentum))
+        return result

@@ -7,23 +7,20 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.errors import argument_error
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.robots.dynamics import ArmAtAngles, Chain, Dynamics, Lift, Tidy
+from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.printed import PrintedTorques
-from lyapcheck.robots.trig import to_terms
+from lyapcheck.robots.trig import ArmAtAngles, Dynamics, Lift, T, Tidy, to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.check.statement import Monomials
-
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

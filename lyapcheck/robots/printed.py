@@ -18,7 +18,6 @@ from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 from lyapcheck.files.toml import KeyPath
 from lyapcheck.robots import trig
-from lyapcheck.robots.dynamics import Dynamics, Polynomials
 from lyapcheck.robots.fields import ROTOR, ArmFields, JointEntry, Number, read_joints
 
 _FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9]))?")
@@ -256,7 +255,7 @@ class PrintedPlan:
     def used(self) -> set[str]:
         return self.printed.names() | set(_rotors(self.joints))
 
-    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Dynamics:
+    def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> trig.Polynomials:
         n = len(self.joints)
         ring = trig.trig_ring(n, parameters)
         polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
@@ -267,7 +266,7 @@ class PrintedPlan:
             tuple(entry + rotors[i] if i == j else entry for j, entry in enumerate(row))
             for i, row in enumerate(mass)
         )
-        return Polynomials(whole, potential, parameters)
+        return trig.Polynomials(whole, potential, parameters)
 
 
 def _rotors(joints: list[JointEntry]) -> dict[str, Number]:

@@ -1,4 +1,4 @@
-"""Trigonometric polynomials: exact polynomials in s_i = sin q_i and c_i = cos q_i.
+"""Trigonometric polynomials, exact in s_i = sin q_i and c_i = cos q_i, and an arm that they make.
 
 A ring holds the generators s1…sn, c1…cn and one generator for each uncertain parameter, in that order.
 Two polynomials describe the same function of q exactly when their normal forms modulo s_i² + c_i² = 1
@@ -8,14 +8,21 @@ are the same polynomial.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
-from typing import Any, TypeVar
+from functools import cached_property, lru_cache
+from itertools import product
+from typing import Any, Protocol, TypeVar
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 T = TypeVar("T")
+Lift = Callable[[Fraction], T]
+Tidy = Callable[[Any], Any] | None
+Values = Mapping[str, Any]
+Rows = list[list[Any]]
 Terms = list[tuple[tuple[int, ...], Fraction]]
 """Exponents of the generators and the coefficient of each monomial."""
 
@@ -84,22 +91,17 @@ def normal_form(poly: fmpq_mpoly) -> fmpq_mpoly:
     return poly
 
 
-def evaluate(poly: fmpq_mpoly, values: Sequence[T], lift: Callable[[Fraction], T]) -> T:
-    """The value of the polynomial in any arithmetic with ``+`` and ``*``.
+def evaluate_all(polys: Sequence[Terms], values: Sequence[T], lift: Callable[[Fraction], T]) -> list[T]:
+    """The values of several polynomials of one ring in any arithmetic, each monomial computed once.
 
     Args:
-        poly: the polynomial.
-        values: one value for each generator of its ring, in order.
+        polys: their terms.
+        values: one value for each generator of the ring, in order.
         lift: turns an exact coefficient into a value of that arithmetic.
 
-    Soundness: as good as the arithmetic: with containing ``+``, ``*`` and ``lift`` the result contains
-    the value at every point of ``values``.
+    Soundness: as good as the arithmetic: with containing ``+``, ``*`` and ``lift`` the results contain the
+    values at every point of ``values``.
     """
-    return evaluate_all([to_terms(poly)], values, lift)[0]
-
-
-def evaluate_all(polys: Sequence[Terms], values: Sequence[T], lift: Callable[[Fraction], T]) -> list[T]:
-    """The values of several polynomials of one ring, each monomial computed once; see `evaluate`."""
     known: dict[tuple[int, ...], T] = {}
 
     def term(powers: tuple[int, ...], coefficient: Fraction) -> T:
@@ -137,3 +139,165 @@ def substitute(poly: fmpq_mpoly, values: Mapping[str, Fraction], ring: fmpq_mpol
     """The polynomial with the named generators replaced by exact values, as an element of ``ring``."""
     exact = {name: fmpq(value.numerator, value.denominator) for name, value in values.items()}
     return poly.subs(exact).project_to_context(ring)
+
+
+# --- M, C, g and the potential of an arm, at some angles and as polynomials.
+
+
+class ArmAtAngles(Protocol):
+    """An arm at some angles, in the arithmetic of their sines and cosines.
+
+    Soundness: with containing ``+``, ``-``, ``*`` and numbers the results contain the exact ones.
+    """
+
+    def mass(self) -> Rows:
+        """M(q), (n, n), kg·m²."""
+
+    def coriolis(self, x: Sequence[Any]) -> Rows:
+        """C(q, x) of the Christoffel symbols of M, (n, n), kg·m²/s, for rates x (n,), rad/s."""
+
+    def gravity(self) -> list[Any]:
+        """g(q) = ∂U/∂q, (n,), N·m."""
+
+    def potential(self) -> Any:
+        """U(q), J."""
+
+
+class Dynamics(ABC):
+    """M(q), C(q, x), g(q) and the potential energy of n revolute joints, with exact numbers and parameters.
+
+    Args:
+        n: number of joints.
+        names: of the parameters.
+    """
+
+    n: int
+    names: tuple[str, ...]
+
+    @abstractmethod
+    def at(
+        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
+    ) -> ArmAtAngles:
+        """The arm at some angles.
+
+        Args:
+            sin: sines of the angles, (n,), in any arithmetic.
+            cos: (n,).
+            values: of the parameters by name.
+            lift: turns an exact number into a value of that arithmetic.
+            tidy: brings values on the way into a form that stays short.
+        """
+
+    @property
+    @abstractmethod
+    def polynomials(self) -> Polynomials:
+        """The same as polynomials; raises `TooManyTerms` where those are not worth writing out."""
+
+    @abstractmethod
+    def fixed(self, values: Mapping[str, Fraction]) -> Dynamics:
+        """The same with exact numbers for all parameters."""
+
+
+@dataclass(frozen=True, eq=False)
+class Polynomials(Dynamics):
+    """M and the potential as polynomials in s1 … sn, c1 … cn and the parameters, in normal form.
+
+    Args:
+        mass: M(q), rows of polynomials, kg·m².
+        potential: J.
+        names: of the parameters, in the order of their generators.
+    """
+
+    mass: tuple[tuple[fmpq_mpoly, ...], ...]
+    potential: fmpq_mpoly
+    names: tuple[str, ...] = ()
+
+    @property
+    def n(self) -> int:  # type: ignore[override]
+        return len(self.mass)
+
+    @property
+    def polynomials(self) -> Polynomials:
+        return self
+
+    @cached_property
+    def christoffel(self) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], ...]:
+        """c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i), so that C(q,x)_ij = Σ_k c_ijk x_k."""
+        joints = range(self.n)
+        slope = [[[derivative(entry, k) for k in joints] for entry in row] for row in self.mass]
+        return tuple(
+            tuple(
+                tuple((slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) / 2 for k in joints) for j in joints
+            )
+            for i in joints
+        )
+
+    @cached_property
+    def gravity(self) -> tuple[fmpq_mpoly, ...]:
+        """g(q) = ∂potential/∂q, N·m."""
+        return tuple(derivative(self.potential, i) for i in range(self.n))
+
+    @cached_property
+    def mass_terms(self) -> dict[tuple[int, int], Terms]:
+        """On and above the diagonal."""
+        return {(i, j): to_terms(self.mass[i][j]) for i in range(self.n) for j in range(i, self.n)}
+
+    @cached_property
+    def symbol_terms(self) -> dict[tuple[int, int, int], Terms]:
+        """The symbols that are not 0."""
+        places = product(range(self.n), repeat=3)
+        return {(i, j, k): to_terms(c) for i, j, k in places if (c := self.christoffel[i][j][k]) != 0}
+
+    @cached_property
+    def gravity_terms(self) -> list[Terms]:
+        return [to_terms(entry) for entry in self.gravity]
+
+    def at(
+        self, sin: Sequence[T], cos: Sequence[T], values: Values, lift: Lift[T], tidy: Tidy = None
+    ) -> ArmAtAngles:
+        return _Evaluated(self, [*sin, *cos, *(values[name] for name in self.names)], lift)
+
+    def fixed(self, values: Mapping[str, Fraction]) -> Polynomials:
+        ring = trig_ring(self.n)
+        mass = tuple(tuple(substitute(entry, values, ring) for entry in row) for row in self.mass)
+        return Polynomials(mass, substitute(self.potential, values, ring))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Plain terms: polynomials of python-flint cannot be pickled."""
+        rows = [[to_terms(entry) for entry in row] for row in self.mass]
+        return {"mass": rows, "potential": to_terms(self.potential), "names": self.names}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        ring = trig_ring(len(state["mass"]), state["names"])
+        mass = tuple(tuple(from_terms(ring, terms) for terms in row) for row in state["mass"])
+        potential = from_terms(ring, state["potential"])
+        self.__dict__.update(mass=mass, potential=potential, names=state["names"])
+
+
+class _Evaluated(ArmAtAngles):
+    """The values of polynomials; each monomial is computed once for each question."""
+
+    def __init__(self, of: Polynomials, point: Sequence[Any], lift: Lift[Any]) -> None:
+        self._of, self._point, self._lift = of, point, lift
+
+    def mass(self) -> Rows:
+        known = dict(zip(self._of.mass_terms, self._values(self._of.mass_terms.values()), strict=True))
+        joints = range(self._of.n)
+        return [[known[min(i, j), max(i, j)] for j in joints] for i in joints]
+
+    def coriolis(self, x: Sequence[Any]) -> Rows:
+        terms: dict[tuple[int, int], list[Any]] = {}
+        symbols = self._of.symbol_terms
+        for (i, j, k), symbol in zip(symbols, self._values(symbols.values()), strict=True):
+            terms.setdefault((i, j), []).append(symbol * x[k])
+        joints = range(self._of.n)
+        return [[total(terms.get((i, j), []), self._lift) for j in joints] for i in joints]
+
+    def gravity(self) -> list[Any]:
+        return self._values(self._of.gravity_terms)
+
+    def potential(self) -> Any:
+        return self._values([to_terms(self._of.potential)])[0]
+
+    def _values(self, polys: Iterable[Terms]) -> list[Any]:
+        return evaluate_all(list(polys), self._point, self._lift)

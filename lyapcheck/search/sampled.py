@@ -27,10 +27,11 @@ from lyapcheck.check.statement import Ends, Monomials, Proof
 from lyapcheck.control.judgement import refutes
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.robots import trig
-from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, Polynomials
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
 from lyapcheck.robots.fields import Number
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots.trig import Polynomials
 
 POSTURES, SLOPES, LIGHT, STEEP = 3000, 300, 12, 4
 """At so many goals M is looked at, at so many ∂g/∂q; of so many of each then the eigenvalues."""

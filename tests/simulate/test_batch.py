@@ -8,9 +8,9 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.lyapunov.along import solve_definite
 from lyapcheck.lyapunov.compiler import OFF, compiler
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.robots.chain import solve_definite
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.simulate import many as batch_module
 from lyapcheck.simulate import results as indices

@@ -2,7 +2,7 @@
 
 Bodies are composed from the tip to the base. With J = ∫ p̂p̂ᵀ dm, p̂ = (p, 1), of all bodies that joint m moves,
 and X_i the twist of joint i as a 4 × 4 matrix, M_im = tr(X_i J X_mᵀ). All is in the frame of a joint: what
-joints before it do never enters M. C(q, x) and the potential are in ``lyapcheck.robots.chain``.
+joints before it do never enters M. C(q, x) and the potential are in ``lyapcheck.robots.dynamics``.
 
 References: composite rigid bodies, ``featherstone2008rigid`` chapter 6.
 """
