@@ -41,7 +41,7 @@ from lyapcheck.robots.vary import (
     require_movable,
     varied,
     varied_numbers,
-    with_rotors,
+    with_bodies,
 )
 
 EXACT = Fraction(0)
@@ -203,7 +203,7 @@ def _overlay(path: Path, title: str, remarks: tuple[str, ...], top: ArmFields, c
                 parts[key][model.joints.index(motor.name)] = value
     changed: dict[str, Any] = {key: tuple(values) for key, values in parts.items()}
     changed |= {"name": printable(path.stem), "title": title, "remarks": (*remarks, *model.remarks)}
-    return with_rotors(replace(model, numbers=numbers, **changed), rotors)
+    return with_bodies(replace(model, numbers=numbers, **changed), rotors)
 
 
 def _pairs(top: ArmFields, key: str) -> dict[str, object]:

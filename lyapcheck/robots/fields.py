@@ -115,10 +115,6 @@ class ArmNotes(Notes):
 class ArmFields(Fields):
     """The keys of one table of an arm file."""
 
-    @property
-    def _default_source(self) -> str:
-        return cast(ArmNotes, self.notes).source
-
     def texts(self, key: str) -> tuple[str, ...]:
         value = self.raw(key)
         if value is None:
@@ -162,45 +158,39 @@ class ArmFields(Fields):
         return None
 
     def _quantity(self, path: KeyPath, value: object, unit: str) -> Number | None:
+        source = cast(ArmNotes, self.notes).source
         if not isinstance(value, dict):
             exact = self.decimal(path, value)
-            return None if exact is None else Number(exact, unit, self._default_source)
+            return None if exact is None else Number(exact, unit, source)
         inner = ArmFields(value, path, self.notes)
-        number = inner._described(unit)
+        number = inner._described(unit, source)
         inner.close()
         return number
 
-    def _described(self, unit: str) -> Number | None:
-        value, low, high = (self._part(key, required=key == "value") for key in ("value", "low", "high"))
+    def _described(self, unit: str, default: str) -> Number | None:
+        parts = {key: self.raw(key, required=key == "value") for key in ("value", "low", "high")}
+        value, low, high = (
+            None if x is None else self.decimal((*self.path, key), x) for key, x in parts.items()
+        )
         given, source, note = self.text("unit"), self.text("source"), self.text("note")
         if unit and given and given != unit:
             self.fail("unit", f"must be {unit}", f"convert the value to {unit}")
-        assumed = self._flag("assumed")
+        assumed = self.raw("assumed")
+        if assumed is not None and not isinstance(assumed, bool):
+            self.fail("assumed", "must be true or false", "write assumed = true")
+        assumed = assumed is True
         if assumed and not (note or source):
             self.fail("assumed", "an assumption needs its reason", 'add note = "why this value"')
-        self._check_range(value, low, high)
-        if value is None:
-            return None
-        origin = source or ("" if assumed else self._default_source)
-        return Number(value, given or unit, origin, assumed, low, high, note)
-
-    def _check_range(self, value: Fraction | None, low: Fraction | None, high: Fraction | None) -> None:
         if ("low" in self.data) != ("high" in self.data):
             present = "low" if "low" in self.data else "high"
             self.fail(present, "a range needs both ends", "give both low and high")
         if value is not None and low is not None and high is not None and not low <= value <= high:
             ends = f"[{decimal_text(low)}, {decimal_text(high)}]"
             self.fail("value", f"must lie in its range {ends}", "correct value, low or high")
-
-    def _flag(self, key: str) -> bool:
-        value = self.raw(key)
-        if value is not None and not isinstance(value, bool):
-            self.fail(key, "must be true or false", f"write {key} = true")
-        return value is True
-
-    def _part(self, key: str, required: bool) -> Fraction | None:
-        value = self.raw(key, required)
-        return None if value is None else self.decimal((*self.path, key), value)
+        if value is None:
+            return None
+        origin = source or ("" if assumed else default)
+        return Number(value, given or unit, origin, assumed, low, high, note)
 
 
 # --- What an arm file says of a joint: friction, limits, encoder.
@@ -245,24 +235,37 @@ def read_joints(top: ArmFields, key: str, tables: list[ArmFields], most: int) ->
     """The joints of ``[[links]]`` or ``[[joints]]``, base first; names must differ."""
     if len(tables) > most:
         top.fail(key, f"has more than {most} joints", "give an arm of fewer joints")
-    joints = [_read_joint(table) for table in tables]
-    for i, joint in enumerate(joints):
-        if joint.name and joint.name in [other.name for other in joints[:i]]:
-            tables[i].fail("name", "is used by another joint", "give each joint its own name")
+    joints: list[JointEntry] = []
+    for fields in tables:
+        name, kind = fields.text("name", required=True), fields.text("type")
+        if name and not _NAME.fullmatch(name):
+            rule = "must be up to 31 small letters, digits and underscores, a letter first"
+            fields.fail("name", rule, 'write a name like "shoulder"')
+        if kind not in ("", "revolute", "continuous"):
+            rule = "only revolute joints are understood"
+            if kind == "prismatic":
+                rule = "the paper assumes revolute joints: its bounds on M, C and g fail for a prismatic one"
+            fields.fail("type", rule, "remove the joint, or hold it fixed and give the arm without it")
+        if name and name in [other.name for other in joints]:
+            fields.fail("name", "is used by another joint", "give each joint its own name")
+        joints.append(read_motor(name, fields, required=True))
     return joints
-
-
-def _read_joint(fields: ArmFields) -> JointEntry:
-    name = fields.text("name", required=True)
-    if name and not _NAME.fullmatch(name):
-        rule = "must be up to 31 small letters, digits and underscores, a letter first"
-        fields.fail("name", rule, 'write a name like "shoulder"')
-    _refuse_other_kinds(fields)
-    return read_motor(name, fields, required=True)
 
 
 def read_motor(name: str, fields: ArmFields, required: bool) -> JointEntry:
     """Friction, limits and encoder of a joint."""
+    value, rotor = fields.data.get("rotor_inertia"), None
+    if not isinstance(value, dict) or "value" in value:
+        rotor = fields.quantity("rotor_inertia", "kg·m²", Sign.NONNEGATIVE)
+    elif (table := fields.table("rotor_inertia")) is not None:  # of the rotor itself, which the gear squares
+        own = table.quantity("rotor", "kg·m²", Sign.NONNEGATIVE, required=True)
+        gear = table.quantity("gear", "", Sign.POSITIVE, required=True)
+        table.close()
+        if gear is not None and gear.ranged:
+            table.fail("gear", "must be exact", "give a plain number")
+        if own is not None and gear is not None:
+            low, high = (None if end is None else end * gear.value**2 for end in (own.low, own.high))
+            rotor = replace(own, value=own.value * gear.value**2, low=low, high=high)
     return JointEntry(
         name,
         fields.quantity("viscous", "N·m·s/rad", Sign.NONNEGATIVE, required=required),
@@ -270,34 +273,5 @@ def read_motor(name: str, fields: ArmFields, required: bool) -> JointEntry:
         fields.quantity("torque_limit", "N·m", Sign.POSITIVE),
         fields.integer("encoder", 1, 2**40),
         fields.quantity("gravity_bound", "N·m", Sign.NONNEGATIVE),
-        _read_rotor(fields),
+        rotor,
     )
-
-
-def _read_rotor(fields: ArmFields) -> Number | None:
-    """What the joint feels of its rotor: one number, or that of the rotor itself times gear²."""
-    value = fields.data.get("rotor_inertia")
-    if not isinstance(value, dict) or "value" in value:
-        return fields.quantity("rotor_inertia", "kg·m²", Sign.NONNEGATIVE)
-    table = fields.table("rotor_inertia")
-    assert table is not None
-    rotor = table.quantity("rotor", "kg·m²", Sign.NONNEGATIVE, required=True)
-    gear = table.quantity("gear", "", Sign.POSITIVE, required=True)
-    table.close()
-    if rotor is None or gear is None:
-        return None
-    if gear.ranged:
-        table.fail("gear", "must be exact", "give a plain number")
-    low, high = (end * gear.value**2 for end in rotor.bounds)
-    reflected = replace(rotor, value=rotor.value * gear.value**2)
-    return replace(reflected, low=low, high=high) if rotor.ranged else reflected
-
-
-def _refuse_other_kinds(fields: ArmFields) -> None:
-    kind = fields.text("type")
-    if kind in ("", "revolute", "continuous"):
-        return
-    rule = "only revolute joints are understood"
-    if kind == "prismatic":
-        rule = "the paper assumes revolute joints: its bounds on M, C and g fail for a prismatic one"
-    fields.fail("type", rule, "remove the joint, or hold it fixed and give the arm without it")

@@ -7,7 +7,7 @@ of MuJoCo's doubles. Gravity, damping, dry friction and the limits of the motors
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -40,19 +40,14 @@ def read_mjcf(path: Path, shown: str, root: Element) -> Compiled:
     except ValueError as error:
         said = " ".join(str(error).split())[:300]
         raise file_error(shown, f"is MJCF that MuJoCo refuses: {said}", "correct that") from None
-    return Compiled(mujoco, model, path.name, _lines(root))
-
-
-def _lines(root: Element) -> dict[str, int]:
-    """The line of each body and joint that this file itself names."""
-    result: dict[str, int] = {}
+    lines: dict[str, int] = {}  # of each body and joint that this file itself names
     waiting = [root]
     while waiting:
         element = waiting.pop()
         if element.tag in ("body", "joint") and "name" in element.attributes:
-            result.setdefault(f"{element.tag} {element.attributes['name']}", element.line)
+            lines.setdefault(f"{element.tag} {element.attributes['name']}", element.line)
         waiting += element.children
-    return result
+    return Compiled(mujoco, model, path.name, lines)
 
 
 class Compiled:
@@ -79,6 +74,8 @@ class Compiled:
 
     def _body(self, i: int) -> Iterator[Element]:
         """The link of a body, and the joints between it and its parent."""
+        import numpy as np
+
         m, name = self.m, self.bodies[i]
         line = self.lines.get(f"body {name}", 1)
         moments = dict(zip(("ixx", "iyy", "izz"), map(_text, m.body_inertia[i]), strict=True))
@@ -93,31 +90,17 @@ class Compiled:
         first = m.body_jntadr[i]
         for j in range(first, first + m.body_jntnum[i]):
             below = f"{name}/{self.joints[j]}"
-            at, turn_at = self._carried(place, turn, m.jnt_pos[j], self._zero(j))
+            # of a hinge back from the pose that the file describes to where its angle is 0
+            back, moved, turned = np.array(_HERE), np.zeros(3), np.array(_HERE)
+            if m.jnt_type[j] == self.mujoco.mjtJoint.mjJNT_HINGE:
+                self.mujoco.mju_axisAngle2Quat(back, m.jnt_axis[j], -m.qpos0[m.jnt_qposadr[j]])
+            self.mujoco.mju_rotVecQuat(moved, m.jnt_pos[j], turn)
+            self.mujoco.mju_mulQuat(turned, turn, back)
             yield Element("link", {"name": below}, line)
-            yield self._joint(j, above, below, at, turn_at)
+            yield self._joint(j, above, below, place + moved, turned)
             above, place, turn = below, -m.jnt_pos[j], _HERE
         parts = self._ends(line, above, name, place, turn)
         yield Element("joint", {"name": f"{name}/body", "type": "fixed"}, line, parts)
-
-    def _zero(self, j: int) -> Any:
-        """The turn of a hinge from the pose that the file describes back to where its angle is 0."""
-        turn = self._vector(_HERE)
-        if self.m.jnt_type[j] == self.mujoco.mjtJoint.mjJNT_HINGE:
-            self.mujoco.mju_axisAngle2Quat(turn, self.m.jnt_axis[j], -self.m.qpos0[self.m.jnt_qposadr[j]])
-        return turn
-
-    def _carried(self, place: Any, turn: Any, offset: Any, more: Any) -> tuple[Any, Any]:
-        """The pose of a joint at an offset in a frame, turned there."""
-        moved, both = self._vector((0.0, 0.0, 0.0)), self._vector(_HERE)
-        self.mujoco.mju_rotVecQuat(moved, offset, turn)
-        self.mujoco.mju_mulQuat(both, turn, more)
-        return place + moved, both
-
-    def _vector(self, values: Sequence[float]) -> Any:
-        import numpy as np
-
-        return np.array(values, dtype=np.float64)
 
     def _origin(self, line: int, place: Any, turn: Any) -> Element:
         w, x, y, z = turn
@@ -141,13 +124,7 @@ class Compiled:
         parts.append(Element("dynamics", {key: _text(value) for key, value in friction.items()}, line))
         if m.dof_armature[degree]:
             parts.append(Element("armature", {"value": _text(m.dof_armature[degree])}, line))
-        limit = self._limit(j)
-        parts.append(Element("limit", {"effort": "0" if limit is None else _text(limit)}, line))
-        return Element("joint", {"name": self.joints[j], "type": kind}, line, parts)
-
-    def _limit(self, j: int) -> float | None:
-        """What the motors of a joint can do in both directions, N·m; ``None`` where nothing limits them."""
-        m, limits = self.m, []
+        limits = []  # of what its motors can do in both directions, N·m
         if m.jnt_actfrclimited[j]:
             limits.append(min(abs(end) for end in m.jnt_actfrcrange[j]))
         forces: list[float | None] = [
@@ -157,7 +134,8 @@ class Compiled:
         ]
         if forces and None not in forces:
             limits.append(sum(force for force in forces if force is not None))
-        return min(limits, default=None)
+        parts.append(Element("limit", {"effort": _text(min(limits)) if limits else "0"}, line))
+        return Element("joint", {"name": self.joints[j], "type": kind}, line, parts)
 
     def _force(self, a: int) -> float | None:
         """The largest force of an actuator in both directions, times its gear."""

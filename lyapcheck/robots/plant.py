@@ -143,12 +143,8 @@ class RobotModel:
         tidy: Tidy = None,
     ) -> ArmAtAngles:
         """The arm at some angles in any arithmetic, see `Dynamics`; parameters not given are nominal."""
-        known = parameters or {}
-        values = {
-            name: known[name] if name in known else lift(number.value)
-            for name, number in self.parameters.items()
-        }
-        return self.dynamics.at(sin, cos, values, lift, tidy)
+        nominal = {name: lift(number.value) for name, number in self.parameters.items()}
+        return self.dynamics.at(sin, cos, nominal | dict(parameters or {}), lift, tidy)
 
     def fixed(self, **parameters: Fraction | int) -> RobotModel:
         """The same arm with every uncertain parameter of M and the potential at one exact value.
@@ -165,18 +161,17 @@ class RobotModel:
                 raise argument_error(
                     "parameter", name, f"{self.name} has no such parameter", f"use one of: {known}"
                 )
-        return self._at(parameters) if parameters else self._nominal
+        if not parameters:
+            return self._nominal
+        nominal = {name: number.value for name, number in self.parameters.items()}
+        values = {name: Fraction(value) for name, value in (nominal | parameters).items()}
+        return replace(self, dynamics=self.dynamics.fixed(values), parameters={})
 
     @cached_property
     def _nominal(self) -> RobotModel:
         """Each question about the arm asks for it."""
-        return self._at({}) if self.parameters else self
-
-    def _at(self, parameters: Mapping[str, Fraction | int]) -> RobotModel:
-        values = {
-            name: Fraction(parameters.get(name, number.value)) for name, number in self.parameters.items()
-        }
-        return replace(self, dynamics=self.dynamics.fixed(values), parameters={})
+        nominal = {name: number.value for name, number in self.parameters.items()}
+        return self.fixed(**nominal) if nominal else self
 
     def __repr__(self) -> str:
         assumed = sum(number.assumed for number in self.numbers.values())

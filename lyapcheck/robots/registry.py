@@ -74,18 +74,15 @@ def _loaded(name: str, choice: Choice, spread: Fraction, vary: tuple[Vary, ...])
         return _builtin(name, spread, vary)
     path = arm_file(name)
     if not path.suffix and not path.exists():
-        raise argument_error("robot", name, "is neither a built-in arm nor a file", _advice(name))
+        known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
+        guess = nearest(name, [*names(), *_examples()])
+        repair = f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
+        raise argument_error("robot", name, "is neither a built-in arm nor a file", repair)
     if path.suffix.lower() == ".toml" or path.is_dir():
         return read_arm(path, spread=spread, vary=vary, choice=choice)
     from lyapcheck.robots.formats import read_robot
 
     return with_ranges(read_robot(path, str(path), choice), spread, vary)
-
-
-def _advice(name: str) -> str:
-    known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
-    guess = nearest(name, [*names(), *_examples()])
-    return f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
 
 
 @lru_cache(maxsize=64)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.files.decimals import decimal_text
@@ -82,10 +82,7 @@ class Vary:
         The value stays where it lies within. Else it is the nearest end, a member of the range and not the
         nominal value any more; ``outside`` names such numbers.
         """
-        low, high = (
-            (self.low * number.value, self.high * number.value) if self.relative else (self.low, self.high)
-        )
-        low, high = min(low, high), max(low, high)
+        low, high = sorted(x * number.value if self.relative else x for x in (self.low, self.high))
         return replace(number, value=min(max(number.value, low), high), low=low, high=high)
 
 
@@ -120,96 +117,58 @@ def varied(
         now = varied_numbers(known, varies) if part in parts else known
         moved |= {key: number for key, number in now.items() if number is not known[key]}
         changed[part] = tuple(now.get(key) for key in keys)
-    masses = _masses(model, varies, parts)
-    rotors = varied_numbers(_rotors_of(model), varies) if MASSES[0] in parts else {}
-    rotors = {key: number for key, number in rotors.items() if number is not model.numbers[key]}
-    _require_physical(moved | masses | rotors)
-    numbers = model.numbers | moved | masses
-    if masses:
-        chain = model.dynamics
-        assert isinstance(chain, Chain)
-        ranged = {key: number for key, number in masses.items() if number.ranged}
-        now = {key: ParameterShare(key) if key in ranged else masses[key].value for key in masses}
-        links = tuple(
-            replace(link, mass=cast(Any, now.get(f"{joint}_mass", link.mass)))
-            for joint, link in zip(model.joints, chain.links, strict=True)
-        )
-        changed["dynamics"] = Chain(links, chain.fall, tuple(dict.fromkeys((*chain.names, *ranged))))
-        changed["parameters"] = model.parameters | ranged
-    return with_rotors(replace(model, numbers=numbers, **changed), rotors)
+    known = _masses_of(model)
+    masses = varied_numbers(known, varies) if "mass" in parts else dict(known)
+    for vary in varies:
+        if vary.name == PAYLOAD and PAYLOAD in parts and masses:
+            own = masses[last := f"{model.joints[-1]}_mass"]
+            low, high = (end + more for end, more in zip(own.bounds, (vary.low, vary.high), strict=True))
+            masses[last] = replace(own, value=own.value + vary.low, low=low, high=high)
+    keys = [f"{joint}{ROTOR}" for joint in model.joints]
+    own_rotors = {key: model.numbers[key] for key in keys if key in model.numbers}
+    rotors = varied_numbers(own_rotors, varies) if MASSES[0] in parts else {}
+    known |= own_rotors
+    inner = {key: number for key, number in (masses | rotors).items() if number is not known[key]}
+    problems = []
+    for key, number in (moved | inner).items():
+        low, said = number.bounds[0], f"{key} from {decimal_text(number.bounds[0])}"
+        positive = key.endswith(("mass", "torque_limit"))
+        for broken, rule in ((positive and low <= 0, "must be positive"), (low < 0, "must not be negative")):
+            if broken:
+                problems.append(Problem("argument", None, OPTION, said, rule, "raise the lower end"))
+    if problems:
+        raise InputError(problems)
+    return with_bodies(replace(model, numbers=model.numbers | moved, **changed), inner)
 
 
-def with_rotors(model: RobotModel, rotors: dict[str, Number]) -> RobotModel:
-    """An arm of known links with these rotor inertias, by the names that reports use."""
+def with_bodies(model: RobotModel, numbers: dict[str, Number]) -> RobotModel:
+    """An arm of known links with these masses and rotor inertias, by the names that reports use."""
     chain = model.dynamics
-    if not rotors or not isinstance(chain, Chain):
+    if not numbers or not isinstance(chain, Chain):
         return model
-    ranged = {key: number for key, number in rotors.items() if number.ranged}
-    now = {key: ParameterShare(key) if key in ranged else number.value for key, number in rotors.items()}
+    ranged = {key: number for key, number in numbers.items() if number.ranged}
+    now: dict[str, Any] = {key: number.value for key, number in numbers.items()}
+    now |= {key: ParameterShare(key) for key in ranged}
     links = tuple(
-        replace(link, rotor=cast(Any, now.get(f"{joint}{ROTOR}", link.rotor)))
+        replace(link, mass=now.get(f"{joint}_mass", link.mass), rotor=now.get(f"{joint}{ROTOR}", link.rotor))
         for joint, link in zip(model.joints, chain.links, strict=True)
     )
-    names = tuple(dict.fromkeys((*chain.names, *ranged)))
     return replace(
         model,
-        dynamics=Chain(links, chain.fall, names),
+        dynamics=Chain(links, chain.fall, tuple(dict.fromkeys((*chain.names, *ranged)))),
         parameters=model.parameters | ranged,
-        numbers=model.numbers | rotors,
+        numbers=model.numbers | numbers,
     )
-
-
-def _rotors_of(model: RobotModel) -> dict[str, Number]:
-    keys = [f"{joint}{ROTOR}" for joint in model.joints]
-    return {key: model.numbers[key] for key in keys if key in model.numbers}
-
-
-def _masses(model: RobotModel, varies: Sequence[Vary], parts: Sequence[str]) -> dict[str, Number]:
-    """The masses of links that change, by the name of their joint; a payload adds to the last one."""
-    if not isinstance(model.dynamics, Chain):
-        return {}
-    known = _masses_of(model)
-    result = varied_numbers(known, varies) if "mass" in parts else dict(known)
-    last = f"{model.joints[-1]}_mass"
-    for vary in varies:
-        if vary.name == PAYLOAD and PAYLOAD in parts:
-            own = result[last]
-            low, high = (end + more for end, more in zip(own.bounds, (vary.low, vary.high), strict=True))
-            result[last] = replace(own, value=own.value + vary.low, low=low, high=high)
-    return {key: number for key, number in result.items() if number is not known[key]}
 
 
 def _masses_of(model: RobotModel) -> dict[str, Number]:
     """The masses of known links, by the name of their joint."""
-    chain = model.dynamics
-    if not isinstance(chain, Chain):
-        return {}
-    links = zip(model.joints, chain.links, strict=True)
-    return {f"{joint}_mass": _mass(model, link.mass) for joint, link in links}
-
-
-def _mass(model: RobotModel, mass: Fraction | ParameterShare) -> Number:
-    return model.parameters[mass.name] if isinstance(mass, ParameterShare) else Number(mass, "kg")
-
-
-def _require_physical(numbers: Mapping[str, Number]) -> None:
-    problems = [
-        Problem(
-            "argument",
-            None,
-            OPTION,
-            f"{key} from {decimal_text(number.bounds[0])}",
-            rule,
-            "raise the lower end",
-        )
-        for key, number in numbers.items()
-        for rule in (
-            ["must be positive"] if key.endswith(("mass", "torque_limit")) and number.bounds[0] <= 0 else []
-        )
-        + (["must not be negative"] if number.bounds[0] < 0 else [])
-    ]
-    if problems:
-        raise InputError(problems)
+    links: Sequence[Any] = model.dynamics.links if isinstance(model.dynamics, Chain) else ()
+    masses = {f"{joint}_mass": link.mass for joint, link in zip(model.joints, links, strict=False)}
+    return {
+        key: model.parameters[x.name] if isinstance(x, ParameterShare) else Number(x, "kg")
+        for key, x in masses.items()
+    }
 
 
 def require_known(model: RobotModel, varies: Sequence[Vary]) -> None:
