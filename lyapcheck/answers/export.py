@@ -21,8 +21,7 @@ from lyapcheck.control.conditions import REJECTED, UNDECIDED
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.limits import Limits, limits_for
-from lyapcheck.control.sampled import judged_sampled
-from lyapcheck.control.sampling import LoopRecord, time_text
+from lyapcheck.control.sampling import LoopRecord, judged_sampled, time_text
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
 from lyapcheck.export.steps import Unbounded

@@ -277,8 +277,7 @@ def sampled(
     """
     from lyapcheck import asked
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.control.sampled import require_sampled
-    from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.control.sampling import LoopRecord, require_sampled
 
     stiffness, damping, friction, bounds, taps = (
         tuple(map(exact_value, values)) for values in (kp, kv, viscous_min, k_g, filter)

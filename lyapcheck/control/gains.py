@@ -164,14 +164,37 @@ def read_gain_file(path: str | Path, robot: str | None = None, *, undamped: bool
     condition = conditions_of(top)
     tables = top.tables("gains", required=True)
     by_name = any(isinstance(table.data.get(key), dict) for table in tables for key in ("kp", "kv"))
-    joints = _joints(named(robot, own)) if by_name else None
+    joints, arm = None, named(robot, own)
+    if by_name:
+        from lyapcheck.robots import load
+
+        joints = () if arm is None else load(arm).joints
     sets = [gain_set_of(table, index, condition, joints, undamped) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
-    bounds, loop = _bounds(top.table("bounds")), read_loop(top.table("loop"))
-    folder = top.text("certificates")
+    bounds, table = Bounds(), top.table("bounds")
+    if table is not None:
+        gravity = table.numbers("gravity", positive=False)
+        bounds = Bounds(table.number("viscous_min"), table.numbers("torque"), gravity)
+        table.close()
+    loop, folder = read_loop(top.table("loop")), top.text("certificates")
     top.close()
-    _check_names(tables)
-    _check_lengths(gains, bounds, notes)
+    named_before: set[str] = set()
+    for table in tables:
+        name = table.data.get("name")
+        if isinstance(name, str):
+            if name in named_before:
+                table.fail("name", "is used twice", "give each set its own name")
+            named_before.add(name)
+    if gains:
+        n = gains[0].n
+        for gain_set in gains[1:]:
+            if gain_set.n != n:
+                rule = f"has {gain_set.n} joints where the first set has {n}"
+                notes.fail(("gains", gain_set.index, "kp"), None, rule, "keep one arm to a file")
+        for key, values in (("torque", bounds.torque), ("gravity", bounds.gravity)):
+            if values is not None and len(values) != n:
+                rule = f"has {len(values)} entries for {n} joints"
+                notes.fail(("bounds", key), None, rule, f"give {n} numbers, one a joint")
     if notes.problems:
         raise InputError(notes.problems)
     certificates = str(Path(path).parent / folder) if folder else None
@@ -193,17 +216,6 @@ def conditions_of(table: Fields) -> tuple[str, ...]:
     elif len(set(value)) < len(value):
         table.fail("condition", "has a condition twice", "give each once")
     return () if wrong else tuple(dict.fromkeys(value))
-
-
-def _joints(robot: str | None) -> tuple[str, ...]:
-    """The joints of an arm, base first; none where no arm is named.
-
-    Raises:
-        InputError: the arm cannot be read.
-    """
-    from lyapcheck.robots import load
-
-    return () if robot is None else load(robot).joints
 
 
 def gain_set_of(
@@ -265,11 +277,12 @@ def _gains(
         table.raw(key)
         table.fail(key, "is a full matrix, and the gains of the theory are diagonal", "write its diagonal")
         return None
-    if isinstance(value, list) and _commas(value):
+    numbers = value if isinstance(value, list) and len(value) % 2 == 0 else []
+    if 0 in numbers[::2] and all(type(item) is int for item in numbers):  # [0,2, 0,2]
         table.raw(key)
         table.fail(
             key,
-            f"has {len(value)} whole numbers, some of them 0, and no gain is 0",
+            f"has {len(numbers)} whole numbers, some of them 0, and no gain is 0",
             "write 0.2 with a point, not 0,2",
         )
         return None
@@ -292,47 +305,6 @@ def _gains(
     return known if len(known) == len(joints) and len(value) == len(joints) else None
 
 
-def _commas(value: list[Any]) -> bool:
-    """Whether numbers look as if decimal commas had taken them apart: [0,2, 0,2]."""
-    whole = all(isinstance(item, int) and not isinstance(item, bool) for item in value)
-    return whole and len(value) % 2 == 0 and any(item == 0 for item in value[::2])
-
-
-def _bounds(table: Fields | None) -> Bounds:
-    if table is None:
-        return Bounds()
-    result = Bounds(
-        table.number("viscous_min"), table.numbers("torque"), table.numbers("gravity", positive=False)
-    )
-    table.close()
-    return result
-
-
-def _check_names(tables: list[Fields]) -> None:
-    seen: set[str] = set()
-    for table in tables:
-        name = table.data.get("name")
-        if not isinstance(name, str):
-            continue
-        if name in seen:
-            table.fail("name", "is used twice", "give each set its own name")
-        seen.add(name)
-
-
-def _check_lengths(gains: tuple[GainSet, ...], bounds: Bounds, notes: Notes) -> None:
-    if not gains:
-        return
-    n = gains[0].n
-    for gain_set in gains[1:]:
-        if gain_set.n != n:
-            rule = f"has {gain_set.n} joints where the first set has {n}"
-            notes.fail(("gains", gain_set.index, "kp"), None, rule, "keep one arm to a file")
-    for key, values in (("torque", bounds.torque), ("gravity", bounds.gravity)):
-        if values is not None and len(values) != n:
-            rule = f"has {len(values)} entries for {n} joints"
-            notes.fail(("bounds", key), None, rule, f"give {n} numbers, one a joint")
-
-
 def beside(robot: str | None, file: Path) -> str | None:
     """A robot named by a path is meant relative to the gain file."""
     return None if robot is None else placed(robot, lambda path: str(file.parent / path))
@@ -341,6 +313,8 @@ def beside(robot: str | None, file: Path) -> str | None:
 @contextmanager
 def arm_named_in(file: GainFile, replaced: str | None = None) -> Iterator[None]:
     """Reading the arm that a gain file names: where there is none such, that line of the gain file is told.
+
+    Other problems are those of the arm file.
 
     Args:
         file: the gain file.
@@ -351,20 +325,16 @@ def arm_named_in(file: GainFile, replaced: str | None = None) -> Iterator[None]:
     except InputError as error:
         if replaced or file.robot is None:
             raise
-        raise InputError([_misnamed(file, problem) for problem in error.problems]) from None
-
-
-def _misnamed(file: GainFile, problem: Problem) -> Problem:
-    """A problem with the name or path of the arm at the key of the gain file; others are in the arm file."""
-    path = split(file.robot or "")[0]
-    whole = problem.key == "file" and problem.line is None and problem.file == path
-    if problem.key != "robot" and not whole:
-        return problem
-    as_written = file.robot if file.document is None else file.document.data["robot"]
-    place = None if file.document is None else file.document.place(("robot",))
-    path = f"{file.robot} " if whole and file.robot != as_written else ""
-    line = None if place is None else place.line
-    return Problem(file.path, line, "robot", printable(str(as_written)), path + problem.rule, problem.repair)
+        own, place, problems = file.robot, None, []
+        if file.document is not None:
+            own, place = file.document.data["robot"], file.document.place(("robot",))
+        line = None if place is None else place.line
+        for one in error.problems:
+            whole = one.key == "file" and one.line is None and one.file == split(file.robot)[0]
+            rule = f"{file.robot} {one.rule}" if whole and file.robot != own else one.rule
+            told = Problem(file.path, line, "robot", printable(str(own)), rule, one.repair)
+            problems.append(told if whole or one.key == "robot" else one)
+        raise InputError(problems) from None
 
 
 # --- The paper's own gain files, which travel with lyapcheck.

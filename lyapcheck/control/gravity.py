@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.check.loop.chain import RigidLink, lever_bound
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters
+from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.gravity import GravityBelow, Levers
-    from lyapcheck.control.judgement import JudgedStatement
     from lyapcheck.robots import RobotModel
 
 Point = tuple[Fraction, ...]
@@ -124,6 +124,8 @@ def settled(model: RobotModel, stated: tuple[Fraction | None, ...], own: RobotMo
     Soundness: a stated bound counts where a computed one is not above it, or ``lyapcheck.check.verify``
         proves it.
     """
+    from lyapcheck.check.kinds.inertia import Bisection
+
     bounds: list[Fraction] = []
     notes: list[str] = []
     refuted: list[RefutedBound] = []
@@ -131,14 +133,24 @@ def settled(model: RobotModel, stated: tuple[Fraction | None, ...], own: RobotMo
         if bound is None or bound >= most:
             bounds.append(most if bound is None else bound)
             continue
-        broken, why = _judged(model, i, bound, own)
-        if why == "":
-            bounds.append(bound)
-            continue
-        bounds.append(most)
-        refuted += [] if broken is None else [broken]
-        used = f"{decimal_text(most)} N·m from the model is used"
-        notes.append(f"gravity bound of {model.joints[i]} = {decimal_text(bound)} N·m {why}: {used}")
+        why = "is not shown to be kept by the arm"
+        try:
+            at = exceeded(model, i, bound)
+            its_own = at if own is model or at is None else exceeded(own, i, bound)
+            few = model.n <= FEW_JOINTS
+            kept = at is None and few and proves(_statement(model, i, bound), Bisection())
+        except TooManyTerms:
+            at, its_own, kept = None, None, False
+        if its_own is not None:
+            refuted.append(RefutedBound(i, bound, *its_own, True))
+            why = "is refuted by the arm's own model"
+        elif at is not None:
+            refuted.append(RefutedBound(i, bound, *at, False))
+            why = "is kept by the arm of the file, not over its ranges"
+        bounds.append(bound if kept else most)
+        if not kept:
+            used = f"{decimal_text(most)} N·m from the model is used"
+            notes.append(f"gravity bound of {model.joints[i]} = {decimal_text(bound)} N·m {why}: {used}")
     return Gravity(tuple(bounds), tuple(notes), tuple(refuted))
 
 
@@ -148,21 +160,6 @@ def torque_of(model: RobotModel, i: int) -> Uncertain:
     return by_parameters(to_terms(model.gravity[i]), model.n)
 
 
-def _judged(model: RobotModel, i: int, bound: Fraction, own: RobotModel) -> tuple[RefutedBound | None, str]:
-    """What refutes a bound of an arm in the ranges, and why it does not count; ``""`` where it does."""
-    try:
-        at = exceeded(model, i, bound)
-        its_own = at if own is model or at is None else exceeded(own, i, bound)
-    except TooManyTerms:
-        return None, "is not shown to be kept by the arm"
-    if at is None:
-        shown = model.n <= FEW_JOINTS and _by_boxes(model, i, bound)
-        return None, "" if shown else "is not shown to be kept by the arm"
-    if its_own is not None:
-        return RefutedBound(i, bound, *its_own, True), "is refuted by the arm's own model"
-    return RefutedBound(i, bound, *at, False), "is kept by the arm of the file, not over its ranges"
-
-
 def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:
     from lyapcheck.check.kinds.gravity import GravityBelow
 
@@ -170,18 +167,10 @@ def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:
     return GravityBelow(model.n, (tuple(to_terms(model.gravity[i])),), ranges, bound)
 
 
-def _by_boxes(model: RobotModel, i: int, bound: Fraction) -> bool:
-    from lyapcheck.check.kinds.inertia import Bisection
-    from lyapcheck.control.judgement import proves
-
-    return proves(_statement(model, i, bound), Bisection())
-
-
 def exceeded(model: RobotModel, i: int, bound: Fraction) -> tuple[JudgedStatement, Fraction] | None:
     """A posture at which the checker finds gravity above a bound, with what it exerts there at least."""
     from lyapcheck.check.kinds.inertia import PostureWitness
     from lyapcheck.check.numbers.polynomials import Enclosure
-    from lyapcheck.control.judgement import judged_statement
 
     statement = _statement(model, i, bound)
     for turns, parameters in steep_postures(model, i):

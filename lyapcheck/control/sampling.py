@@ -1,4 +1,4 @@
-"""The loop as a computer runs it: one record of an option, a gain file and an arm file, in this order."""
+"""The loop as a computer runs it, and for which periods gains are shown to be stable on it by (S)."""
 
 from __future__ import annotations
 
@@ -7,10 +7,20 @@ from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import Any
 
+from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
+from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.inertia import HarmonicSizes
+from lyapcheck.check.kinds.sampled import MOST_DELAY, MOST_TAPS, SampledStable, ShortPeriod
+from lyapcheck.check.loop.chain import lever_bound, pulls
+from lyapcheck.check.loop.field import size_of
+from lyapcheck.check.statement import Proof
+from lyapcheck.control.gravity import least_along
+from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.files.decimals import DECIMAL, decimal_text
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
+from lyapcheck.robots.dynamics import Chain
 
 ONE = (Fraction(1),)
 TIMING = ("longest", "delay", "velocity", "filter", "lowpass", "encoder", "within")
@@ -101,7 +111,7 @@ def time_text(seconds: Fraction) -> str:
 def record_of(
     option: LoopEntry = NOTHING, gain_file: LoopEntry = NOTHING, arm: LoopEntry = NOTHING
 ) -> LoopRecord | None:
-    """The loop by all that is said of it; an option goes before the gain file, and that before the arm file.
+    """The loop by all that is said of it: an option goes before the gain file, and that before the arm file.
 
     Returns:
         ``None`` where nothing is said.
@@ -140,12 +150,9 @@ def loop_of_options(options: Mapping[str, Any]) -> LoopEntry:
     notes = Notes("argument", lambda _: None)
     result = read_loop(Fields(data, (), notes))
     if notes.problems:
-        raise InputError([replace(one, key=_option(one.key)) for one in notes.problems])
+        problems = (replace(one, key=f"--{one.key.replace('_', '-')}") for one in notes.problems)
+        raise InputError([*problems])
     return result
-
-
-def _option(key: str) -> str:
-    return f"--{key.replace('_', '-')}"
 
 
 def _typed(value: Any) -> Any:
@@ -154,3 +161,66 @@ def _typed(value: Any) -> Any:
         return value
     number = Fraction(text)
     return int(number) if number.denominator == 1 else number
+
+
+# --- What shows (S), and for which periods (S) holds.
+
+
+def require_sampled(loop: LoopRecord, angles: str = "unwrapped") -> LoopRecord:
+    """A loop of which (S) speaks, with the angles as readings give them.
+
+    Raises:
+        ValueError: (S) does not speak of such a loop; it says what to do.
+    """
+    taps, whole = loop.filter, f"must be whole samples to {MOST_DELAY}; round it up"
+    few = isinstance(taps, tuple) and 1 <= len(taps) <= MOST_TAPS
+    cut = f"must be 1 to {MOST_TAPS} weights of differences; cut one off that never ends"
+    measured = 'needs the inertia and is not covered; take velocity = "difference"'
+    wrapped = "jump by a turn and are not covered; add the turns, as |Δq| < π in a sample"
+    rules: tuple[tuple[str, object, bool, str], ...] = (
+        ("period", loop.period, (loop.period or 0) > 0, "must be positive; give seconds"),
+        ("longest", loop.longest, loop.stretch >= 1, "is below the period; give the longest interval"),
+        ("delay", loop.delay, loop.delay in range(MOST_DELAY + 1), whole),
+        ("filter", taps, few, cut),
+        ("velocity", loop.velocity, loop.velocity == "difference", measured),
+        ("angles", angles, angles == "unwrapped", wrapped),
+    )
+    for name, value, fits, rule in rules:
+        if not fits:
+            raise ValueError(f"{name} = {value} {rule}")
+    return loop
+
+
+def sampled_proof(statement: SampledStable) -> ShortPeriod:
+    """What may show a statement by (S): a bound of each torque of gravity, with its proof."""
+    chain, rows = Chain(statement.links, statement.fall), []
+    for i, bound in enumerate(statement.bounds([Fraction(0)] * statement.n)):
+        way: tuple[Fraction, Proof] = Fraction(0), NoTorque()
+        if isinstance(bound, GravityBelow):
+            sizes = (size_of(torque, statement.parameters) for torque in bound.entries)
+            way = sum(sizes, Fraction(0)), HarmonicSizes()
+        elif not pulls(statement.links, statement.fall, i, ()):
+            along = least_along(chain, i)
+            way = lever_bound(statement.links, statement.fall, i, along), OwnLevers(along)
+        rows.append(way)
+    return ShortPeriod(tuple(k for k, _ in rows), tuple(own for _, own in rows))
+
+
+def judged_sampled(statement: SampledStable) -> JudgedStatement:
+    """What the checker says of gains on a computer, by (S).
+
+    Soundness: that of ``lyapcheck.check.verify``.
+    """
+    return judged_statement(statement, [sampled_proof(statement)])
+
+
+def largest_period(statement: SampledStable) -> Fraction | None:
+    """The supremum of the periods, s, that (S) shows; ``None``: none.
+
+    Soundness: (S) is strict, and linear in T.
+    """
+    k_g = statement.k_g or sampled_proof(statement).k_g
+    still, now = (statement.needed(k_g, T) for T in (Fraction(0), statement.period))
+    rows = zip(statement.viscous_min, still, now, strict=True)
+    most = min(statement.period * (b - low) / (high - low) for b, low, high in rows)
+    return most if most > 0 else None

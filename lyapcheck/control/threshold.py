@@ -144,10 +144,9 @@ def norms(torque_squared: Fraction, gravity_squared: Fraction, n: int, gamma: Tr
     """
     T, G = (x.numerator * x.denominator for x in (torque_squared, gravity_squared))
     # roots of numbers whose quotient is no square are never multiples of each other
-    short = root if not G or isqrt(T * G) ** 2 == T * G else _plain_root
-    budget = short(torque_squared)
-    if G:
-        budget = ("add", budget, ("neg", short(gravity_squared)))
+    short = not G or isqrt(T * G) ** 2 == T * G
+    sides = [root(x) if short else ("sqrt", number(x)) for x in (torque_squared, gravity_squared)]
+    budget: Tree = ("add", sides[0], ("neg", sides[1])) if G else sides[0]
     return Threshold(budget, n, gamma, "<=")
 
 
@@ -170,10 +169,6 @@ def _between(ends: Enclosure, value: Fraction) -> bool:
         return False
     e, f = ends.upper.as_integer_ratio()
     return n * f <= e * d
-
-
-def _plain_root(square: Fraction) -> Tree:
-    return "sqrt", number(square)
 
 
 def _square_out(whole: int) -> tuple[int, int]:

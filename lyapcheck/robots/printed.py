@@ -26,49 +26,13 @@ _MOST_FACTORS = 12
 _MOST_ANGLES = 16
 _MOST_TERMS = 1000
 
-Terms = tuple[tuple[Fraction, tuple[tuple[str, int], ...]], ...]
-
-
-@dataclass(frozen=True)
-class PrintedTerms:
-    """The terms of M on and above the diagonal, and of the potential, as read."""
-
-    mass: Mapping[tuple[int, int], Terms]
-    potential: Terms
-
-    def names(self) -> set[str]:
-        return names_of([*self.mass.values(), self.potential])
-
-    def build(
-        self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]
-    ) -> tuple[tuple[tuple[fmpq_mpoly, ...], ...], fmpq_mpoly]:
-        """M and the potential in normal form, with the given polynomials for the numbers."""
-        n = trig.joint_count(ring)
-        upper = {place: polynomial(terms, ring, numbers) for place, terms in self.mass.items()}
-        mass = tuple(tuple(upper[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
-        return mass, polynomial(self.potential, ring, numbers)
-
-
-def names_of(entries: Collection[Terms]) -> set[str]:
-    """The entries of ``[numbers]`` that occur in some terms."""
-    return {name for terms in entries for _, factors in terms for name, _ in factors if not is_angle(name)}
+Term = tuple[Fraction, tuple[tuple[str, int], ...]]
+Terms = tuple[Term, ...]
 
 
 def is_angle(name: str) -> bool:
     """Whether the name is that of a sine or cosine, and so cannot name a number."""
     return _ANGLE.fullmatch(name) is not None
-
-
-def read_printed(fields: ArmFields, n: int, numbers: Collection[str]) -> PrintedTerms:
-    """The ``[model]`` table of an arm with n joints; problems are noted in ``fields``."""
-    mass = {(i, j): read_terms(fields, f"M{i + 1}{j + 1}", n, numbers) for i in range(n) for j in range(i, n)}
-    potential = read_terms(fields, "potential", n, numbers)
-    for i, j in mass:
-        mirror = f"M{j + 1}{i + 1}"
-        if i != j and mirror in fields.data:
-            fields.raw(mirror)
-            fields.fail(mirror, "M is symmetric: its entries below the diagonal are not given", "remove it")
-    return PrintedTerms(mass, potential)
 
 
 def read_terms(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> Terms:
@@ -92,7 +56,7 @@ def term_list(fields: ArmFields, key: str) -> list[Any]:
 
 def read_term(
     fields: ArmFields, path: KeyPath, term: object, n: int, numbers: Collection[str]
-) -> tuple[Fraction, tuple[tuple[str, int], ...]] | None:
+) -> Term | None:
     """One term, ``None`` where it is bad."""
     if not isinstance(term, list) or len(term) != 2 or not isinstance(term[1], str):
         fields.notes.fail(path, term, "must be a decimal and a text of factors", 'write [0.168, "c2"]')
@@ -175,9 +139,6 @@ class PrintedTorques:
     coriolis: Mapping[tuple[int, int, int], Terms]
     gravity: tuple[Terms, ...]
 
-    def names(self) -> set[str]:
-        return names_of([*self.coriolis.values(), *self.gravity])
-
     def symbols(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly], n: int) -> Tensor:
         """p_ijk with C(q, q̇)_ij = Σ_k p_ijk q̇_k, in normal form."""
         joints = range(n)
@@ -223,9 +184,7 @@ def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> dic
             fields.notes.fail(path, term, rule, 'write [-0.168, "s2 w2"]')
             continue
         rest = " ".join(word for word in words if not _RATE.fullmatch(word))
-        read: tuple[Fraction, tuple[tuple[str, int], ...]] | None = read_term(
-            fields, path, [term[0], rest], n, numbers
-        )
+        read: Term | None = read_term(fields, path, [term[0], rest], n, numbers)
         if read is not None:
             result[rates[0]] = (*result.get(rates[0], ()), read)
     return result
@@ -241,32 +200,32 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,40}")
 
 @dataclass(frozen=True)
 class PrintedPlan:
-    """M and the potential in print."""
+    """M, on and above its diagonal, and the potential in print."""
 
     place: ClassVar[str] = "model"
     joints: list[JointEntry]
     entries: dict[str, Number]
-    printed: PrintedTerms
+    mass: Mapping[tuple[int, int], Terms]
+    potential: Terms
     torques: PrintedTorques | None
 
     def numbers(self) -> dict[str, Number]:
         return dict(self.entries, **_rotors(self.joints))
 
     def used(self) -> set[str]:
-        return self.printed.names() | set(_rotors(self.joints))
+        terms = (term for entry in (*self.mass.values(), self.potential) for term in entry)
+        return {name for _, factors in terms for name, _ in factors} | set(_rotors(self.joints))
 
     def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> trig.Polynomials:
         n = len(self.joints)
         ring = trig.trig_ring(n, parameters)
         polys = {key: trig.constant(ring, number.value) for key, number in numbers.items()}
         polys |= dict(zip(parameters, ring.gens()[2 * n :], strict=True))
-        mass, potential = self.printed.build(ring, polys)
-        rotors = [polys.get(f"{joint.name}{ROTOR}", 0) for joint in self.joints]
-        whole = tuple(
-            tuple(entry + rotors[i] if i == j else entry for j, entry in enumerate(row))
-            for i, row in enumerate(mass)
-        )
-        return trig.Polynomials(whole, potential, parameters)
+        rows = {place: polynomial(terms, ring, polys) for place, terms in self.mass.items()}
+        for i, joint in enumerate(self.joints):
+            rows[i, i] += polys.get(f"{joint.name}{ROTOR}", 0)
+        mass = tuple(tuple(rows[min(i, j), max(i, j)] for j in range(n)) for i in range(n))
+        return trig.Polynomials(mass, polynomial(self.potential, ring, polys), parameters)
 
 
 def _rotors(joints: list[JointEntry]) -> dict[str, Number]:
@@ -283,22 +242,26 @@ def read_model(
     """The arm of ``[model]`` and ``[[joints]]``; problems are noted."""
     joints = read_joints(top, "joints", tables, MOST_PRINTED)
     taken = {name for joint in joints for name in joint.numbers()} | set(_rotors(joints))
-    entries = {} if numbers is None else _read_numbers(numbers, taken)
-    names = [] if numbers is None else list(numbers.data)
+    names, entries = [] if numbers is None else list(numbers.data), dict[str, Number]()
+    for name in names:
+        assert numbers is not None
+        entry = numbers.quantity(name, "")
+        if not _NAME.fullmatch(name) or is_angle(name):
+            rule = "must be letters, digits and underscores, and not look like a sine or cosine (s1, c23)"
+            numbers.fail(name, rule, "rename it")
+        elif name in taken:
+            numbers.fail(name, "is also the name of a number of a joint", "rename it")
+        entries |= {} if entry is None else {name: entry}
     n = min(len(joints), MOST_PRINTED)
-    printed = read_printed(model, n, names)
+    upper = [(i, j) for i in range(n) for j in range(i, n)]
+    mass = {(i, j): read_terms(model, f"M{i + 1}{j + 1}", n, names) for i, j in upper}
+    potential = read_terms(model, "potential", n, names)
+    for i, j in upper:
+        mirror = f"M{j + 1}{i + 1}"
+        if i != j and mirror in model.data:
+            model.raw(mirror)
+            model.fail(mirror, "M is symmetric: its entries below the diagonal are not given", "remove it")
     compared = None if torques is None else read_torques(torques, n, names)
     for table in [*tables, model, *([] if torques is None else [torques])]:
         table.close()
-    return PrintedPlan(joints, entries, printed, compared)
-
-
-def _read_numbers(fields: ArmFields, taken: set[str]) -> dict[str, Number]:
-    entries = {name: fields.quantity(name, "") for name in fields.data}
-    for name in fields.data:
-        if not _NAME.fullmatch(name) or is_angle(name):
-            rule = "must be letters, digits and underscores, and not look like a sine or cosine (s1, c23)"
-            fields.fail(name, rule, "rename it")
-        elif name in taken:
-            fields.fail(name, "is also the name of a number of a joint", "rename it")
-    return {name: number for name, number in entries.items() if number is not None}
+    return PrintedPlan(joints, entries, mass, potential, compared)

@@ -22,8 +22,13 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
 from lyapcheck.control.gains import GainSet
-from lyapcheck.control.sampled import judged_sampled, largest_period, require_sampled, sampled_proof
-from lyapcheck.control.sampling import LoopRecord
+from lyapcheck.control.sampling import (
+    LoopRecord,
+    judged_sampled,
+    largest_period,
+    require_sampled,
+    sampled_proof,
+)
 from lyapcheck.robots import load
 from tests import oracle
 from tests.arena.sampled import BOTH, NOTHING, ONE, PRINTED, SHOWN, TWO

@@ -159,7 +159,7 @@ def sampled_check(
     Soundness: that of ``lyapcheck.check.verify``.
     """
     from lyapcheck.answers.running.from_rest import shown_from_rest  # a gate without a loop starts sooner
-    from lyapcheck.control.sampled import judged_sampled
+    from lyapcheck.control.sampling import judged_sampled
 
     if record is None or record.period is None:
         return Check(SAMPLED, reason=NO_PERIOD)
@@ -207,7 +207,7 @@ def question(
     Raises:
         ValueError: (S) does not speak of such a loop or such an h; it says why.
     """
-    from lyapcheck.control.sampled import require_sampled
+    from lyapcheck.control.sampling import require_sampled
 
     if record.lowpass is not None:
         raise ValueError(LOWPASS)
@@ -230,7 +230,7 @@ def largest(
     asked: SampledStable, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
     """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
-    from lyapcheck.control.sampled import sampled_proof
+    from lyapcheck.control.sampling import sampled_proof
 
     k_g = asked.k_g or sampled_proof(asked).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))

@@ -39,7 +39,7 @@ from lyapcheck.claims.search_result import (
     still_open,
 )
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.control.sampled import largest_period, sampled_proof
+from lyapcheck.control.sampling import largest_period, sampled_proof
 from lyapcheck.errors import installed
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.robots import Number
