@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -30,8 +30,6 @@ LEAST_ENERGY = 1e-9
 """J: below this, energies are the integrator's absolute tolerance and not the arm's."""
 CANDIDATES = 100
 """Samples that are judged in balls before a promise counts as kept."""
-Monitor = Callable[[Setup, Motion], Breach | None]
-"""What was run, and its motion, to the first breach of one promise."""
 
 
 def noise_of(V: Array) -> float:
@@ -39,13 +37,24 @@ def noise_of(V: Array) -> float:
     return V_NOISE * max(float(np.max(np.abs(V))), LEAST_ENERGY)
 
 
-def first_breach(setup: Setup, run: Motion, monitors: Sequence[Monitor]) -> Breach | None:
-    """The earliest breach that any monitor finds."""
-    result = [breach for monitor in monitors if (breach := monitor(setup, run)) is not None]
+def first_breach(found: Iterable[Breach | None]) -> Breach | None:
+    """The earliest of some breaches."""
+    result = [breach for breach in found if breach is not None]
     return min(result, key=lambda breach: breach.index, default=None)
 
 
-def rate_monitor(setup: Setup, run: Motion) -> Breach | None:
+def first_above(
+    run: Motion, promise: str, signal: Array, limit: Array, unit: str, forgiven: float | Array
+) -> Breach | None:
+    """The first sample at which a signal (N,) is above its limit (N,) by more than is forgiven."""
+    beyond = np.flatnonzero(signal > limit + forgiven)
+    if not beyond.size:
+        return None
+    i = int(beyond[0])
+    return run.broken(promise, i, signal[i], limit[i], unit, False)
+
+
+def rise_of_rate(setup: Setup, run: Motion) -> Breach | None:
     """dV/dt ≤ 0 at every sample, with the run's ε₀; with ε₀ = 0 it holds by (14) and nothing is looked at."""
     if run.eps0 == 0.0:
         return None
@@ -56,16 +65,13 @@ def rate_monitor(setup: Setup, run: Motion) -> Breach | None:
     return None
 
 
-def fall_monitor(setup: Setup, run: Motion) -> Breach | None:
+def rise_of_V(run: Motion) -> Breach | None:
     """V does not rise between samples by more than the run's own error."""
-    up = np.flatnonzero(np.diff(run.V) > noise_of(run.V))
-    if not up.size:
-        return None
-    i = int(up[0]) + 1
-    return run.broken(f"V falls for ε₀ = {run.eps0:g}", i, run.V[i], run.V[i - 1], "J", False)
+    before = np.append(np.inf, run.V[:-1])
+    return first_above(run, f"V falls for ε₀ = {run.eps0:g}", run.V, before, "J", noise_of(run.V))
 
 
-def limit_monitor(setup: Setup, run: Motion) -> Breach | None:
+def beyond_limits(setup: Setup, run: Motion) -> Breach | None:
     """Each |τ_i| is at most what the motor can give, where that is known."""
     result = []
     for joint, number in enumerate(setup.model.torque_limit):
@@ -75,38 +81,30 @@ def limit_monitor(setup: Setup, run: Motion) -> Breach | None:
             if number is not None and exceeds(setup.controlled, joint, number.value, run.sample(i)):
                 result.append(run.broken(promise, i, size[i], most, "N·m", True))
                 break
-    return min(result, key=lambda breach: breach.index, default=None)
+    return first_breach(result)
 
 
-def joint_monitor(name: str, bounds: Sequence[float] | None) -> Monitor:
+def beyond_bounds(run: Motion, name: str, bounds: Sequence[float] | None) -> Breach | None:
     """Each |τ_i| is at most a bound, of which no more than rounding is forgiven."""
+    return first_breach(
+        first_above(
+            run,
+            f"|τ| of {joint} within {name}",
+            np.abs(run.tau[:, i]),
+            np.full(len(run.tau), bounds[i]),
+            "N·m",
+            bounds[i] * ROUNDING,
+        )
+        for i, joint in enumerate(run.joints if bounds is not None else ())
+        if bounds is not None
+    )
 
-    def monitor(setup: Setup, run: Motion) -> Breach | None:
-        if bounds is None:
-            return None
-        beyond = np.argwhere(np.abs(run.tau) > np.array(bounds) * (1 + ROUNDING))
-        if not beyond.size:
-            return None
-        i, joint = beyond[0].tolist()
-        promise = f"|τ| of {run.joints[joint]} within {name}"
-        return run.broken(promise, i, abs(run.tau[i, joint]), bounds[joint], "N·m", False)
 
-    return monitor
-
-
-def bound_monitor(name: str, bound: float | None) -> Monitor:
+def beyond_norm(run: Motion, name: str, bound: float | None) -> Breach | None:
     """‖τ‖ is at most a bound, of which no more than rounding is forgiven."""
     most = math.inf if bound is None else bound * (1 + ROUNDING)
-
-    def monitor(setup: Setup, run: Motion) -> Breach | None:
-        norm = np.linalg.norm(run.tau, axis=1)
-        beyond = np.flatnonzero(norm > most)
-        if not beyond.size:
-            return None
-        i = int(beyond[0])
-        return run.broken(f"‖τ‖ within {name}", i, norm[i], most, "N·m", False)
-
-    return monitor
+    norm = np.linalg.norm(run.tau, axis=1)
+    return first_above(run, f"‖τ‖ within {name}", norm, np.full(norm.size, most), "N·m", 0.0)
 
 
 # --- What a run passes through, judged again in balls: dV/dt and the torque at one exact state.

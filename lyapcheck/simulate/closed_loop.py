@@ -19,18 +19,17 @@ from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.registry import arm_of
 from lyapcheck.simulate.breach import (
-    Monitor,
-    bound_monitor,
-    fall_monitor,
+    beyond_bounds,
+    beyond_limits,
+    beyond_norm,
     first_breach,
-    joint_monitor,
-    limit_monitor,
     noise_of,
-    rate_monitor,
+    rise_of_rate,
+    rise_of_V,
 )
 from lyapcheck.simulate.integrate import MAX_STEPS, Compiled, Trajectory, integrate, with_extremes
 from lyapcheck.simulate.results import imbalance, l2_of, motion_of, observe
-from lyapcheck.simulate.run import Motion, PromiseBroken, Run, SimulationFailed
+from lyapcheck.simulate.run import Breach, Motion, PromiseBroken, Run, SimulationFailed
 from lyapcheck.simulate.task import Gains, Setup, set_up
 
 if TYPE_CHECKING:
@@ -99,8 +98,8 @@ class Course(ABC, Generic[Moved]):
 
     @staticmethod
     @abstractmethod
-    def monitors(run: Moved) -> Sequence[Monitor]:
-        """What is promised of a run."""
+    def breaches(setup: Setup, run: Moved) -> Sequence[Breach | None]:
+        """Where a run first breaks each promise."""
 
     @abstractmethod
     def watched(self, path: Trajectory) -> Array:
@@ -147,7 +146,7 @@ class Course(ABC, Generic[Moved]):
         with np.errstate(over="ignore", invalid="ignore"):  # gains beyond all sense end as inf, not as noise
             every = with_extremes(fine, self.watched)
             seen = self.run(every, accuracy)
-            breach = first_breach(self.setup, seen, self.monitors(seen))
+            breach = first_breach(self.breaches(self.setup, seen))
             if breach is not None and stop:
                 fine = fine.until(breach.t)
                 seen = self.run(every.until(breach.t), accuracy)
@@ -277,10 +276,10 @@ class SetPoint(Course[Run]):
         )
 
     @staticmethod
-    def monitors(run: Run) -> Sequence[Monitor]:
-        bound = bound_monitor("the bound (9)", run.promises.torque_bound)
-        joints = joint_monitor("its bound from (9)", run.promises.joint_bounds)
-        return rate_monitor, fall_monitor, limit_monitor, joints, bound
+    def breaches(setup: Setup, run: Run) -> Sequence[Breach | None]:
+        joints = beyond_bounds(run, "its bound from (9)", run.promises.joint_bounds)
+        norm = beyond_norm(run, "the bound (9)", run.promises.torque_bound)
+        return rise_of_rate(setup, run), rise_of_V(run), beyond_limits(setup, run), joints, norm
 
     def watched(self, path: Trajectory) -> Array:
         """τ, ‖τ‖² and e; and dV/dt where V is not the energy."""

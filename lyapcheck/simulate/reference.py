@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import cast
 
 import numpy as np
 from flint import acb, arb
@@ -118,14 +117,8 @@ class Sine(Reference):
 
     def suprema(self) -> Suprema:
         with precision(BITS):
-            rates = [self._peak(i, 1) for i in range(self.n)]
-            pushes = [self._peak(i, 2) for i in range(self.n)]
-            return Suprema(
-                tuple(map(above, rates)),
-                tuple(map(above, pushes)),
-                above(self._norm(1)),
-                above(self._norm(2)),
-            )
+            rates, pushes = (tuple(above(self._peak(i, order)) for i in range(self.n)) for order in (1, 2))
+            return Suprema(rates, pushes, above(self._norm(1)), above(self._norm(2)))
 
     @property
     def sentence(self) -> str:
@@ -207,17 +200,6 @@ class MinimumJerk(Reference):
 
 
 # --- Reference files (TOML): one trajectory, described in a few lines.
-#
-# kind = "sine"                    # q_di = offset + amplitude sin(2π frequency t + phase)
-# amplitude = [20, 30, 40]         # degrees
-# frequency = [0.5, 0.5, 0.25]     # Hz
-# phase = [0, 90, 0]               # degrees, 0 if missing
-# offset = [0, 45, 0]              # degrees, 0 if missing
-#
-# kind = "minimum-jerk"
-# from = [0, 0, 0]                 # degrees
-# to = [45, 45, 90]                # degrees
-# duration = 2                     # s
 
 
 FARTHEST = Fraction(36_000)
@@ -238,11 +220,11 @@ def read_reference(path: str | Path, joints: int | None = None) -> Reference:
         joints: of the arm; any number if missing.
 
     Raises:
-        InputError: everything that is wrong with the file, or with the recording it names.
+        InputError: everything that is wrong with the file.
     """
     document = open_document(Path(path), str(path))
     notes = Notes(document.name, document.line)
-    fields = RowFields(document.data, (), notes)
+    fields = Fields(document.data, (), notes)
     kind = fields.text("kind", required=True)
     maker = _KINDS.get(kind)
     if maker is None:
@@ -260,78 +242,59 @@ def read_reference(path: str | Path, joints: int | None = None) -> Reference:
     return result
 
 
-class RowFields(Fields):
-    """Fields with rows of numbers of any sign."""
-
-    def row(self, key: str, low: Fraction, high: Fraction, unit: str, required: bool = True) -> Row | None:
-        """A list of numbers between two bounds, ``None`` when absent or bad."""
-        value = self.raw(key, required)
-        if value is None:
-            return None
-        example = f"write {key} = [0, 0, 0]"
-        if not isinstance(value, list) or not value:
-            self.fail(key, "must be a list of numbers, one a joint", example)
-            return None
-        return self._inside(key, value, low, high, unit)
-
-    def seconds(self, key: str, low: Fraction, high: Fraction) -> Fraction | None:
-        """A time, required; ``None`` when bad."""
-        value = self.raw(key, required=True)
-        row = None if value is None else self._inside(key, [value], low, high, "s", single=True)
-        return None if row is None else row[0]
-
-    def _inside(
-        self, key: str, values: list[object], low: Fraction, high: Fraction, unit: str, single: bool = False
-    ) -> Row | None:
-        kept = []
-        for i, value in enumerate(values):
-            path = (*self.path, key) if single else (*self.path, key, i)
-            plain = isinstance(value, int | Fraction) and not isinstance(value, bool)
-            exact = Fraction(cast("Fraction", value)) if plain else None
-            if exact is not None and low <= exact <= high:
-                kept.append(exact)
-                continue
-            rule = f"must be a number from {float(low):g} to {float(high):g} {unit}"
-            if isinstance(value, NotFinite):
-                rule = value.rule
-            self.notes.fail(path, value, rule, f"give a plain decimal in {unit}")
-        return tuple(kept) if len(kept) == len(values) else None
-
-    def same_length(self, rows: dict[str, Row | None]) -> bool:
-        """Whether all rows are there and of one length; notes those of another length than the first."""
-        lists = {key: self.data.get(key) for key in rows}
-        given = {key: value for key, value in lists.items() if isinstance(value, list) and value}
-        first = next(iter(given), "")
-        for key, row in given.items():
-            if len(row) != len(given[first]):
-                rule = f"has {len(row)} values where {first} has {len(given[first])}"
-                self.fail(key, rule, f"give {len(given[first])} values, one a joint")
-        return None not in rows.values() and len({len(row) for row in given.values()}) == 1
+def _row(
+    fields: Fields, key: str, low: Fraction, high: Fraction, unit: str, single: bool = False
+) -> Row | None:
+    """The numbers of a list, or a single one, of any sign and between two bounds; ``None`` when bad."""
+    value = fields.raw(key, required=True)
+    if value is None:
+        return None
+    if not single and (not isinstance(value, list) or not value):
+        fields.fail(key, "must be a list of numbers, one a joint", f"write {key} = [0, 0, 0]")
+        return None
+    values, kept = [value] if single else value, []
+    for i, one in enumerate(values):
+        plain = isinstance(one, int | Fraction) and not isinstance(one, bool)
+        if plain and low <= one <= high:
+            kept.append(Fraction(one))
+            continue
+        rule = f"must be a number from {float(low):g} to {float(high):g} {unit}"
+        rule = one.rule if isinstance(one, NotFinite) else rule
+        fields.notes.fail((key,) if single else (key, i), one, rule, f"give a plain decimal in {unit}")
+    return tuple(kept) if len(kept) == len(values) else None
 
 
-def _sine(fields: RowFields) -> Reference | None:
-    amplitude = fields.row("amplitude", -FARTHEST, FARTHEST, "degrees")
-    frequency = fields.row("frequency", Fraction(0), FASTEST, "Hz")
-    rows = {"amplitude": amplitude, "frequency": frequency}
+def _same_length(fields: Fields, *keys: str) -> None:
+    """Note lists of another length than the first."""
+    given = {key: value for key in keys if isinstance(value := fields.data.get(key), list) and value}
+    first = next(iter(given), "")
+    for key, row in given.items():
+        if len(row) != len(given[first]):
+            rule = f"has {len(row)} values where {first} has {len(given[first])}"
+            fields.fail(key, rule, f"give {len(given[first])} values, one a joint")
+
+
+def _sine(fields: Fields) -> Reference | None:
+    amplitude = _row(fields, "amplitude", -FARTHEST, FARTHEST, "degrees")
+    frequency = _row(fields, "frequency", Fraction(0), FASTEST, "Hz")
     zeros = (Fraction(0),) * len(amplitude or frequency or ())
-    for key in ("phase", "offset"):
-        given = fields.row(key, -FARTHEST, FARTHEST, "degrees", required=False)
-        rows[key] = given if key in fields.data else zeros
-    if not fields.same_length(rows):
+    phase, offset = (
+        _row(fields, key, -FARTHEST, FARTHEST, "degrees") if fields.raw(key) is not None else zeros
+        for key in ("phase", "offset")
+    )
+    _same_length(fields, "amplitude", "frequency", "phase", "offset")
+    if fields.notes.problems or None in (amplitude, frequency, phase, offset):
         return None
-    return Sine(*(row for row in rows.values() if row is not None))
+    return Sine(*(row for row in (amplitude, frequency, phase, offset) if row is not None))
 
 
-def _minimum_jerk(fields: RowFields) -> Reference | None:
-    start, end = (fields.row(key, -FARTHEST, FARTHEST, "degrees") for key in ("from", "to"))
-    seconds = fields.seconds("duration", QUICKEST, LONGEST)
-    fit = fields.same_length({"from": start, "to": end})
-    if not fit or start is None or end is None or seconds is None:
+def _minimum_jerk(fields: Fields) -> Reference | None:
+    start, end = (_row(fields, key, -FARTHEST, FARTHEST, "degrees") for key in ("from", "to"))
+    seconds = _row(fields, "duration", QUICKEST, LONGEST, "s", single=True)
+    _same_length(fields, "from", "to")
+    if fields.notes.problems or start is None or end is None or seconds is None:
         return None
-    return MinimumJerk(start, end, seconds)
+    return MinimumJerk(start, end, seconds[0])
 
 
-_KINDS: dict[str, Callable[[RowFields], Reference | None]] = {"sine": _sine, "minimum-jerk": _minimum_jerk}
-
-
-# --- A recorded motion, made smooth by a spline.
+_KINDS: dict[str, Callable[[Fields], Reference | None]] = {"sine": _sine, "minimum-jerk": _minimum_jerk}

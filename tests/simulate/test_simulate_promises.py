@@ -17,10 +17,10 @@ from lyapcheck.output.answer import Level
 from lyapcheck.robots import Number
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.simulate.breach import at_balls, bound_monitor, fall_monitor, first_breach
+from lyapcheck.simulate.breach import at_balls, beyond_norm, first_breach, rise_of_V
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.run import PromiseBroken, Sample, SimulationFailed
-from lyapcheck.simulate.task import PAPER_TASK, set_up
+from lyapcheck.simulate.task import PAPER_TASK
 from lyapcheck.verdicts import Exit
 from tests.helpers.shares import one_in
 
@@ -148,21 +148,20 @@ def test_torques_in_balls_are_those_of_the_run():
             np.testing.assert_allclose(tau, run.tau[i], rtol=1e-12)
 
 
-def breach_of(V, tau, monitors):
+def breach_of(V, tau, most=None):
     """The first breach of a run with other samples of V and τ."""
-    setup = set_up(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, None, None, T=0.1, eps0=None)
-    run = simulate(TABLE2[0], setup.model, PAPER_TASK.q_d, T=0.1, points=len(V))
-    return first_breach(setup, replace(run, V=np.array(V), tau=np.array(tau)), monitors)
+    run = simulate(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d, T=0.1, points=len(V))
+    run = replace(run, V=np.array(V), tau=np.array(tau))
+    return first_breach((rise_of_V(run), beyond_norm(run, "a bound", most)))
 
 
 def test_the_earliest_breach_is_the_one_that_is_told():
     quiet, loud = [0.0, 0.0, 0.0], [0.0, 3.0, 4.0]
-    monitors = (fall_monitor, bound_monitor("a bound", 4.9))
-    assert breach_of([3.0, 2.0, 2.5], [quiet, quiet, quiet], monitors).index == 2
-    both = breach_of([3.0, 2.0, 2.5], [quiet, loud, quiet], monitors)
+    assert breach_of([3.0, 2.0, 2.5], [quiet, quiet, quiet], 4.9).index == 2
+    both = breach_of([3.0, 2.0, 2.5], [quiet, loud, quiet], 4.9)
     assert (both.index, both.value, both.confirmed) == (1, 5.0, False)
-    assert breach_of([3.0, 2.0, 2.0], [quiet, quiet, quiet], monitors) is None
+    assert breach_of([3.0, 2.0, 2.0], [quiet, quiet, quiet], 4.9) is None
 
 
 def test_rounding_is_no_rise():
-    assert breach_of([3.0, 3.0 + 1e-10], [[0.0] * 3] * 2, (fall_monitor,)) is None
+    assert breach_of([3.0, 3.0 + 1e-10], [[0.0] * 3] * 2) is None

@@ -18,11 +18,12 @@ from lyapcheck.family import named
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import first_breach
+from lyapcheck.simulate.promised import torque_bounds, tracking_form
 from lyapcheck.simulate.reference import MinimumJerk, Sine
 from lyapcheck.simulate.results import energies
 from lyapcheck.simulate.run import PromiseBroken
 from lyapcheck.simulate.task import gains_for, set_up
-from lyapcheck.simulate.tracking import Tracking, bound_of, torque_bounds, track, tracking_form
+from lyapcheck.simulate.tracking import Tracking, bound_of, track
 from tests.helpers.shares import one_in
 
 TABLE2 = read_gain_file(paper_gain_file("table2")).gains
@@ -208,8 +209,8 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     falling = {"t": np.arange(500.0), "V": -np.arange(500.0), "dV": np.minimum(dV, -1e-12)}
     still = replace(run.promise, torque=None)
     slow, fast = (replace(run, **states, **falling, promise=still, eps0=0.01, bound=x) for x in (low, high))
-    assert "Θ'" in first_breach(setup, slow, Tracking.monitors(slow)).promise
-    assert first_breach(setup, fast, Tracking.monitors(fast)) is None
+    assert "Θ'" in first_breach(Tracking.breaches(setup, slow)).promise
+    assert first_breach(Tracking.breaches(setup, fast)) is None
 
 
 @pytest.mark.slow
