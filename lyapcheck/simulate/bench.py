@@ -21,7 +21,7 @@ from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import PAYLOAD, Vary, varied
 from lyapcheck.simulate.integrate import MAX_STEPS, Compiled
-from lyapcheck.simulate.results import torque_limits
+from lyapcheck.simulate.results import motor_limits
 from lyapcheck.simulate.task import Gains, Setup
 
 if TYPE_CHECKING:
@@ -120,11 +120,16 @@ def period_map(gains: Gains, model: RobotModel, bench: Bench, substeps: int) -> 
 
     The arm moves by ``substeps`` steps of the classical Runge–Kutta method.
     """
-    n, control = model.n, controller(gains, model, bench)
+    n, control, h = model.n, controller(gains, model, bench), bench.T / substeps
     state, goal = ca.MX.sym("state", 2 * n + control.numel_in(2)), ca.MX.sym("q_d", n)
     torque, memory = control(state[:n], state[n : 2 * n], state[2 * n :], goal)
-    arm = _runge_kutta(model, bench, bench.T / substeps).mapaccum(substeps)
-    moved = arm(state[: 2 * n], ca.repmat(torque, 1, substeps))[:, -1]
+    x, held, rate = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n), arm_rate(model, bench)
+    k1 = rate(x, held)
+    k2 = rate(x + h / 2 * k1, held)
+    k3 = rate(x + h / 2 * k2, held)
+    k4 = rate(x + h * k3, held)
+    arm = ca.Function("arm", [x, held], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)])
+    moved = arm.mapaccum(substeps)(state[: 2 * n], ca.repmat(torque, 1, substeps))[:, -1]
     return ca.Function("period", [state, goal], [ca.vertcat(moved, memory), torque])
 
 
@@ -146,7 +151,7 @@ def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
         kept = [smooth]
     spring = ca.DM(gains.kp) * gains.family.casadi(goal - reading).h
     wanted = spring - ca.DM(gains.kv) * gains.family.casadi(smooth).h + graph.gravity(model, reading)
-    most = ca.DM([math.inf if limit is None else limit for limit in torque_limits(model)])
+    most = ca.DM(motor_limits(model))
     held, *later = [*rest[past + len(kept) :], ca.fmin(ca.fmax(wanted, -most), most)]
     new = ca.vertcat(reading, *velocity[:past], *kept, *later)
     return ca.Function("controller", [q, w, memory, goal], [held, new])
@@ -156,8 +161,8 @@ def memory_at(setup: Setup, bench: Bench) -> Array:
     """What the controller remembers at the start: the arm came with its initial rates, and was held there."""
     q, w, counts = np.array(setup.task.q0), np.array(setup.task.w0), bench.counts(setup.model)
     last, now = (np.array(read_encoders(ca.DM(x), counts))[:, 0] for x in (q - bench.T * w, q))
-    most = [math.inf if limit is None else limit for limit in torque_limits(setup.model)]
-    held = np.clip(NumericModel(setup.model).gravity(now), np.negative(most), most)
+    most = np.array(motor_limits(setup.model))
+    held = np.clip(NumericModel(setup.model).gravity(now), -most, most)
     smooth = [] if bench.lowpass is None else [float(sum(bench.filter)) * w]
     return np.concatenate([last, *[w] * (len(bench.filter) - 1), *smooth, *[held] * bench.delay])
 
@@ -169,29 +174,18 @@ def read_encoders(q: Any, counts: Sequence[int | None]) -> Any:
 
 
 def arm_rate(model: RobotModel, bench: Bench) -> Any:
-    """The CasADi function (x, τ) ↦ ẋ of the arm with load and dry friction, x = (q, w)."""
-    n = model.n
+    """The CasADi function (x, τ) ↦ ẋ of the arm with load and dry friction, x = (q, w).
+
+    ẇ = M⁻¹(τ − C w − g − B w − f_c tanh(w/creep)), that is (1) with dry friction added.
+    """
+    n, arm = model.n, bench.carried(model)
     x, torque = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n)
-    rate = ca.vertcat(x[n:], _acceleration(bench.carried(model), bench, x[:n], x[n:], torque))
-    return ca.Function("rate", [x, torque], [ca.densify(rate)])
-
-
-def _runge_kutta(model: RobotModel, bench: Bench, h: float) -> Any:
-    x, torque = ca.SX.sym("x", 2 * model.n), ca.SX.sym("tau", model.n)
-    rate = arm_rate(model, bench)
-    k1 = rate(x, torque)
-    k2 = rate(x + h / 2 * k1, torque)
-    k3 = rate(x + h / 2 * k2, torque)
-    k4 = rate(x + h * k3, torque)
-    return ca.Function("arm", [x, torque], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)])
-
-
-def _acceleration(model: RobotModel, bench: Bench, q: Any, w: Any, torque: Any) -> Any:
-    """M⁻¹(τ − C w − g − B w − f_c tanh(w/creep)), that is (1) with dry friction added."""
-    dry = ca.DM(dry_friction(model)) * ca.tanh(w / bench.creep)
-    gravity = bench.pull * graph.gravity(model, q)
-    drift = graph.coriolis(model, q, w) @ w + gravity + graph.viscous(model) @ w
-    return graph.solve(graph.mass(model, q), torque - drift - dry)
+    q, w = x[:n], x[n:]
+    dry = ca.DM(dry_friction(arm)) * ca.tanh(w / bench.creep)
+    gravity = bench.pull * graph.gravity(arm, q)
+    drift = graph.coriolis(arm, q, w) @ w + gravity + graph.viscous(arm) @ w
+    acceleration = graph.solve(graph.mass(arm, q), torque - drift - dry)
+    return ca.Function("rate", [x, torque], [ca.densify(ca.vertcat(w, acceleration))])
 
 
 def dry_friction(model: RobotModel) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -69,7 +70,15 @@ def integrate(
     with np.errstate(all="ignore"):
         solver = LSODA(rate, t[0], y0, t[-1], rtol=tolerance, atol=tolerance / 100, jac=jacobian)
         for count in range(max_steps):
-            failure = _step(solver)
+            failure, before = None, solver.t
+            with warnings.catch_warnings(record=True) as heard:  # by which LSODA says why it fails
+                warnings.simplefilter("always")
+                message = solver.step()
+            if solver.status == "failed":
+                said = "; ".join([message or "", *(str(w.message) for w in heard)]).strip("; ")
+                failure = f"the integrator gave up at t = {before:.6g} s: {said or 'no reason given'}"
+            elif not np.all(np.isfinite(solver.y)):
+                failure = f"the state is no longer finite at t = {before:.6g} s"
             if failure is None and solver.t > steps[-1]:
                 steps.append(solver.t)
                 pieces.append(solver.dense_output())
@@ -88,22 +97,6 @@ def integrate(
 
     reached = t[t <= steps[-1]]
     return Trajectory(reached, dense(reached).T, np.array(steps), dense, failure)
-
-
-def _step(solver: Any) -> str | None:
-    """One step; the reason if it failed. LSODA speaks through warnings, which are turned into that reason."""
-    import warnings
-
-    before = solver.t
-    with warnings.catch_warnings(record=True) as heard:
-        warnings.simplefilter("always")
-        message = solver.step()
-    if solver.status == "failed":
-        said = "; ".join([message or "", *(str(w.message) for w in heard)]).strip("; ")
-        return f"the integrator gave up at t = {before:.6g} s: {said or 'no reason given'}"
-    if not np.all(np.isfinite(solver.y)):
-        return f"the state is no longer finite at t = {before:.6g} s"
-    return None
 
 
 # --- A solution at the times at which something of it is largest or smallest, between samples too.

@@ -8,198 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853 as TABLE
 
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.breach import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.integrate import MAX_STEPS
-from lyapcheck.simulate.results import LEAST_STEP, bands, torque_limits
+from lyapcheck.simulate.march import FAILURES, March
+from lyapcheck.simulate.results import LEAST_STEP, bands, motor_limits
 from lyapcheck.simulate.run import Breach
-from lyapcheck.simulate.seen import RightSide, Seen, Step
+from lyapcheck.simulate.seen import RightSide
 from lyapcheck.simulate.task import Gains, Task, gains_for
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
-
-# --- Many initial value problems at once by the method of Dormand and Prince of order 8(5, 3).
-#
-# All runs under way take a step together, each of its own size; one that has ended leaves. Sums over stages
-# are taken term by term, so that the bits of a run do not depend on its company.
-#
-# References: ``hairer1993solving``, Section II.5; the coefficients are those of SciPy's DOP853.
-
-Counts = NDArray[np.int32]
-TOO_MANY_STEPS, STEP_TOO_SMALL, OUT_OF_RANGE = 1, 2, 3
-FAILURES = (
-    "",
-    "the steps allowed were not enough",
-    "the step became too small",
-    "the state left every sensible range",
-)
-"""What a status means; 0 is a run that reached its end."""
-LARGEST = 1e15
-"""Of a state: beyond it squares come near the ends of the doubles."""
-
-
-@dataclass(frozen=True, eq=False)
-class InitialValueProblems:
-    """R runs of (11) on one arm with one family.
-
-    Args:
-        y0: (R, 2n + 2) q, w, dissipated energy, ∫‖e‖².
-        parameters: (R, p) as `RightSide` has them.
-        bands: (R, n) rad, of the settling times.
-        T: s.
-        points: samples at even times from 0 to T, at least 2.
-        tolerance: relative error allowed per step; the absolute one is a hundredth of it.
-        max_steps: a budget for each run.
-    """
-
-    y0: Array
-    parameters: Array
-    bands: Array
-    T: float
-    points: int
-    tolerance: float
-    max_steps: int
-
-
-@dataclass(frozen=True, eq=False)
-class Paths:
-    """The samples of many runs: ``y`` (R, points, 2n + 2), NaN from where a run failed."""
-
-    y: Array
-    seen: Array
-    """(R, 3n + 4) the largest |τ_i|, N·m, and what `Seen.columns` has; NaN where a run failed."""
-    status: Counts
-    """(R,) an index of `FAILURES`."""
-    steps: Counts
-    """(R,) steps tried."""
-
-
-def integrated(side: RightSide, problems: InitialValueProblems) -> Paths:
-    """Every run to T, or as far as it comes."""
-    with np.errstate(all="ignore"):
-        march = _March(side, problems)
-        while march.who.size:
-            march.step()
-        reached = march.paths.status == 0
-        march.paths.seen[reached, : side.n] = march.seen.peaks.largest()[:, reached].T
-    return march.paths
-
-
-class _March:
-    """The runs that are still under way, as columns."""
-
-    def __init__(self, side: RightSide, of: InitialValueProblems) -> None:
-        runs, size = of.y0.shape
-        self.side, self.T, self.tolerance, self.max_steps = side, of.T, of.tolerance, of.max_steps
-        self.times = of.T * np.arange(of.points) / (of.points - 1)
-        seen = np.full((runs, 3 * side.n + 4), np.nan)
-        path = np.full((runs, of.points, size), np.nan)
-        path[:, 0] = of.y0
-        self.paths = Paths(path, seen, np.zeros(runs, np.int32), np.zeros(runs, np.int32))
-        self.who = np.arange(runs)
-        self.p, self.y = np.ascontiguousarray(of.parameters.T), np.array(of.y0.T, order="C")
-        self.t, self.sample, self.stopped_short = np.zeros(runs), np.ones(runs, int), np.zeros(runs, bool)
-        self.k = np.empty((16, size, runs))
-        side.rate(self.y, self.p, out=self.k[0])
-        self.h = self._first_step()
-        self.seen = Seen(side, self.y, self.p, np.ascontiguousarray(of.bands.T))
-
-    def step(self) -> None:
-        """One step of every run, with the size each of them wants."""
-        for stage in range(1, 12):
-            self._stage(stage, TABLE.A[stage, :stage])
-        new = self.y + self.h * self._sum(TABLE.B)
-        self.side.rate(new, self.p, out=self.k[12])
-        error = self._error(new)
-        good = error < 1.0
-        if good.any():
-            step = Step(self.t, self.h, self.y, new, self._dense(new), self.p)
-            step = step if good.all() else step.of(good)
-            self._write(step, np.flatnonzero(good))
-            self.seen.look(step, good)
-        self.t = np.where(good, self.t + self.h, self.t)
-        np.copyto(self.y, new, where=good)
-        np.copyto(self.k[0], self.k[12], where=good)
-        most = np.where(good & ~self.stopped_short, 10.0, 1.0)
-        wanted = np.where(error < np.inf, 0.9 / np.maximum(error, 1e-300) ** 0.125, 0.2)
-        following = self.h * np.maximum(0.2, np.minimum(wanted, most))
-        left = self.T - self.t
-        self.h = np.where(left - following < 1e-12 * self.T, left, np.minimum(following, left))
-        self.stopped_short = ~good
-        self.paths.steps[self.who] += 1
-        self._settle(following)
-
-    def _sum(self, weights: Array) -> Array:
-        """Σ weight_j k_j."""
-        total: Array = np.einsum("s,sdr->dr", weights, self.k[: len(weights)])
-        return total
-
-    def _stage(self, number: int, weights: Array) -> None:
-        self.side.rate(self.y + self.h * self._sum(weights), self.p, out=self.k[number])
-
-    def _error(self, new: Array) -> Array:
-        """The error of the step, at most 1 if it is within the tolerance."""
-        scale = self.tolerance * (0.01 + np.maximum(np.abs(self.y), np.abs(new)))
-        fifth, third = (np.sum((self._sum(row) / scale) ** 2, axis=0) for row in (TABLE.E5, TABLE.E3))
-        both = np.sqrt((fifth + 0.01 * third) * len(new))
-        return np.asarray(np.where(both == 0.0, 0.0, self.h * fifth / both))
-
-    def _dense(self, new: Array) -> Array:
-        """The coefficients of the polynomial of degree 7 between the two ends of the step, (7, d, R)."""
-        for extra, weights in enumerate(TABLE.A_EXTRA):
-            self._stage(13 + extra, weights[: 13 + extra])
-        rise = new - self.y
-        low = [rise, self.h * self.k[0] - rise, 2.0 * rise - self.h * (self.k[12] + self.k[0])]
-        return np.stack([*low, *(self.h * self._sum(row) for row in TABLE.D)])
-
-    def _write(self, step: Step, chosen: NDArray[np.intp]) -> None:
-        """The samples within the step, for the runs whose step is good."""
-        first = self.sample[chosen]
-        end = step.t + step.h + 1e-14 * self.T
-        due = np.searchsorted(self.times, end, "right") - first
-        if not (due > 0).any():
-            return
-        at = np.repeat(np.arange(chosen.size), due)
-        count = np.arange(at.size) - np.repeat(np.cumsum(due) - due, due)
-        sample = first[at] + count
-        x = (self.times[sample] - step.t[at]) / step.h[at]
-        self.paths.y[self.who[chosen[at]], sample] = step.curve(at)(x).T
-        self.sample[chosen] += due
-
-    def _settle(self, following: Array) -> None:
-        """Let go of the runs that are done, and of those that cannot go on."""
-        bad = ~np.all(np.abs(self.y) <= LARGEST, axis=0)
-        status = np.select(
-            [bad, self.paths.steps[self.who] >= self.max_steps, ~(following > 1e-15 * self.T)],
-            [OUT_OF_RANGE, TOO_MANY_STEPS, STEP_TOO_SMALL],
-        )
-        done = self.sample == self.times.size
-        over = done | (status != 0)
-        if not over.any():
-            return
-        self.paths.status[self.who[over]] = np.where(done & ~bad, 0, status)[over]
-        reached = done & ~bad
-        self.paths.seen[self.who[reached], self.side.n :] = self.seen.columns(reached).T
-        on = ~over
-        self.seen.keep(on)
-        for name in ("who", "t", "h", "sample", "stopped_short"):
-            setattr(self, name, getattr(self, name)[on])
-        self.p, self.y, rate = (np.compress(on, x, axis=1) for x in (self.p, self.y, self.k[0]))
-        self.k = np.empty((16, *rate.shape))
-        self.k[0] = rate
-
-    def _first_step(self) -> Array:
-        scale = self.tolerance * (0.01 + np.abs(self.y))
-        size, speed = (np.sqrt(np.mean((x / scale) ** 2, axis=0)) for x in (self.y, self.k[0]))
-        tiny = (size < 1e-5) | (speed < 1e-5)
-        return np.minimum(np.where(tiny, 1e-6, 0.01 * size / speed), self.T)
-
 
 TOLERANCE = 1e-12
 """Relative tolerance per step; the paper's runs then err by less than 1e-8."""
@@ -319,9 +142,12 @@ def simulate_many(
             chosen = places[start : start + most]
             goal, own, begin = (np.ascontiguousarray(x[chosen]) for x in (goals, numbers, y0))
             settling = bands(goal - begin[:, :n])
-            problems = InitialValueProblems(begin, own, settling, T, points, tolerance, max_steps)
-            paths = integrated(side, problems)
-            part = _indices(T, goal, paths, energy=not eps0) | (_motions(side, paths, own) if motions else {})
+            march = March(side, begin, own, settling, T, points, tolerance, max_steps)
+            part = _indices(T, goal, march, energy=not eps0)
+            if motions:
+                y, p = march.path, np.ascontiguousarray(own.T)
+                V = np.stack([side.watched(y[:, k].T, p)[n] for k in range(points)], axis=1)
+                part |= {"q": y[:, :, :n], "w": y[:, :, n : 2 * n], "V": V}
             for name, column in part.items():
                 columns.setdefault(name, np.empty((count, *column.shape[1:]), column.dtype))[chosen] = column
             done += len(chosen)
@@ -333,10 +159,10 @@ def simulate_many(
     return Runs(t=t, complete=status == 0, failure=reasons, engine=engine, **columns)
 
 
-def _indices(T: float, goal: Array, paths: Paths, energy: bool) -> dict[str, Any]:
+def _indices(T: float, goal: Array, march: March, energy: bool) -> dict[str, Any]:
     """The numbers of some runs by their name in `Runs`; ``energy``: whether V is the energy."""
-    n, y = goal.shape[1], paths.y
-    torque, beyond, settling, rest = np.split(paths.seen, (n, 2 * n, 3 * n), axis=1)
+    n, y = goal.shape[1], march.path
+    torque, beyond, settling, rest = np.split(march.found, (n, 2 * n, 3 * n), axis=1)
     rise, error, stored, lost = rest.T
     step = np.abs(goal - y[:, 0, :n])
     scale = np.maximum(np.maximum(stored, lost), LEAST_ENERGY)
@@ -348,16 +174,9 @@ def _indices(T: float, goal: Array, paths: Paths, energy: bool) -> dict[str, Any
         "final_error": np.degrees(goal - y[:, -1, :n]),
         "energy_balance": error / scale if energy else np.full(len(y), np.nan),
         "V_rise": rise,
-        "steps": paths.steps,
-        "status": paths.status,
+        "steps": march.steps,
+        "status": march.status,
     }
-
-
-def _motions(side: RightSide, paths: Paths, parameters: Array) -> dict[str, Array]:
-    """q, w and V at all samples; NaN where a run failed."""
-    n, y, columns = side.n, paths.y, np.ascontiguousarray(parameters.T)
-    V = np.stack([side.watched(y[:, k].T, columns)[n] for k in range(y.shape[1])], axis=1)
-    return {"q": y[:, :, :n], "w": y[:, :, n : 2 * n], "V": V}
 
 
 # --- Many runs from random starts: how the indices of one controller are distributed.
@@ -454,7 +273,7 @@ def sweep(
     gains = gains_for(gain_set, model.n)
     numeric = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, eps0)
     first = numeric.V(q0, np.array(task.q_d) - q0, np.array(task.w0))
-    limits = np.array([np.inf if most is None else most for most in torque_limits(model)])
+    limits = np.array(motor_limits(model))
     result = Sweep(
         gains=gains,
         robot=model.name,
@@ -470,16 +289,11 @@ def sweep(
         breach=None,
         without_dry_friction=model.dry,
     )
-    return _explained(result, gain_set, model)
-
-
-def _explained(result: Sweep, gain_set: GainSet, model: RobotModel) -> Sweep:
-    """The same with the breach of the first run that broke a promise, from running it alone."""
-    broken = np.flatnonzero((result.risen | result.beyond) & result.runs.complete)
+    broken = np.flatnonzero((result.risen | result.beyond) & runs.complete)
     if not broken.size:
         return result
-    start, task = result.q0[broken[0]].tolist(), result.task
-    run = simulate(gain_set, model, task.q_d, start, task.w0, task.T, eps0=result.eps0, stop=False)
+    start = q0[broken[0]].tolist()  # alone, the first run that broke a promise says which
+    run = simulate(gain_set, model, task.q_d, start, task.w0, task.T, eps0=eps0, stop=False)
     return replace(result, breach=run.breach)
 
 

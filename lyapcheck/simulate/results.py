@@ -27,6 +27,9 @@ def observe(
 ) -> Promises:
     """The promises beside the samples of a run.
 
+    ‖τ‖ is at most √n γ (λmax(K_p) + λmax(K_v)) + k_g, and each |τ_i| at most γ (k_pi + k_vi) + sup|g_i|, with
+    the certified γ of the family.
+
     Args:
         t: (N,) s.
         V: (N,) J.
@@ -37,17 +40,24 @@ def observe(
         saturated: the torque was cut at the motors' limits, so reaching a limit is leaving it.
 
     Soundness: samples and doubles; a rise between two samples, or one below ``noise``, is not seen.
+
+    References: (6), (9) of ``reyes2019family``.
     """
     rises = np.flatnonzero(np.diff(V) > noise)
     norm = float(np.max(np.linalg.norm(tau, axis=1)))
-    bound = torque_bound(gains, model)
+    known, joints, bound = gains.family.constants().gamma, None, None
+    if known is not None:
+        gamma, gravity = known.float_upper, list(map(float, kept_bounds(model)))
+        bound = math.sqrt(model.n) * gamma * (max(gains.kp) + max(gains.kv)) + math.hypot(*gravity)
+        rows = zip(gains.kp, gains.kv, gravity, strict=True)
+        joints = tuple(gamma * (p + v) + weight for p, v, weight in rows)
     return Promises(
         V_decreases=rises.size == 0,
         V_rises_at=float(t[rises[0] + 1]) if rises.size else None,
         torque_norm=norm,
         torque_bound=bound,
         inside_bound=None if bound is None else norm <= bound,
-        joint_bounds=joint_bounds(gains, model),
+        joint_bounds=joints,
         inside_limits=tuple(
             None
             if most is None
@@ -62,28 +72,9 @@ def torque_limits(model: RobotModel) -> tuple[float | None, ...]:
     return tuple(None if limit is None else float(limit.value) for limit in model.torque_limit)
 
 
-def torque_bound(gains: Gains, model: RobotModel) -> float | None:
-    """The bound √n γ (λmax(K_p) + λmax(K_v)) + k_g on ‖τ‖ in N·m; none where h is unbounded.
-
-    References: (9) of ``reyes2019family``, with the certified γ of the family.
-    """
-    gamma = gains.family.constants().gamma
-    if gamma is None:
-        return None
-    gravity = math.hypot(*map(float, kept_bounds(model)))
-    return math.sqrt(model.n) * gamma.float_upper * (max(gains.kp) + max(gains.kv)) + gravity
-
-
-def joint_bounds(gains: Gains, model: RobotModel) -> tuple[float, ...] | None:
-    """The bound γ (k_pi + k_vi) + sup|g_i| on each |τ_i| in N·m; none where h is unbounded.
-
-    References: (6), (9) of ``reyes2019family``, joint by joint.
-    """
-    gamma = gains.family.constants().gamma
-    if gamma is None:
-        return None
-    rows = zip(gains.kp, gains.kv, kept_bounds(model), strict=True)
-    return tuple(gamma.float_upper * (p + v) + float(weight) for p, v, weight in rows)
+def motor_limits(model: RobotModel) -> list[float]:
+    """The same, infinite where the arm has no limit."""
+    return [math.inf if limit is None else limit for limit in torque_limits(model)]
 
 
 # --- Performance indices of a run: L2 norm, settling time, overshoot, peak torque, final error.
@@ -212,25 +203,18 @@ def l2_of(squares: float, T: float) -> float:
 def _indices(t: Array, e: Array, tau: Array, L2: float, band: float) -> Indices:
     size, T = np.abs(e), float(t[-1])
     rms = np.sqrt(np.trapezoid(e * e, t, axis=0) / T) if T > 0 else np.full(e.shape[1], np.nan)
+    outside = size > band
+    last = np.where(outside.any(axis=0), t.size - 1 - np.argmax(outside[::-1], axis=0), -1)
     return Indices(
         L2=L2,
         settling=settling_times(t, e),
         overshoot=overshoots(e),
         rms=np.degrees(rms),
         peak_error=np.degrees(size.max(axis=0)),
-        entered=np.array([_entered(t, column, band) for column in size.T]),
+        entered=np.where(last == t.size - 1, np.nan, t[np.minimum(last + 1, t.size - 1)]),
         peak_torque=np.max(np.abs(tau), axis=0),
         final_error=np.degrees(e[-1]),
     )
-
-
-def _entered(t: Array, size: Array, band: float) -> float:
-    """The first sample from which on the size stays within the band; NaN if it does not at the end."""
-    outside = np.flatnonzero(size > band)
-    if not outside.size:
-        return float(t[0])
-    last = int(outside[-1])
-    return float(t[last + 1]) if last + 1 < t.size else math.nan
 
 
 def imbalance(error: Array, *sizes: Array) -> float:
@@ -278,10 +262,6 @@ def printed_for(run: Run) -> PrintedIndices | None:
     """The printed numbers of the same gains, arm and task; none for anything the paper did not run."""
     if run.robot != PAPER_ARM or run.task != PAPER_TASK:
         return None
-    return next((entry for entry in PRINTED if _same(entry, run.gains)), None)
-
-
-def _same(entry: PrintedIndices, gains: Gains) -> bool:
-    family = "linear" if entry.m is None else "hyperbolic"
-    member = (gains.family.name, gains.family.m)
-    return member == (family, entry.m) and gains.written == (entry.kp, entry.kv)
+    family, written = run.gains.family, run.gains.written
+    known = {("linear" if x.m is None else "hyperbolic", x.m, x.kp, x.kv): x for x in PRINTED}
+    return known.get((family.name, family.m, *written))

@@ -209,12 +209,8 @@ class Seen:
         values = np.stack([self.last[:, good], *np.split(watched, PARTS, axis=1)])
         self.last[:, good] = values[-1]
         self.peaks.look(self.who[good], step, values[:, :-1])
-        self._energies(good, values[1:, -1], states[1:, -2])
         self._errors(step, good, states)
-
-    def _energies(self, good: Flags, V: Array, lost: Array) -> None:
-        """V and the energy lost (PARTS, R) at the ends of the parts."""
-        for value, gone in zip(V, lost, strict=True):
+        for value, gone in zip(values[1:, -1], states[1:, -2], strict=True):
             self.rise[good] = np.maximum(self.rise[good], value - self.least[good])
             self.least[good] = np.minimum(self.least[good], value)
             self.error[good] = np.maximum(self.error[good], np.abs(value + gone - self.first[good]))

@@ -70,11 +70,21 @@ def task_for(
     Raises:
         InputError: every value that is not finite, too large, or of the wrong length; all at once.
     """
-    problems = [
-        *_vector_problems("target_rad", q_d, n, FARTHEST, "rad"),
-        *_vector_problems("start_rad", q0, n, FARTHEST, "rad"),
-        *_vector_problems("velocity_rad", w0, n, FASTEST, "rad/s"),
-    ]
+    problems: list[Problem] = []
+    for name, values, most, unit in (
+        ("target_rad", q_d, FARTHEST, "rad"),
+        ("start_rad", q0, FARTHEST, "rad"),
+        ("velocity_rad", w0, FASTEST, "rad/s"),
+    ):
+        if values is None:
+            continue
+        text = ", ".join(f"{float(x):g}" for x in values)
+        if len(values) != n:
+            rule = f"has {len(values)} values, but the arm has {n} joints"
+            problems.append(argument_problem(name, text, rule, f"give {n} values, one a joint"))
+        elif not all(math.isfinite(x) and abs(x) <= most for x in values):
+            rule = f"every value must be finite and at most {most:g} {unit} in size"
+            problems.append(argument_problem(name, text, rule, f"give values in {unit}"))
     if not SHORTEST <= T <= LONGEST:
         rule = f"must be from {SHORTEST:g} to {LONGEST:g} s"
         problems.append(argument_problem("T", T, rule, "give seconds, for instance 5"))
@@ -82,36 +92,13 @@ def task_for(
         rule = f"must be from 0 to {LARGEST_EPS0:g}"
         problems.append(argument_problem("eps0", eps0, rule, "give the ε₀ of V, for instance 0.01"))
     if not 2 <= points <= MOST_POINTS:
-        problems.append(
-            argument_problem(
-                "points", points, f"must be from 2 to {MOST_POINTS}", "give the number of samples"
-            )
-        )
+        rule = f"must be from 2 to {MOST_POINTS}"
+        problems.append(argument_problem("points", points, rule, "give the number of samples"))
     if problems:
         raise InputError(problems)
-    zeros = (0.0,) * n
-    return Task(
-        _floats(q_d), zeros if q0 is None else _floats(q0), zeros if w0 is None else _floats(w0), float(T)
-    )
-
-
-def _floats(values: Sequence[float]) -> tuple[float, ...]:
-    return tuple(float(x) for x in values)
-
-
-def _vector_problems(
-    name: str, values: Sequence[float] | None, n: int, most: float, unit: str
-) -> list[Problem]:
-    if values is None:
-        return []
-    text = ", ".join(f"{float(x):g}" for x in values)
-    if len(values) != n:
-        rule = f"has {len(values)} values, but the arm has {n} joints"
-        return [argument_problem(name, text, rule, f"give {n} values, one a joint")]
-    if all(math.isfinite(x) and abs(x) <= most for x in values):
-        return []
-    rule = f"every value must be finite and at most {most:g} {unit} in size"
-    return [argument_problem(name, text, rule, f"give values in {unit}")]
+    rows = (q_d, *((0.0,) * n if x is None else x for x in (q0, w0)))
+    goal, start, rates = (tuple(map(float, row)) for row in rows)
+    return Task(goal, start, rates, float(T))
 
 
 _QUARTER = math.pi / 4

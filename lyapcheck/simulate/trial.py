@@ -121,7 +121,9 @@ def _run(setup: Setup, bench: Bench, rough: tuple[Array, Array], fine: tuple[Arr
     tau, goal = np.vstack((held, held[-1:]))[:reached], np.array(setup.task.q_d)
     q, w = states[:reached, :n], states[:reached, n:]
     L2 = l2_index(t, goal - q) if reached > 1 else math.nan
-    notes = _notes(setup, bench)
+    friction = ", ".join(f"{torque:g}" for torque in dry_friction(setup.model))
+    dry = f"dry friction ({friction}) N·m · tanh(w/{bench.creep:g} rad/s): a stuck joint creeps"
+    notes = f"torque held between samples: {bench.text}", dry
     fields = motion_of(setup, "experiment", t, goal - q, q, w, tau, L2=L2, complete=complete, notes=notes)
     V = fields["V"]
     run = Run(
@@ -144,12 +146,6 @@ def _credible(states: Array, torques: Array) -> int:
     signals = np.hstack((states, np.vstack((torques, torques[-1:]))))
     good = np.all(np.isfinite(signals), axis=1) & np.all(np.abs(states[:, n:]) < RUNAWAY, axis=1)
     return int(good.size if good.all() else max(1, int(np.argmin(good))))
-
-
-def _notes(setup: Setup, bench: Bench) -> tuple[str, ...]:
-    friction = ", ".join(f"{torque:g}" for torque in dry_friction(setup.model))
-    dry = f"dry friction ({friction}) N·m · tanh(w/{bench.creep:g} rad/s): a stuck joint creeps"
-    return f"torque held between samples: {bench.text}", dry
 
 
 # --- What a sampled run shows against its gains: a limit cycle, or a load that falls.
@@ -196,7 +192,8 @@ def _cycles(run: Run) -> Iterator[tuple[float, Unrest]]:
         return
     last, before = slice(-part, None), slice(-2 * part, -part)
     for i, (joint, limit) in enumerate(zip(run.joints, run.torque_limit, strict=True)):
-        if min(_turns(run.w[last, i]), _turns(run.w[before, i])) < 2:
+        signs = (np.sign(rate[rate != 0]) for rate in (run.w[last, i], run.w[before, i]))
+        if min(np.count_nonzero(np.diff(sign)) for sign in signs) < 2:  # turns back less than twice
             continue
         spans = []
         for signal, least in ((run.q, LEAST_ANGLE), (run.tau, LEAST_SHARE * limit if limit else math.inf)):
@@ -205,12 +202,6 @@ def _cycles(run: Run) -> Iterator[tuple[float, Unrest]]:
         (angle, wide), (torque, strong) = spans
         if max(wide, strong) > 1:
             yield max(wide, strong), Unrest(LIMIT_CYCLE, joint, math.degrees(angle), torque)
-
-
-def _turns(rate: Array) -> int:
-    """How often a rate changes its sign."""
-    signs = np.sign(rate[rate != 0])
-    return int(np.count_nonzero(np.diff(signs)))
 
 
 def _span(signal: Array) -> float:
