@@ -72,11 +72,8 @@ def to_json(value: Any) -> Any:
             for each in fields(value)
             if each.name not in usual or parts[each.name] != usual[each.name]
         }
-        return {**_tag(type(value)), **own}
+        tag = next(({key: name_of(type(value))} for base, key in TAGS.items() if isinstance(value, base)), {})
+        return tag | own
     if isinstance(value, tuple):
         return [to_json(part) for part in value]
     return str(value) if isinstance(value, Fraction) else value
-
-
-def _tag(cls: type) -> dict[str, str]:
-    return next(({key: name_of(cls)} for base, key in TAGS.items() if issubclass(cls, base)), {})

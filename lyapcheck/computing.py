@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
-from functools import partial
 from multiprocessing import active_children
 from typing import TYPE_CHECKING
 
@@ -81,20 +80,19 @@ def shared_between(jobs: int) -> Iterator[None]:
     """Let the checker share large judgements between some processes inside; verdicts are the same."""
     from lyapcheck.check.loop.proof import SHARE
 
-    token = SHARE.set(partial(_all_parts, jobs))
+    def all_parts(judge: Callable[..., bool], *about: object) -> bool:
+        if jobs <= 1:
+            return judge(*about, 0, 1)
+        with temporary_folder() as place, pool(jobs, place) as workers:
+            with main_unnamed():
+                parts = [workers.submit(judge, *about, part, jobs) for part in range(jobs)]
+            return all(part.result() for part in parts)
+
+    token = SHARE.set(all_parts)
     try:
         yield
     finally:
         SHARE.reset(token)
-
-
-def _all_parts(jobs: int, judge: Callable[..., bool], *about: object) -> bool:
-    if jobs <= 1:
-        return judge(*about, 0, 1)
-    with temporary_folder() as place, pool(jobs, place) as workers:
-        with main_unnamed():
-            parts = [workers.submit(judge, *about, part, jobs) for part in range(jobs)]
-        return all(part.result() for part in parts)
 
 
 def pool(workers: int, place: str) -> ProcessPoolExecutor:

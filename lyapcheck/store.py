@@ -39,11 +39,6 @@ LARGEST = 200_000_000
 _DIGEST = hashlib.sha256().digest_size
 
 
-def switch_off() -> None:
-    """Take and keep nothing, in this process and those that it starts."""
-    os.environ[OFF] = "1"
-
-
 def off() -> bool:
     """Whether nothing is to be taken or kept."""
     return bool(os.environ.get(OFF))

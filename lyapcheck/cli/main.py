@@ -126,9 +126,9 @@ def run(words: Sequence[str]) -> int:
     try:
         values = chosen(viewed(parser.parse(words[1:])))
         if values.pop("no_store", False):
-            from lyapcheck import store
+            from lyapcheck.store import OFF
 
-            store.switch_off()
+            os.environ[OFF] = "1"
         return int(command.run(**values))
     except InputError as error:
         if not error.told:
@@ -149,7 +149,9 @@ def _show_problems(words: Sequence[str], error: InputError) -> None:
 
 def main() -> None:
     """Run one command and leave with its exit code; no input ever shows a traceback."""
-    _same_bytes_everywhere()
+    for stream in (sys.stdout, sys.stderr):  # γ must not depend on where a command runs
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     # matrices are small here: threads of BLAS wait for each other and double the time
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     atexit.register(gc.freeze)  # a last look for garbage takes longer than the gate to decide
@@ -205,20 +207,17 @@ def _require_output() -> None:
         number = sys.stdout.fileno()
     except (OSError, ValueError):  # something that is no file stands in for it
         return
-    if hasattr(select, "poll") and _reader_has_gone(number):
-        raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
+    if hasattr(select, "poll"):
+        poll = select.poll()
+        poll.register(number, 0)
+        if any(event & select.POLLERR for _, event in poll.poll(0)):  # its reader has gone
+            raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
     os.write(number, b"")  # which a full device refuses, and a full disk does not
     if not hasattr(os, "fstatvfs"):
         return
     disk = os.fstatvfs(number)
     if stat.S_ISREG(os.fstat(number).st_mode) and disk.f_blocks and not disk.f_bavail:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-
-def _reader_has_gone(number: int) -> bool:
-    poll = select.poll()
-    poll.register(number, 0)
-    return any(event & select.POLLERR for _, event in poll.poll(0))
 
 
 def _drop(stream: TextIO) -> None:
@@ -235,10 +234,3 @@ def _tell(line: str) -> None:
         print(printable(line), file=sys.stderr)
     except OSError:
         _drop(sys.stderr)
-
-
-def _same_bytes_everywhere() -> None:
-    """Write UTF-8 whatever the locale: γ must not depend on where a command runs."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(encoding="utf-8", errors="backslashreplace")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
 WIDTH = 80
+FORMATTER: Any = partial(argparse.RawDescriptionHelpFormatter, max_help_position=26, width=WIDTH)
+"""Of one width: argparse makes one for every argument, and to ask for that of the terminal takes time."""
 _NEGATIVE = re.compile(r"-\.?\d")
 """How a value begins that is not an option: ``-45,0,90``."""
 LOOP = {
@@ -51,7 +54,7 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(
-            formatter_class=_formatter, allow_abbrev=False, exit_on_error=False, add_help=False, **settings
+            formatter_class=FORMATTER, allow_abbrev=False, exit_on_error=False, add_help=False, **settings
         )
         self.usage = "%(prog)s [options]"  # all options on one line, as argparse has them, nobody can read
         self._negative_number_matcher = _NEGATIVE  # as in Python 3.14: -45,0,90 is a value
@@ -228,8 +231,3 @@ class Parser(argparse.ArgumentParser):
 
 def _is_option(word: str) -> bool:
     return word.startswith("-") and word != "-" and not _NEGATIVE.match(word)
-
-
-def _formatter(prog: str) -> argparse.HelpFormatter:
-    """Of one width: argparse makes one for every argument, and to ask for that of the terminal takes time."""
-    return argparse.RawDescriptionHelpFormatter(prog, max_help_position=26, width=WIDTH)

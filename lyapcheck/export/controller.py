@@ -94,7 +94,7 @@ class Controller:
         with precision(BITS):
             angle = Rounded(arb(0, 1), angle_error(arb(largest)))
             gravity = self.gravity.rounded(**dict.fromkeys(self.gravity.reads, angle))
-            errors, h = self.saturation.errors(), arb(0, arb(self._largest_h))
+            errors, h = self.saturation.errors(), arb(0, arb(above(self.family.checked.gamma)))
             totals = []
             for kp, kv, gi in zip(self.gains.kp, self.gains.kv, gravity, strict=True):
                 parts = {
@@ -106,10 +106,6 @@ class Controller:
                 }
                 totals.append(significant_up(dyadic(self.sum.rounded(**parts)[0].error), DIGITS))
             return tuple(totals)
-
-    @property
-    def _largest_h(self) -> float:
-        return above(self.family.checked.gamma)
 
     def torque(self, q: Sequence[float], w: Sequence[float], goal: Sequence[float]) -> list[arb]:
         """τ in balls, (n,), N·m: the steps of g in balls, and h as the checker has it."""

@@ -81,17 +81,12 @@ class Program:
             if kind == "number":
                 names[index] = constant(rest[0])
                 continue
-            parts = [names[part] for part in rest]
+            first, *second = (names[part] for part in rest)
             names[index] = f"{letter}{index}"
-            lines.append(f"const double {names[index]} = {_operation(kind, parts)};")
+            formula = f"{first} {SIGNS[kind]} {second[0]}" if kind in SIGNS else f"-{first}"
+            lines.append(f"const double {names[index]} = {formula};")
         lines += [f"{place} = {names[step.index]};" for place, step in outputs.items()]
         return "\n".join(indent + line for line in lines)
-
-
-def _operation(kind: str, parts: Sequence[str]) -> str:
-    if kind in SIGNS:
-        return f"{parts[0]} {SIGNS[kind]} {parts[1]}"
-    return f"-{parts[0]}"
 
 
 def constant(value: Fraction | float) -> str:

@@ -74,7 +74,10 @@ def exact_decimal(text: str) -> Written:
     whole, _, part = text.partition(".")
     plain = part.isdecimal()  # without an exponent; Fraction takes four times as long to read a text
     value = Written(int(whole + part), 10 ** len(part)) if plain else Written(text)
-    value.text, value.places = text, len(part) if plain else decimal_places(text)
+    value.text, value.places = text, len(part)
+    if not plain:
+        mantissa, _, exponent = text.lower().partition("e")
+        value.places = max(0, len(mantissa.partition(".")[2]) - int(exponent or 0))
     return value
 
 
@@ -85,14 +88,6 @@ def of_physical_size(value: Fraction | int) -> bool:
         return True
     size, largest = abs(Fraction(value)), 10**LARGEST_EXPONENT
     return size == 0 or Fraction(1, largest) <= size <= largest
-
-
-def decimal_places(text: str) -> int:
-    """Digits after the decimal point of a decimal as written, with its exponent taken into account."""
-    if "e" not in text and "E" not in text:
-        return len(text.partition(".")[2])
-    mantissa, _, exponent = text.lower().partition("e")
-    return max(0, len(mantissa.partition(".")[2]) - int(exponent or 0))
 
 
 def places_of(value: Fraction | int) -> int:

@@ -46,10 +46,6 @@ def places(text: str) -> dict[KeyPath, int]:
     return _Walk(text).run()
 
 
-def _unquoted(key: str) -> str:
-    return str(tomllib.loads(f"key = {key}")["key"]) if "\\" in key else key[1:-1]
-
-
 class _Walk:
     """One pass over the tokens of a document."""
 
@@ -93,8 +89,10 @@ class _Walk:
     def _keys(self, end: str) -> list[str]:
         keys: list[str] = []
         while (token := self.tokens[self.at]) != end:
-            quoted = self.kinds[self.at] == QUOTED
-            keys += [_unquoted(token)] if quoted else [part for part in token.split(".") if part]
+            if self.kinds[self.at] != QUOTED:
+                keys += [part for part in token.split(".") if part]
+            else:
+                keys.append(tomllib.loads(f"key = {token}")["key"] if "\\" in token else token[1:-1])
             self.at += 1
         return keys
 
@@ -187,8 +185,11 @@ def open_document(path: Path, shown: str | None = None, bound: Bound = TOML) -> 
         raise _syntax(name, str(error), text) from None
     except RecursionError:
         raise file_error(name, "is nested too deeply", "write plain tables and lists") from None
-    except ValueError:
-        raise _too_long(name, text) from None
+    except ValueError:  # an integer that Python refuses to read, in a time quadratic in its digits
+        result = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)
+        line = text.count("\n", 0, result.start()) + 1 if result else None
+        rule, repair = "is an integer of absurd length", "write a number of physical size"
+        raise InputError(Problem(name, line, "number", "", rule, repair)) from None
 
 
 def quoted(text: str) -> str:
@@ -201,14 +202,6 @@ def quoted(text: str) -> str:
 def key_of(name: str) -> str:
     """A name as a key of a TOML table."""
     return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else quoted(name)
-
-
-def _too_long(name: str, text: str) -> InputError:
-    """An integer that Python refuses to read, because that takes a time quadratic in its digits."""
-    result = re.search(rf"[\d_]{{{sys.get_int_max_str_digits()}}}", text)
-    line = text.count("\n", 0, result.start()) + 1 if result else None
-    rule = "is an integer of absurd length"
-    return InputError(Problem(name, line, "number", "", rule, "write a number of physical size"))
 
 
 def _syntax(name: str, message: str, text: str) -> InputError:

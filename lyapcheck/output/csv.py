@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from lyapcheck.output.answer import Answer
@@ -20,17 +20,17 @@ def render(answer: Answer) -> str:
     """
     rows = [dict(_flat("", record)) for record in answer.records()]
     names = dict.fromkeys(name for row in rows for name in row)
-    heads = [name for name in names if any(row.get(name) for row in rows) or not _has_parts(name, names)]
+    # not those that have no value anywhere, but parts in some record
+    heads = [
+        name
+        for name in names
+        if any(row.get(name) for row in rows) or not any(other.startswith(f"{name}_") for other in names)
+    ]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(map(csv_text, heads))
     writer.writerows([row.get(name, "") for name in heads] for row in rows)
     return text.getvalue()
-
-
-def _has_parts(name: str, names: Iterable[str]) -> bool:
-    """Whether a name that has no value of its own anywhere has parts in some record."""
-    return any(other.startswith(f"{name}_") for other in names)
 
 
 def _flat(name: str, value: Any) -> Iterator[tuple[str, str]]:
@@ -53,12 +53,8 @@ def _cell(value: object) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return ""
     text = str(value)
-    return text if _is_number(text) else csv_text(text)
-
-
-def _is_number(text: str) -> bool:
     try:
         float(text)
     except ValueError:
-        return False
-    return True
+        return csv_text(text)
+    return text

@@ -75,7 +75,8 @@ def decimals(number: Enclosure, digits: int) -> tuple[str, str]:
     scale = Fraction(10) ** places
     low, high = math.floor(number.lower * scale), math.ceil(number.upper * scale)
     if number.width == 0 and low == high:
-        return (_shortest(low, places),) * 2
+        text = scaled_text(low, places)
+        return (text.rstrip("0").rstrip(".") if "." in text else text,) * 2
     return scaled_text(low, places), scaled_text(high, places)
 
 
@@ -156,12 +157,6 @@ def integer_digits(value: Fraction) -> int:
     while Fraction(10) ** guess <= value:
         guess += 1
     return guess
-
-
-def _shortest(scaled: int, places: int) -> str:
-    """`scaled_text` without zeros that say nothing."""
-    text = scaled_text(scaled, places)
-    return text.rstrip("0").rstrip(".") if "." in text else text
 
 
 def scaled_text(scaled: int, places: int) -> str:

@@ -42,7 +42,13 @@ def element(name: str, /, *children: Child, **attributes: str | int | float | bo
         attributes: ``class_`` is class, ``data_m`` is data-m; ``True`` stands without a value, ``None`` and
             ``False`` not at all.
     """
-    head = "".join(_attribute(key, value) for key, value in attributes.items())
+    head = ""
+    for key, value in attributes.items():
+        called = key.rstrip("_").replace("_", "-")
+        if value is True:
+            head += f" {called}"
+        elif value is not None and value is not False:
+            head += f' {called}="{html_text(str(value))}"'
     if name in VOID:
         return Markup(f"<{name}{head}>")
     return Markup(f"<{name}{head}>{joined(children)}</{name}>")
@@ -57,13 +63,6 @@ def joined(children: Child) -> Markup:
     if isinstance(children, str):
         return Markup(html_text(children))
     return Markup("".join(map(joined, children)))
-
-
-def _attribute(key: str, value: str | int | float | bool | None) -> str:
-    if value is None or value is False:
-        return ""
-    name = key.rstrip("_").replace("_", "-")
-    return f" {name}" if value is True else f' {name}="{html_text(str(value))}"'
 
 
 # --- Documents.

@@ -42,18 +42,16 @@ def _suite(top: ET.Element, path: str, group: str, result: list[Annotation]) -> 
         skipped=str(levels.count(Level.UNDECIDED)),
         errors="0",
     )
+    place = ".".join(part for part in (path, group) if part)
     for one in result:
-        if one.level is not Level.REMARK:
-            _case(suite, one, ".".join(part for part in (path, group) if part))
+        if one.level is Level.REMARK:
+            continue
+        name = " ".join(part for part in (f"({one.rule})", one.case) if part)
+        case = ET.SubElement(suite, "testcase", classname=place, name=name)
+        if one.level is Level.FAILED:
+            ET.SubElement(case, "failure", message=one.message, type=one.level.value)
+        elif one.level is Level.UNDECIDED:
+            ET.SubElement(case, "skipped", message=one.message)
     said = [one.message for one in result if one.level is Level.REMARK]
     if said:
         ET.SubElement(suite, "system-out").text = "\n".join(said)
-
-
-def _case(suite: ET.Element, one: Annotation, place: str) -> None:
-    name = " ".join(part for part in (f"({one.rule})", one.case) if part)
-    case = ET.SubElement(suite, "testcase", classname=place, name=name)
-    if one.level is Level.FAILED:
-        ET.SubElement(case, "failure", message=one.message, type=one.level.value)
-    elif one.level is Level.UNDECIDED:
-        ET.SubElement(case, "skipped", message=one.message)

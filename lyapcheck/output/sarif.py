@@ -9,7 +9,6 @@ from importlib.metadata import version
 from typing import Any
 from urllib.parse import quote
 
-from lyapcheck.errors import Problem
 from lyapcheck.output.answer import Annotation, Answer, Level
 
 LEVELS: Mapping[Level, str] = {Level.FAILED: "error", Level.UNDECIDED: "warning", Level.REMARK: "note"}
@@ -28,22 +27,13 @@ def render(answer: Answer) -> str:
     results = [_result(one, rules.index(one.rule)) for one in result]
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
     if answer.problems:
-        told = [_notification(problem) for problem in answer.problems]
+        told = [
+            {"level": "error", "message": {"text": str(one)}, **_places(one.path, one.line or 0, 1)}
+            for one in answer.problems
+        ]
         run["invocations"] = [{"executionSuccessful": False, "toolExecutionNotifications": told}]
-    log = {
-        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-        "version": "2.1.0",
-        "runs": [run],
-    }
+    log = {"$schema": "https://json.schemastore.org/sarif-2.1.0.json", "version": "2.1.0", "runs": [run]}
     return json.dumps(log, ensure_ascii=False, indent=2) + "\n"
-
-
-def _notification(problem: Problem) -> dict[str, Any]:
-    return {
-        "level": "error",
-        "message": {"text": str(problem)},
-        **_places(problem.path, problem.line or 0, 1),
-    }
 
 
 def _places(path: str, line: int, column: int) -> dict[str, Any]:
@@ -54,17 +44,13 @@ def _places(path: str, line: int, column: int) -> dict[str, Any]:
 
 
 def _result(one: Annotation, index: int) -> dict[str, Any]:
+    # stable while file, group, rule and case keep their names, wherever the line moves
+    subject = "\n".join((one.path, one.group, one.rule, one.case))
     return {
         "ruleId": one.rule,
         "ruleIndex": index,
         "level": LEVELS[one.level],
         "message": {"text": f"{one.subject}: {one.message}"},
         **_places(one.path, one.line, one.column),
-        "partialFingerprints": {"case/v1": _fingerprint(one)},
+        "partialFingerprints": {"case/v1": hashlib.sha256(subject.encode()).hexdigest()[:32]},
     }
-
-
-def _fingerprint(one: Annotation) -> str:
-    """Stable while file, group, rule and case keep their names, wherever the line moves."""
-    subject = "\n".join((one.path, one.group, one.rule, one.case))
-    return hashlib.sha256(subject.encode()).hexdigest()[:32]

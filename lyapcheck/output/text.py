@@ -171,17 +171,13 @@ class _Writer:
 
 def _pointed(column: Sequence[str]) -> Sequence[str]:
     """Numbers with their decimal points below each other."""
-    after = [_after_point(cell) for cell in column]
+    # the characters from the decimal point on; none where the cell is no plain number
+    after = [len(cell) - len(cell.partition(".")[0]) if _NUMBER.fullmatch(cell) else None for cell in column]
     most = max((places for places in after if places is not None), default=0)
     return [
         cell if places is None else cell + " " * (most - places)
         for cell, places in zip(column, after, strict=True)
     ]
-
-
-def _after_point(cell: str) -> int | None:
-    """The characters from the decimal point on; ``None`` if the cell is no plain number."""
-    return len(cell) - len(cell.partition(".")[0]) if _NUMBER.fullmatch(cell) else None
 
 
 def _sheets(table: doc.Table, widths: Sequence[int], most: int) -> list[list[int]]:

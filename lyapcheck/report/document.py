@@ -243,7 +243,13 @@ def evidence(report: Report) -> Iterator[Section]:
     drawn = figure(report, "family", "The bounded functions and their derivatives")
     yield Section("The family and its constants", (*constants, *drawn))
     yield Section("The gate", tuple(_told(report.gate.document())))
-    yield Section("The closed loop", tuple(_runs(report)))
+    caption = "Reference simulation of (11), in floating point"
+    errors = (
+        one
+        for row in report.runs
+        for one in figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
+    )
+    yield Section("The closed loop", (table(RUN, [(row,) for row in report.runs], caption), *errors))
     # what m does in these runs, where each member has one gain set
     members = {row.m: row for row in report.runs if row.m is not None and row.complete}
     if len(members) > 1 and len(members) == sum(row.m is not None and row.complete for row in report.runs):
@@ -280,12 +286,6 @@ RUN = (
     Field("", "V_decreases", "V", lambda falls: "never rose" if falls else "rose"),
 )
 """What is said of a run."""
-
-
-def _runs(report: Report) -> Iterator[Block]:
-    yield table(RUN, [(row,) for row in report.runs], "Reference simulation of (11), in floating point")
-    for row in report.runs:
-        yield from figure(report, f"{file_stem(row.name)}_errors", f"{row.name}: position errors")
 
 
 MEMBERS = (

@@ -98,7 +98,8 @@ def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
             case doc.Bullets(items):
                 yield from (f"- #{quoted(item)}" for item in items)
             case doc.Code(text) | doc.Equation(text):
-                yield f"#raw(block: true, {quoted_lines(text)})"
+                lines = ' + "\\n" + '.join(map(quoted, text.splitlines())) or '""'
+                yield f"#raw(block: true, {lines})"
             case doc.Figure(path, caption):
                 words = f"caption: [#{quoted(caption)}]"
                 image = f"image({quoted(path)}, height: 28mm)"
@@ -127,11 +128,6 @@ def _beside(blocks: tuple[doc.Block, ...]) -> Iterator[str]:
     yield "], ["
     yield from _blocks(blocks[-1:], 0)
     yield "])"
-
-
-def quoted_lines(text: str) -> str:
-    """A string literal of several lines."""
-    return ' + "\\n" + '.join(map(quoted, text.splitlines())) or '""'
 
 
 def _table(table: doc.Table) -> Iterator[str]:
