@@ -85,18 +85,6 @@ def parse_decimals(option: str, text: str | None) -> tuple[Fraction, ...] | None
     return tuple(Complaints().each(read, text.split(",")))
 
 
-def parse_decimal(option: str, text: str | None) -> Fraction | None:
-    """One exact value, ``None`` where the option is not given.
-
-    Raises:
-        InputError: not a decimal, or more than one.
-    """
-    values = parse_decimals(option, text)
-    if values is not None and len(values) != 1:
-        raise argument_error(option, text, "must be one number", f"write {option} 0.406")
-    return None if values is None else values[0]
-
-
 def parse_m(text: str) -> tuple[int, ...]:
     """The members named by a list of whole numbers and ranges ``low:high``, ascending, each once.
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.cli.show import progress, require_writable, show, write_whole
-from lyapcheck.cli.values import Complaints, loop_of, parse_decimal, parse_decimals, parse_m, varies
-from lyapcheck.errors import InputError, argument_error
+from lyapcheck.cli.task import starts_of, task_of
+from lyapcheck.cli.values import Complaints, loop_of, parse_decimals, parse_m, varies
+from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import FORMATS
 from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
@@ -19,12 +21,11 @@ if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
     from lyapcheck.answers.tune.response.answer import BenchTuning
     from lyapcheck.answers.tune.response.trial import Trials
-    from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.control.gains import Bounds
-    from lyapcheck.simulate.task import Task
+    from lyapcheck.robots import RobotModel
 
 PAPERS_ARM = "buap3"
+Numbers = tuple[Fraction, ...]
 ONE = (Fraction(1),)
 MOST_RUNS, MOST_SPREAD = 64, 90.0
 """Random motions, and degrees about their middle."""
@@ -109,23 +110,41 @@ def run(
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
     from lyapcheck.answers.tune.response.tuning import tune_for
+    from lyapcheck.answers.tune.targets import Targets
     from lyapcheck.answers.tune.tuning import tune
+    from lyapcheck.control.gains import Bounds
+    from lyapcheck.robots import load
+    from lyapcheck.robots.dynamics import FEW_JOINTS
 
     wrong = Complaints()
     if out is not None:
         wrong.reading(require_writable, "--out", out)
     wishes = {name: options[name] for name in TARGETS if options[name] is not None}
-    members = wrong.reading(parse_m, m or ("1" if wishes and _many(robot) else "1:3")) or ()
-    ranges = wrong.reading(varies, vary) or ()
-    loop = wrong.reading(loop_of, options)
-    targets = _targets_of(wrong, options)
-    bounds = _bounds_of(wrong, robot, targets, options)
+    model = wrong.reading(load, robot)
+    n = None if model is None else model.n
+    # one member of an arm of many joints takes as long as three of a small one
+    usual = "1" if wishes and n is not None and n > FEW_JOINTS else "1:3"
+    members = wrong.reading(parse_m, m or usual) or ()
+    ranges, loop = wrong.reading(varies, vary) or (), wrong.reading(loop_of, options)
+    shares = {
+        name: wrong.reading(parse_decimals, _option(name), options[name])
+        for name in ("peak_share", *FOR_LARGEST)
+    }
+    targets = Targets(options["digits"], shares.pop("peak_share") or ONE, **shares)
+    if n is not None:
+        wrong.reading(targets.for_joints, n)
+    torques = wrong.reading(_limits, "--torque", parse_decimals, options["torque"], n, True)
+    gravities = wrong.reading(_limits, "--gravity", parse_decimals, options["gravity"], n, False)
+    friction = wrong.reading(_limits, "--viscous-min", _one_decimal, options["viscous_min"], None, True)
+    bounds = Bounds(friction[0] if friction else None, torques, gravities)
     if wishes:
         wrong.reading(_refuse, options, FOR_LARGEST, "cannot go with targets", "leave one of them out")
         if options["runs"] is None:
             rule, repair = "has a meaning with --runs only", "add --runs"
             wrong.reading(_refuse, options, ("spread", "seed"), rule, repair)
-        bench = wrong.result(_trials_of, robot, wishes, options)
+        if model is None:
+            wrong.raise_all()
+        bench = wrong.result(_trials_of, robot, model, wishes, options)
         assert loop is not None
         with progress("tune") as advance:
             found = tune_for(robot, bench, members, bounds, ranges, loop, on_progress=advance)
@@ -170,7 +189,7 @@ def _told_bench(tuning: BenchTuning, out: Path | None, best: bool, format: str) 
     return tuning.exit
 
 
-def _trials_of(robot: str, wishes: dict[str, float], options: dict[str, Any]) -> Trials:
+def _trials_of(robot: str, model: RobotModel, wishes: dict[str, float], options: dict[str, Any]) -> Trials:
     """What is asked, and of which motions.
 
     Raises:
@@ -182,7 +201,8 @@ def _trials_of(robot: str, wishes: dict[str, float], options: dict[str, Any]) ->
     quantile, goals, runs = options["quantile"], options["goal"], options["runs"]
     if not 0 < quantile <= 1:
         raise argument_error("--quantile", quantile, "must be above 0, up to 1", "write --quantile 0.9")
-    tasks = _tasks_of(robot, options["start"], goals)
+    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
+    tasks = tuple(task_of(model, goal, options["start"], None, goal="--goal") for goal in goals or [default])
     for task, goal in zip(tasks, goals or [""], strict=True):
         if not any(abs(step) >= LEAST_STEP for step in task.step):
             raise argument_error("--goal", goal, "is where the motion starts", "give another goal or --start")
@@ -191,8 +211,6 @@ def _trials_of(robot: str, wishes: dict[str, float], options: dict[str, Any]) ->
         rule = "is one share with targets"
         raise argument_error("--peak-share", options["peak_share"], rule, "write --peak-share 0.8")
     if runs is not None:
-        from lyapcheck.cli.task import starts_of
-
         size = MOST_SPREAD if options["spread"] is None else options["spread"]
         if not 1 <= runs <= MOST_RUNS or not 1 <= size <= MOST_SPREAD:
             rule = f"must be 1 to {MOST_RUNS} motions within 1 to {MOST_SPREAD:g} degrees"
@@ -205,80 +223,31 @@ def _trials_of(robot: str, wishes: dict[str, float], options: dict[str, Any]) ->
     return Trials(asked, tasks, ways, options["digits"], quantile)
 
 
-def _tasks_of(robot: str, start: str | None, goals: list[str] | None) -> tuple[Task, ...]:
-    """Motions from rest to rest: those asked for, or the paper's, or 45° for each joint.
-
-    Raises:
-        InputError: angles that cannot be used.
-    """
-    from lyapcheck.cli.task import task_of
-    from lyapcheck.robots import load
-
-    model = load(robot)
-    default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
-    return tuple(task_of(model, goal, start, None, goal="--goal") for goal in goals or [default])
-
-
-def _targets_of(wrong: Complaints, options: dict[str, Any]) -> Targets:
-    """The targets given on the command line; those that cannot be read are left at their defaults."""
-    from lyapcheck.answers.tune.targets import Targets
-
-    read = {
-        name: wrong.reading(parse_decimals, f"--{name.replace('_', '-')}", options[name])
-        for name in ("peak_share", *FOR_LARGEST)
-    }
-    return Targets(options["digits"], read.pop("peak_share") or ONE, **read)
-
-
-def _bounds_of(wrong: Complaints, robot: str, targets: Targets, options: dict[str, Any]) -> Bounds:
-    """The limits given on the command line; these and the targets are held against the joints of the arm."""
-    from lyapcheck.control.gains import Bounds
-    from lyapcheck.robots import load
-
-    torques = wrong.reading(parse_decimals, "--torque", options["torque"])
-    gravities = wrong.reading(parse_decimals, "--gravity", options["gravity"])
-    friction = wrong.reading(parse_decimal, "--viscous-min", options["viscous_min"])
-    model = wrong.reading(load, robot)
-    if model is not None:
-        wrong.reading(targets.for_joints, model.n)
-    n = None if model is None else model.n
-    wrong.reading(_require_limits, "--torque", torques, n, True)
-    wrong.reading(_require_limits, "--gravity", gravities, n, False)
-    wrong.reading(_require_limits, "--viscous-min", None if friction is None else (friction,), None, True)
-    return Bounds(friction, torques, gravities)
-
-
-def _require_limits(option: str, values: tuple[Fraction, ...] | None, n: int | None, positive: bool) -> None:
-    """Refuse a negative limit, or another number of them than joints where that is known.
+def _limits(
+    option: str, read: Callable[..., Numbers | None], text: str | None, n: int | None, positive: bool
+) -> Numbers | None:
+    """The limits that an option gives, as many as joints where that is known; ``None`` where it gives none.
 
     Raises:
         InputError: the first that is wrong.
     """
-    if values is None:
-        return
-    if n is not None and len(values) != n:
-        rule = f"has {len(values)} values for {n} joints"
-        raise argument_error(option, _written(values), rule, f"give {n}, separated by commas")
-    if min(values) < 0 or (positive and min(values) == 0):
-        rule = "must be positive" if positive else "must not be negative"
-        raise argument_error(option, _written((min(values),)), rule, "correct the value")
-
-
-def _written(values: tuple[Fraction, ...]) -> str:
     from lyapcheck.files.decimals import decimal_text
 
-    return ",".join(map(decimal_text, values))
+    values = read(option, text)
+    if values is not None and n is not None and len(values) != n:
+        rule, given = f"has {len(values)} values for {n} joints", ",".join(map(decimal_text, values))
+        raise argument_error(option, given, rule, f"give {n}, separated by commas")
+    if values is not None and (min(values) < 0 or (positive and min(values) == 0)):
+        rule = "must be positive" if positive else "must not be negative"
+        raise argument_error(option, decimal_text(min(values)), rule, "correct the value")
+    return values
 
 
-def _many(robot: str) -> bool:
-    """Whether an arm has so many joints that one member takes as long as three of a small one."""
-    from lyapcheck.robots import load
-    from lyapcheck.robots.dynamics import FEW_JOINTS
-
-    try:
-        return load(robot).n > FEW_JOINTS
-    except InputError:
-        return False  # which is raised with all else that is wrong
+def _one_decimal(option: str, text: str | None) -> Numbers | None:
+    values = parse_decimals(option, text)
+    if values is not None and len(values) != 1:
+        raise argument_error(option, text, "must be one number", f"write {option} 0.406")
+    return values
 
 
 def _refuse(options: dict[str, Any], names: tuple[str, ...], rule: str, repair: str) -> None:
@@ -291,4 +260,8 @@ def _refuse(options: dict[str, Any], names: tuple[str, ...], rule: str, repair: 
         value = options[name]
         if value not in (None, False):
             shown = value[0] if isinstance(value, list) else value
-            raise argument_error(f"--{name.replace('_', '-')}", str(shown), rule, repair)
+            raise argument_error(_option(name), str(shown), rule, repair)
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
