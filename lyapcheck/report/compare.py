@@ -10,7 +10,7 @@ from typing import Any
 
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.reader import REPORT, read_text
-from lyapcheck.output.answer import Annotation, Answer, Level
+from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Paragraph, Section, Table
 from lyapcheck.report.model import KINDS
 from lyapcheck.verdicts import Exit
@@ -82,20 +82,6 @@ class ReportComparison(Answer):
     def records(self) -> list[dict[str, Any]]:
         """A row a change."""
         return [vars(change) for change in self.changes]
-
-    def annotations(self) -> list[Annotation]:
-        """A case a change."""
-        return [
-            Annotation(
-                Level.FAILED if one.worse else Level.REMARK,
-                one.what,
-                "no verdict gets worse",
-                one.subject,
-                "",
-                f"was {one.old}, is {one.new}",
-            )
-            for one in self.changes
-        ]
 
 
 def compare(old: Mapping[str, Any], new: Mapping[str, Any], name: str) -> ReportComparison:

@@ -71,8 +71,12 @@ def _motors(result: GateResult, file: str) -> Tile:
         return Tile(
             subject, "can saturate", f"{names}: (10i) fails.", "bad", (todo, f"lyapcheck gate {file}")
         )
-    left = [(_reserve(check), check) for check in checks]
-    known = [(share, check) for share, check in left if share is not None and check.verdict == ACCEPTED]
+    known = [
+        (int(100 * (check.limit.lower - check.value) / check.limit.lower), check)  # rounded down
+        for check in checks
+        if check.verdict == ACCEPTED and check.limit is not None and check.value is not None
+        if check.limit.lower > 0
+    ]
     if len(known) < len(joints):
         text = "A torque limit is missing, or h has no bound."
         return Tile(subject, "not known", text, "open", ("Give each joint a torque limit.", ""))
@@ -84,13 +88,6 @@ def _motors(result: GateResult, file: str) -> Tile:
         text = check.own_promise.says(text)
     tone = "good" if share >= NARROW else "warn"
     return Tile(subject, f"{share} % in reserve", text, tone)
-
-
-def _reserve(check: Check) -> int | None:
-    """By how many per cent k_p + k_v is below its limit, rounded down."""
-    if check.limit is None or check.value is None or check.limit.lower <= 0:
-        return None
-    return int(100 * (check.limit.lower - check.value) / check.limit.lower)
 
 
 def _largest(check: Check) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,6 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.control.gains import GainFile
     from lyapcheck.report.model import Report, Subject
 
 COMPARED = {"html": "html", "md": "markdown", "json": "json"}
@@ -72,14 +70,18 @@ def run(
       lyapcheck report --format html,pdf --compare reports/before
       lyapcheck report --m 1 2 --robot arm.urdf --gains gains.toml --out reports/arm
     """
-    from lyapcheck.report.build import build, render, write
+    from lyapcheck.report.build import FORMATS, build, render, write
     from lyapcheck.report.compare import compare as compared
     from lyapcheck.report.compare import read_report
     from lyapcheck.report.document import ReportAnswer
     from lyapcheck.report.pdf import require_typst
     from lyapcheck.report.tiles import with_before
 
-    formats = _formats(format)
+    formats = tuple(dict.fromkeys(part.strip() for part in format.split(",")))
+    for part in formats:
+        if part not in FORMATS:
+            known = ", ".join(FORMATS)
+            raise argument_error("--format", format, f"{part!r} is not a format", f"choose from {known}")
     if "pdf" in formats:
         require_typst()
     old = None if compare is None else read_report(compare)
@@ -103,17 +105,6 @@ def run(
     return changed.exit_code
 
 
-def _formats(text: str) -> tuple[str, ...]:
-    from lyapcheck.report.build import FORMATS
-
-    wanted = tuple(dict.fromkeys(part.strip() for part in text.split(",")))
-    unknown = [part for part in wanted if part not in FORMATS]
-    if unknown:
-        known = ", ".join(FORMATS)
-        raise argument_error("--format", text, f"{unknown[0]!r} is not a format", f"choose from {known}")
-    return wanted
-
-
 def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     """What the arguments ask for, or every problem with it."""
     from lyapcheck.control.gains import arm_named_in, paper_gain_file, read_gain_file
@@ -122,7 +113,8 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
 
     chosen = [gains] if gains else [paper_gain_file("table2"), paper_gain_file("table2_pd")]
     files = tuple(read_gain_file(path) for path in chosen)
-    asked = m or ",".join(str(one) for one in _members(files) if gains) or _MEMBERS
+    own = sorted({item.m for file in files for item in file.gains if gains and item.m is not None})
+    asked = m or ",".join(map(str, own)) or _MEMBERS
     members = tuple(parse_m(",".join(asked.replace(",", " ").split())))
     if len(members) > _MOST_MEMBERS:
         rule = f"a report covers at most {_MOST_MEMBERS} members"
@@ -131,13 +123,7 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
     with arm_named_in(next((file for file in files if file.robot), files[0]), robot):
         model = load(arm)
     require_joints(files, model)
-    own = gains is not None or arm != robot_name(None, files)
-    return Subject(arm, members, files, own)
-
-
-def _members(files: Iterable[GainFile]) -> list[int]:
-    """Those of the gain sets."""
-    return sorted({item.m for file in files for item in file.gains if item.m is not None})
+    return Subject(arm, members, files, gains is not None or arm != robot_name(None, files))
 
 
 def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) -> Document:

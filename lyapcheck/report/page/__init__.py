@@ -31,9 +31,17 @@ _ARROW = re.compile(r"\s*\\;\s*(?=\\(?:Rightarrow|longrightarrow))")
 def render(report: Report) -> str:
     """The whole page."""
     title = f"Gains on {report.robot.name}" if report.own else report.notes.paper.title
+    by_heading: dict[str, list[ClaimRow]] = {}
+    used_by: dict[str, list[str]] = {}  # by the anchor of a claim those that use it
+    for row in report.every_claim:
+        by_heading.setdefault(row.heading, []).append(row)
+        for name in row.uses:
+            users = used_by.setdefault(anchor(row.proof, name), [])
+            if (own := anchor(row.proof, row.id)) not in users:
+                users.append(own)
     groups = [
         (heading, [list(rows) for _, rows in groupby(group, lambda row: (row.proof, row.id))])
-        for heading, group in _by_heading(report.every_claim).items()
+        for heading, group in by_heading.items()
     ]
     first = [row for row in report.claims if row.m in (report.ms[0], None)]
     return markup(
@@ -45,7 +53,7 @@ def render(report: Report) -> str:
         figure=partial(_figure, report),
         shown=partial(_shown, report),
         groups=groups,
-        used_by=_used_by(report.every_claim),
+        used_by=used_by,
         falls=falls(first),
         placed=partial(_placed, report),
         behind_epsilon=[
@@ -159,22 +167,6 @@ def apart(row: ClaimRow) -> str:
         return ""
     ratio = low / high
     return f" (ratio {ratio:.3g})" if abs(ratio - 1) > NEAR else f" ({abs(ratio - 1):.2%} apart)"
-
-
-def _by_heading(rows: Iterable[ClaimRow]) -> dict[str, list[ClaimRow]]:
-    groups: dict[str, list[ClaimRow]] = {}
-    for row in rows:
-        groups.setdefault(row.heading, []).append(row)
-    return groups
-
-
-def _used_by(rows: Iterable[ClaimRow]) -> dict[str, list[str]]:
-    """By the anchor of a claim those that use it."""
-    result: dict[str, list[str]] = {}
-    for row in {(r.proof, r.id): r for r in rows}.values():
-        for name in row.uses:
-            result.setdefault(anchor(row.proof, name), []).append(anchor(row.proof, row.id))
-    return result
 
 
 def _placed(report: Report, place: str) -> list[Markup | str]:
