@@ -166,7 +166,6 @@ FILES = {
             Key("bounds", "table", "", "none", "see below", "Options of the question `bounds`."),
             Key("simulate", "table", "", "none", "see below", "Options of the question `simulate`."),
             Key("robot", "table", "", "none", "see below", "Options of the question `robot`."),
-            Key("check", "table", "", "none", "see below", "Options of the question `check`."),
         ),
         "[[gains]]": GAINS,
         "[grid]": (
@@ -196,10 +195,6 @@ FILES = {
             Key("start", "numbers, one per joint", "°", "0", "[0, 0, 0]", "Initial joint angles."),
         ),
         "[robot]": (Key("max_boxes", "whole number > 0", "boxes", "20000", "20000", "Limit of branch and bound."),),
-        "[check]": (
-            Key("proof", "text", "", "`published.py`", '"published.py"', "Proof script."),
-            Key("only", "list of texts", "", "[]", '["19"]', "Claims to check. An empty list means all."),
-        ),
     },
     "reference": {
         'kind = "sine"': (

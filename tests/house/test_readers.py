@@ -30,10 +30,10 @@ OURS = {
     ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",
     ("store.py", "source_digest"): "the source of the package",
     ("claims/script.py", "_read"): "an answer in a folder of ours, whose size is looked at first",
-    ("answers/sweep/folder.py", "_tabulate"): "rows that this run has just written",
+    ("answers/sweep/result.py", "_tabulate"): "rows that this run has just written",
 }
 WRITTEN = {
-    ("answers/sweep/folder.py", "written"): "rows",
+    ("answers/sweep/result.py", "written"): "rows",
     ("cli/show.py", "_append_summary"): "the summary of a job",
 }
 OF_THE_SYSTEM = {

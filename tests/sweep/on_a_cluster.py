@@ -118,7 +118,7 @@ def test_rows_become_a_data_frame(plan: Path) -> None:
 
 
 def test_an_address_without_a_scheduler_is_refused(plan: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from lyapcheck.answers.sweep import workers as asking
+    from lyapcheck.answers import sweep as asking
 
     monkeypatch.setattr(asking, "PATIENCE", 1)
     with pytest.raises(lyapcheck.InputError, match="does not answer"):

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from lyapcheck import InputError, read_plan
-from lyapcheck.answers.sweep.workers import MANY, batches
+from lyapcheck.answers.sweep import MANY, batches
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep_plan.toml"
 HEAD = 'robots = ["reyes-kelly2"]\nquestions = ["gate"]\n'

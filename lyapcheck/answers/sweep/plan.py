@@ -11,8 +11,7 @@ from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.answers.sweep.asks import OPTIONS, WITHOUT_GAINS
-from lyapcheck.answers.sweep.question import Question, arm
+from lyapcheck.answers.sweep.questions import OPTIONS, WITHOUT_GAINS, Question, arm
 from lyapcheck.control.gains import GainSet, beside, gain_set_of
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text, exact_decimal
@@ -22,7 +21,7 @@ from lyapcheck.files.toml import PLAN, open_document, require_kind
 Gain = Fraction | tuple[Fraction, ...]
 """The same in every joint, or one a joint; N·m."""
 LONGEST_NAME = 120
-TEXTS = ("condition", "only", "loop")
+TEXTS = ("condition", "loop")
 """Options that are lists of texts; the others are lists of angles."""
 MOST = 100_000
 """Values of one row of a grid."""

@@ -13,7 +13,7 @@ from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import FORMATS
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.sweep.question import Answered
+    from lyapcheck.answers.sweep.questions import Answered
     from lyapcheck.answers.sweep.result import Tally
     from lyapcheck.cli.parser import Parser
     from lyapcheck.verdicts import Exit
@@ -24,7 +24,7 @@ MOST = 1_024
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("plan", metavar="PLAN.toml", type=Path, help="Plan file (TOML).")
-    about = "Folder for the rows, the certificates and a page with maps."
+    about = "Folder for the rows and the certificates."
     parser.add_argument("--out", metavar="DIR", type=Path, help=about)
     parser.add_number("--jobs", int, "Number of processes. Default: one per core.", least=1, most=MOST)
     about = "Use the workers of this Dask scheduler, tcp://host:port. This needs the extra sweep."
@@ -45,9 +45,8 @@ def run(
 ) -> Exit:
     """Ask gate, epsilon, bounds, simulate and more about every arm, variation and gain set of a plan.
 
-    The folder --out gets rows.jsonl in the order of the plan, certificates by their digests, and index.html
-    with maps over m and k_v. With pyarrow it also gets rows.parquet. The same plan gives the same bytes on
-    any workers.
+    The folder --out gets rows.jsonl in the order of the plan, and certificates by their digests. With pyarrow
+    it also gets rows.parquet. The same plan gives the same bytes on any workers.
 
     Exit code 0: all proved, accepted or observed, 1: something refuted or rejected, 2: unusable input, 3:
     something undecided, 4: a question failed, and its row has the reason.
@@ -66,8 +65,7 @@ def run(
       lyapcheck sweep plan.toml --out sweep/ --scheduler tcp://head:8786
     """
     from lyapcheck.answers.sweep import asked, read_plan
-    from lyapcheck.answers.sweep.folder import Folder
-    from lyapcheck.answers.sweep.result import SweepAnswer, Tally, files
+    from lyapcheck.answers.sweep.result import Folder, SweepAnswer, Tally
     from lyapcheck.lyapunov.compiler import processors
 
     if resume and out is None:
@@ -80,8 +78,6 @@ def run(
         _count(result if folder is None else folder.written(result), read.count, tally, advance)
     made = out is not None and any((out / "certificates").glob("*.json"))
     answer = SweepAnswer(read.path, tally, certificates=str(out and out / "certificates") if made else "")
-    if folder is not None:
-        folder.put(files(SweepAnswer(read.path, tally)))
     show(answer, format)
     return answer.exit_code
 
