@@ -175,7 +175,6 @@ FILES = {
         ),
         "[gate]": (
             Key("condition", "list of conditions", "", "[]", '["10i", "scalar"]', "[Conditions](conditions.md) in place of those of each set."),
-            Key("gamma", "`true` or `printed`", "", "`true`", '"printed"', "Computed γ_m, or the one that the paper prints."),
             Key("loop", "list of texts", "", "[]", '["rate=1000"]', "Options of the loop, as on the command line."),
         ),
         "[epsilon]": (

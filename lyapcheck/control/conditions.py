@@ -21,11 +21,9 @@ from typing import TYPE_CHECKING
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import require
-from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
+from lyapcheck.control.gains import GainSet
 from lyapcheck.control.judgement import ACCEPTED, REJECTED, UNDECIDED, JudgedStatement
-from lyapcheck.control.threshold import Threshold, norms, number, scaled
-from lyapcheck.errors import argument_error
-from lyapcheck.family.base import named
+from lyapcheck.control.threshold import Threshold, norms, scaled
 from lyapcheck.files.decimals import places_of
 from lyapcheck.promise import Promise
 
@@ -34,7 +32,7 @@ if TYPE_CHECKING:
     from lyapcheck.files.decimals import Written
 
 CONDITIONS = ("10", "10p", "10i", "19")
-__all__ = ["ACCEPTED", "CONDITIONS", "REJECTED", "UNDECIDED", "Check", "Conditions", "check_10p", "check_19"]
+__all__ = ["ACCEPTED", "CONDITIONS", "REJECTED", "UNDECIDED", "Check", "Conditions"]
 
 _UNBOUNDED = "the function is unbounded (γ = ∞): no gain keeps the torque within a limit for every state"
 _NO_TORQUE = "the arm has no torque limit for this joint; give [bounds] torque"
@@ -178,30 +176,5 @@ class Conditions:
         return Check(name, joint, result, value, limit, largest, reason, admitted=passes, threshold=threshold)
 
 
-def gamma_of(gain_set: GainSet, source: str = "true") -> Tree | None:
-    """γ of a gain set, the true one or the one the paper prints; ``None`` where h is unbounded.
-
-    Raises:
-        InputError: the paper prints no γ for this m.
-    """
-    if source == "true":
-        return named(gain_set.family, gain_set.m).gamma
-    if gain_set.family != "hyperbolic" or gain_set.m not in PRINTED_GAMMA:
-        raise argument_error(
-            "--gamma", source, f"the paper prints no γ for {gain_set.name}", "use the true γ"
-        )
-    return number(PRINTED_GAMMA[gain_set.m])
-
-
 def _square(vector: list[Fraction] | tuple[Fraction, ...]) -> Fraction:
     return sum((x * x for x in vector), Fraction(0))
-
-
-def check_10p(gains: GainSet, limits: Limits, gamma: Tree | None) -> list[Check]:
-    """(10p) for each joint of one gain set."""
-    return Conditions(limits, gamma).check_10p(gains)
-
-
-def check_19(gains: GainSet, limits: Limits, gamma: Tree | None) -> list[Check]:
-    """(19) for each joint of one gain set."""
-    return Conditions(limits, gamma).check_19(gains)

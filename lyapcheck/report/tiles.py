@@ -10,8 +10,9 @@ from lyapcheck.answers.gate.friction import ANYWHERE, farthest
 from lyapcheck.answers.gate.words import advices
 from lyapcheck.answers.running import SAMPLED, SampledCheck, runs_of
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
-from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions, gamma_of
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions
 from lyapcheck.control.sampling import time_text
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
 from lyapcheck.report.findings import and_list
@@ -61,7 +62,7 @@ def with_before(report: Report, old: Mapping[str, Any]) -> Report:
 def _motors(result: GateResult, file: str) -> Tile:
     """Whether k_p + k_v leaves the motors within their limits at every state, by (10i)."""
     subject, joints = "Motors", result.limits.joints
-    every = Conditions(result.limits, gamma_of(result.gains, result.gamma)).all(result.gains, ("10i",))
+    every = Conditions(result.limits, named(result.gains.family, result.m).gamma).all(result.gains, ("10i",))
     checks = [check for check in every if check.id == "10i"]
     failed = [check for check in checks if check.verdict == REJECTED]
     if failed:

@@ -380,10 +380,9 @@ def recheck(folder):
 
 
 ALL_CONDITIONS = ("--condition", "scalar", "--condition=global")
-PRINTED = pytest.param(("--gamma=printed",), marks=pytest.mark.slow)
 
 
-@pytest.mark.parametrize("words", [(), PRINTED, ALL_CONDITIONS])
+@pytest.mark.parametrize("words", [(), ALL_CONDITIONS])
 def test_recheck_accepts_a_certificate_for_each_check(tmp_path, words):
     judged_by_command(str(TABLE2), f"--certificates={tmp_path / 'made'}", *words)
     made = {path.name: json.loads(path.read_text()) for path in (tmp_path / "made").iterdir()}

@@ -73,7 +73,6 @@ BAD = [
         "gate TABLE2 --condition 11",
         ["--condition = 11: is not one of 10, 10p, 10i, 19, scalar, global, lasalle"],
     ),
-    ("gate TABLE2 --gamma rounded", ["--gamma = rounded: is not one of true, printed"]),
     ("derive --n 0", ["n = 0: must be from 1 to 7"]),
     ("check", ["the following arguments are required: PROOF.py"]),
     ("check none.py", ["none.py: PROOF = none.py: no such proof script"]),

@@ -11,12 +11,12 @@ from mpmath import mpf
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.numbers.balls import hyperbolic_constants, precision, to_arb
 from lyapcheck.check.verify import verify
-from lyapcheck.control.conditions import Conditions, gamma_of
+from lyapcheck.control.conditions import Conditions
 from lyapcheck.control.gains import PRINTED_GAMMA, GainSet
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.threshold import root
 from lyapcheck.errors import InputError
-from lyapcheck.family.base import LARGEST_M
+from lyapcheck.family.base import LARGEST_M, named
 from lyapcheck.files.decimals import written
 
 MS = st.one_of(st.integers(1, 6), st.sampled_from([10, 37, 100]))
@@ -38,7 +38,7 @@ def limits_of(torque, gravity, friction):
 
 
 def checked(gains, limits, gamma=None):
-    bound = gamma_of(gains) if gamma is None else gamma
+    bound = named(gains.family, gains.m).gamma if gamma is None else gamma
     return {(check.id, check.joint): check for check in Conditions(limits, bound).all(gains, ("10i",))}
 
 
@@ -127,6 +127,17 @@ def test_the_conditions_agree_with_an_independent_computation(gammas, case):
             assert not on_border or check.margin == 0
 
 
+# --- on the border ---------------------------------------------------------------------------------
+
+
+def test_10_at_the_printed_bound():
+    """(21 − 0)/(√4 · 1.05) = 10, though 1.05 is no binary fraction."""
+    limits = limits_of(["21", "0", "0", "0"], ["0"] * 4, None)
+    gains = gains_of(["9.5"] * 4, ["0.5"] * 4)
+    (check,) = Conditions(limits, ("num", "21/20")).check_10(gains)
+    assert (check.verdict, check.margin, check.largest_admissible) == ("accepted", 0, 10)
+
+
 # --- what cannot be decided ------------------------------------------------------------------------
 
 
@@ -162,13 +173,6 @@ def test_the_printed_bounds_are_those_of_the_paper():
     assert [PRINTED_GAMMA[m] for m in (1, 2, 3)] == [1, Fraction("1.05"), Fraction("1.11")]
     for m, printed in PRINTED_GAMMA.items():
         assert hyperbolic_constants(m).gamma.lower >= printed
-        assert gamma_of(gains_of(["1"], ["1"], m), "printed") == ("num", str(printed))
-
-
-@pytest.mark.parametrize(("m", "family"), [(4, "hyperbolic"), (None, "arctan")])
-def test_the_paper_prints_no_other_bound(m, family):
-    with pytest.raises(InputError, match="prints no γ"):
-        gamma_of(gains_of(["1"], ["1"], m, family), "printed")
 
 
 def test_the_largest_member_is_decided_and_the_next_is_none():

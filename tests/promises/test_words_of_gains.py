@@ -50,7 +50,6 @@ ASKED = {
     "gate, a proof for the arm": ("gate", TABLE2, "--condition", "10i", "--condition", "scalar"),
     "gate over ranges": ("gate", TABLE2, "--vary", "viscous=-30%..+30%"),
     "gate over ranges, a proof": ("gate", "gains.toml", "--vary", "payload=0..2", "--condition", "scalar"),
-    "gate by the printed γ": ("gate", TABLE2, "--gamma", "printed"),
     "gate without an arm": ("gate", "own.toml"),
     "gate without friction": ("gate", "free.toml"),
     "gate on a false bound": ("gate", "wrong.toml"),

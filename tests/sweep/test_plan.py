@@ -68,7 +68,7 @@ def test_the_example_is_a_plan():
         (HEAD + "variations = [1]\n" + GRID, "list of lists of ranges"),
         (HEAD + 'variations = [["mass"]]\n' + GRID, "NAME=LO..HI"),
         (HEAD.replace("reyes-kelly2", "nobody") + GRID, "plan.toml:1: robots"),
-        (HEAD + GRID + "[gate]\ngamma = 1\n", "gate.gamma"),
+        (HEAD + GRID + "[gate]\ncondition = 1\n", "gate.condition"),
         (HEAD + GRID + "[gate]\nconditions = []\n", "did you mean condition?"),
         (HEAD + GRID + "[epsilon]\nmax_boxes = 0\n", "whole number above 0"),
         (

@@ -22,7 +22,6 @@ def gate(
     gain_file: GainFile | str | Path,
     robot: str | None = None,
     deciding: Sequence[str] | None = None,
-    gamma: str = "true",
     strict: bool = False,
     arms: dict[str, Limits] | None = None,
     on_progress: Progress | None = None,
@@ -34,14 +33,13 @@ def gate(
         gain_file: a gain file or its path.
         robot: an arm that replaces the arm of the file.
         deciding: the conditions that must hold. Default: the conditions of each set, else (10p) and (19).
-        gamma: ``true`` or ``printed`` (the paper's rounded γ, two of which are too small).
         strict: True counts undecided as a failure.
         arms: arms already read, by name, for many files on one arm. Arms that are read now are added.
         on_progress: receives the fraction done, and the certificate in search.
         loop: the sampled loop, which replaces the loop in the files.
 
     Raises:
-        InputError: no arm to judge the gains by, no printed γ for an m, or an unknown condition.
+        InputError: no arm to judge the gains by, or an unknown condition.
 
     Soundness: ``lyapcheck.check.verify`` makes every verdict, on a statement with a proof.
         ``lyapcheck.answers.gate.certificates`` writes both as a certificate. Without a proof the verdict is
@@ -55,6 +53,4 @@ def gate(
         ['accepted', 'rejected', 'rejected']
     """
     file = gain_file_of(gain_file)
-    return GateAnswer(
-        judged_sets(file, robot, deciding, gamma, strict, arms, on_progress=on_progress, loop=loop)
-    )
+    return GateAnswer(judged_sets(file, robot, deciding, strict, arms, on_progress=on_progress, loop=loop))

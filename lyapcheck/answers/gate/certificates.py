@@ -188,10 +188,10 @@ def verdict_statement(result: GateResult) -> JudgedStatement | None:
 
 
 def _statement(result: GateResult) -> GateAccepted | None:
-    """The statement, so far without gravity; ``None`` for another γ, or an h unknown to the checker."""
+    """The statement, so far without gravity; ``None`` for an h unknown to the checker."""
     limits, gains = result.limits, result.gains
     torques = {"10", *TORQUES} & set(result.deciding)
-    if not is_stated(gains, limits, result.gamma) or (torques and None in limits.torque):
+    if not is_stated(gains, limits) or (torques and None in limits.torque):
         return None
     numbers = numbers_of(limits, result.file.bounds.viscous_min)
     its = tuple(statement for statement, _ in _stability(result))

@@ -92,9 +92,7 @@ def _meaning(result: GateResult, before: str = "") -> str:
     """What an accepted set is known to do."""
     limits, torques = result.limits, [result.verdict_of((name,)) for name in ("10i", "10p")]
     words = ", ".join(_holds(result, name) for name in result.deciding)
-    if result.gamma != "true":
-        words = f"{', '.join(f'({name})' for name in result.deciding)} hold with the printed γ"
-    elif set(result.deciding) & set(CERTIFICATES) and ACCEPTED not in torques:
+    if set(result.deciding) & set(CERTIFICATES) and ACCEPTED not in torques:
         words += " while no motor saturates"
     where = "for the numbers under [bounds]" if limits.model is None else f"for {limits.model.name}"
     return result.says(f"{before}{words}, proved {where}{' over its ranges' if limits.varied else ''}")

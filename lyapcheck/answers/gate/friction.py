@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.otherwise import small
 from lyapcheck.asked import resting as asked_resting
 from lyapcheck.check.numbers.harmonics import harmonics, largest
-from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.judgement import (
     ACCEPTED,
     DEGREES,
@@ -119,7 +118,7 @@ def _inertias(model: RobotModel) -> tuple[float, ...]:
 
 def held(gains: GainSet, model: RobotModel) -> dict[int, JudgedStatement]:
     """The joints, from 0, that dry friction is proved to hold wherever they stop."""
-    gamma = gamma_of(gains)
+    gamma = named(gains.family, gains.m).gamma
     if gamma is None:
         return {}
     rows = enumerate(zip(gains.kp, dry_friction(model), strict=True))

@@ -12,13 +12,14 @@ from lyapcheck.answers.gate.folder import certificates_of
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
 from lyapcheck.check.statement import Relation
-from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions, gamma_of
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, RUNNING, GainFile, GainSet, deciding_for
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.control.sampling import LoopRecord, record_of
 from lyapcheck.control.threshold import number
 from lyapcheck.errors import argument_error
+from lyapcheck.family.base import named
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.promise import all_say
 
@@ -50,7 +51,6 @@ class GateResult:
         strict: True counts undecided as a failure.
         otherwise: a proof of stability for gains that violate (19), if one was found.
         explained: True adds notes about the set to its checks.
-        gamma: ``true``, or ``printed`` for the rounded γ of the paper.
         grounds: the promises on which the set is accepted, or why it is not.
         record: the sampled loop, or None without a rate.
     """
@@ -63,7 +63,6 @@ class GateResult:
     strict: bool = False
     otherwise: Check | None = None
     explained: bool = False
-    gamma: str = "true"
     grounds: Grounds = NO_GROUNDS
     record: LoopRecord | None = None
 
@@ -167,7 +166,6 @@ def judged_sets(
     gain_file: GainFile,
     robot: str | None = None,
     asked: Sequence[str] | None = None,
-    gamma: str = "true",
     strict: bool = False,
     arms: dict[str, Limits] | None = None,
     explained: int = MOST_EXPLAINED,
@@ -192,11 +190,11 @@ def judged_sets(
         limits = replace(limits, assumptions=(*limits.ranges, *limits.gravity_notes, *rests_on))
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
-    questions = GateQuestions(gain_file, limits, gamma)
+    questions = GateQuestions(gain_file, limits)
     for gains, names, certificates in zip(gain_file.gains, deciding, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
-            conditions[key] = Conditions(limits, gamma_of(gains, gamma))
+            conditions[key] = Conditions(limits, named(*key).gamma)
         # what (P) shows is not said in one word
         more = (record is not None and record.within is not None) or len(results) < explained
         undamped = _undamped(gains)
@@ -204,16 +202,13 @@ def judged_sets(
         if not undamped and (record is not None or set(RUNNING) & set(names)):
             from lyapcheck.answers.running import running_checks
 
-            least, others = gain_file.bounds.viscous_min, checks if gamma == "true" else ()
-            searched = more or not explained
-            running = running_checks(gains, limits, record, least, names, others, searched, kept)
+            least, searched = gain_file.bounds.viscous_min, more or not explained
+            running = running_checks(gains, limits, record, least, names, checks, searched, kept)
             checks = (*checks, *running)
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
-        result = GateResult(
-            gain_file, gains, limits, checks, names, strict, None, more, gamma, grounds, record
-        )
+        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, grounds, record)
         results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
     return results
 

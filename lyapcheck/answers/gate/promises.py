@@ -74,11 +74,10 @@ class GateQuestions:
     Args:
         file: the gains.
         limits: by which they are judged.
-        gamma: ``true``, or ``printed`` where the checks are about the paper's rounded γ.
     """
 
-    def __init__(self, file: GainFile, limits: Limits, gamma: str) -> None:
-        self.file, self.limits, self.gamma = file, limits, gamma
+    def __init__(self, file: GainFile, limits: Limits) -> None:
+        self.file, self.limits = file, limits
         self._why_not = ""
         self._known: dict[tuple[str, int | None], bool] = {}
 
@@ -111,7 +110,7 @@ class GateQuestions:
         if not numbers:
             return Grounds(known)
         if not self._stated(gains):
-            # another γ, or an h that the checker does not know: each check by itself
+            # an h that the checker does not know: each check by itself
             own = [check for check in checks if check.id in numbers]
             return Grounds((*known, *(check.own_promise for check in own)))
         gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else Gravity(tuple(self.limits.gravity))
@@ -134,10 +133,10 @@ class GateQuestions:
         return numbers_of(self.limits, self.file.bounds.viscous_min)
 
     def _stated(self, gains: GainSet) -> bool:
-        """Whether the checker knows h and γ of a set."""
+        """The same, once a function."""
         key = gains.family, gains.m
         if key not in self._known:
-            self._known[key] = is_stated(gains, self.limits, self.gamma)
+            self._known[key] = is_stated(gains, self.limits)
         return self._known[key]
 
 
@@ -155,9 +154,9 @@ def numbers_of(limits: Limits, viscous_min: Fraction | None) -> Numbers:
     return parameters, friction, limits.torque
 
 
-def is_stated(gains: GainSet, limits: Limits, gamma: str) -> bool:
-    """Whether a statement can speak of a set: the checker knows its h, and γ is the certified one."""
-    known = gamma == "true" and named(gains.family, gains.m).bounded and limits.n <= MAX_ARM
+def is_stated(gains: GainSet, limits: Limits) -> bool:
+    """Whether a statement can speak of a set: the checker knows its h."""
+    known = named(gains.family, gains.m).bounded and limits.n <= MAX_ARM
     return known and not unknown_function(gains)
 
 

@@ -204,8 +204,8 @@ def _gate(questions: Sequence[Question], known: UncertainArm, options: Options) 
         known.limits[robot] = varied_limits(robot, ranges) if ranges else arm_limits(robot)
     sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
     loop = loop_of_options(dict(text.partition("=")[::2] for text in options["loop"]))
-    asked = None, options["condition"] or None, options["gamma"]
-    results = judged_sets(GainFile("plan", robot, sets, loop=loop), *asked, arms=known.limits, explained=0)
+    file = GainFile("plan", robot, sets, loop=loop)
+    results = judged_sets(file, None, options["condition"] or None, arms=known.limits, explained=0)
     rows = GateAnswer(results).data()["results"]
     for question, result, data in zip(questions, results, rows, strict=True):
         undecided = [check.reason for check in result.failures if check.verdict == UNDECIDED]
@@ -318,7 +318,7 @@ WITHOUT_GAINS = ("robot",)
 OPTIONS: Mapping[str, Options] = {
     "bounds": {"delta": 1.0, "time": 10.0, "target": (), "start": ()},
     "epsilon": {"max_boxes": 100_000, "starts": 30},
-    "gate": {"condition": (), "gamma": "true", "loop": ()},
+    "gate": {"condition": (), "loop": ()},
     "robot": {"max_boxes": 20_000},
     "simulate": {"time": 5.0, "experiment": False, "target": (), "start": ()},
 }

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.tune.answer import TUNED, TunedSet
-from lyapcheck.control.conditions import Conditions, gamma_of
+from lyapcheck.control.conditions import Conditions
 from lyapcheck.control.foreign import Pid, read_foreign
 from lyapcheck.control.gains import DECIDING, Bounds, GainSet
 from lyapcheck.control.limits import Limits, arm_limits
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, round_down, significant_down
 from lyapcheck.files.loop import NOTHING
 from lyapcheck.files.toml import key_of, quoted
@@ -168,7 +169,7 @@ def _bounded(i: int, pid: Pid, limits: Limits) -> tuple[Fraction, Fraction, str]
         return pid.p, pid.d, f"{pid.joint}: no torque limit is known, so that nothing was cut"
     n = limits.n
     gains = GainSet("", 1, (pid.p,) * n, (pid.d,) * n)
-    check = Conditions(limits, gamma_of(gains)).check_10p(gains)[i]
+    check = Conditions(limits, named("hyperbolic", 1).gamma).check_10p(gains)[i]
     largest = None if check.threshold is None else check.threshold.largest(_PLACES)
     if largest is None:
         return pid.p, pid.d, f"{pid.joint}: gravity takes the whole torque limit, and (10p) leaves no gain"

@@ -28,9 +28,10 @@ from lyapcheck.answers.tune.largest import (
     propose,
 )
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.control.conditions import ACCEPTED, gamma_of
+from lyapcheck.control.conditions import ACCEPTED
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.limits import Limits, limits_for, varied_limits
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, round_down
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import RobotModel, load
@@ -134,8 +135,7 @@ def _tuned(m: int, model: RobotModel, limits: Limits, targets: Targets) -> Tuned
 
 
 def _rooms(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[GainRange]:
-    ones = (Fraction(1),) * model.n
-    gamma = gamma_of(GainSet("gamma", m, ones, ones))
+    gamma = named("hyperbolic", m).gamma
     dampings: Sequence[Damping | None] = (None,) * model.n
     if targets.damping:
         dampings = damping_of(limits.model or model, m, targets.damping, limits.viscous_min)

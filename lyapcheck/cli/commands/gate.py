@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 CONDITIONS = ("10", "10p", "10i", "19", "scalar", "global", "lasalle", "sampled", "holds")
 """The conditions that can decide."""
-GAMMAS = ("true", "printed")
-"""Which γ the conditions use."""
 
 
 def arguments(parser: Parser) -> None:
@@ -33,7 +31,6 @@ def arguments(parser: Parser) -> None:
         "else 10p and 19."
     )
     parser.add_choice("--condition", CONDITIONS, about, repeated=True)
-    parser.add_choice("--gamma", GAMMAS, "The certified γ, or the γ that the paper prints.", default="true")
     about = "Treat undecided as a failure, exit code 1."
     parser.add_argument("--strict", action="store_true", help=about)
     parser.add_vary()
@@ -46,7 +43,6 @@ def run(
     files: list[str],
     robot: str | None,
     condition: list[str] | None,
-    gamma: str,
     strict: bool,
     vary: list[str] | None,
     certificates: Path | None,
@@ -91,7 +87,7 @@ def run(
                     with arm_named_in(gain_file, robot):
                         arms[name] = varied_limits(name, ranges)
                 advanced = part(advance, done / len(files), (done + 1) / len(files))
-                results.append(gate(gain_file, robot, condition, gamma, strict, arms, advanced, run))
+                results.append(gate(gain_file, robot, condition, strict, arms, advanced, run))
             except InputError as error:
                 problems += error.problems
     answer = GateAnswer(result for outcome in results for result in outcome)

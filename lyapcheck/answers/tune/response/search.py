@@ -18,9 +18,9 @@ import numpy as np
 
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.answers.tune.response.trial import BY_19, Trial, Trials, Wishes, as_run, tried, tried_all
-from lyapcheck.control.conditions import gamma_of
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.threshold import scaled
+from lyapcheck.family.base import named
 from lyapcheck.robots.numeric import NumericModel
 
 if TYPE_CHECKING:
@@ -96,8 +96,7 @@ class Search:
         self.bench, self.models, self.limits, self.m, self.way = bench, models, limits, m, way
         self.record = record if record is not None and record.period is not None else None
         n, unit = limits.n, Fraction(1, 10**bench.digits)
-        ones = (Fraction(1),) * n
-        gamma = gamma_of(GainSet("γ", m, ones, ones))
+        gamma = named("hyperbolic", m).gamma
         rows = zip(limits.torque, limits.gravity, strict=True)
         sums = [scaled((torque or Fraction(0)) - gravity, 1, gamma) for torque, gravity in rows]
         self.unit = unit
