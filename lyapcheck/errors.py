@@ -138,6 +138,12 @@ def repair(module: str) -> str:
     return f"pip install {PACKAGES[module]}"
 
 
+def without(words: str, *modules: str) -> str:
+    """After a few words the first of some libraries that is not installed, and its line; else empty."""
+    lack = next((one for one in modules if not installed(one)), None)
+    return "" if lack is None else f"{words} {PACKAGES[lack]}, which is not installed; {repair(lack)}"
+
+
 def missing(error: ImportError) -> InputError | None:
     """What to say of an import that has failed; none where it is not of a library that may be missing."""
     module = (error.name or "").partition(".")[0]

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from lyapcheck.check.covers import require_covered
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.promise import Promise, promised
 
 if TYPE_CHECKING:
+    from lyapcheck.check.certificate import Certificate
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
@@ -60,6 +63,32 @@ def judged_statement(statement: Statement, proofs: Iterable[Proof]) -> JudgedSta
         else:
             return JudgedStatement(statement, proof, result.verdict, result.grade, "")
     return JudgedStatement(statement, None, UNDECIDED, "", reason)
+
+
+def shown_by(
+    kept: Iterable[Certificate], question: Callable[[Statement], Statement | None]
+) -> Iterator[tuple[Promise, JudgedStatement]]:
+    """The promises of certificates that answer a question, each judged again.
+
+    Args:
+        kept: certificates, not judged.
+        question: what a statement would have to answer, such as with its own ε₀; ``None``: another kind.
+
+    Soundness: that of ``lyapcheck.check.verify`` and ``lyapcheck.check.covers``; names and verdicts in the
+        certificates are not used.
+    """
+    for one in kept:
+        asked = question(one.statement)
+        if asked is None:
+            continue
+        try:
+            require_covered(one.statement, asked)
+        except Refused:
+            continue
+        judged = judged_statement(one.statement, [one.proof])
+        promise, _ = promised(asked, judged)
+        if promise is not None:
+            yield promise, judged
 
 
 def proves(statement: Statement, proof: Proof) -> bool:

@@ -135,10 +135,8 @@ def test_the_global_value_is_proved_and_below_what_a_state_refutes(everywhere):
 @pytest.mark.parametrize("name", ["scalar", "global"])
 def test_what_the_checker_refuses_is_not_accepted(monkeypatch, tmp_path, name):
     """Without the checker's word there is no certificate, whatever the search says; and no rejection."""
-    import lyapcheck.answers.gate.prover as gain_range
-
     monkeypatch.setattr(DecreaseProof, "accepted", lambda *_: None)
-    monkeypatch.setattr(gain_range, "CEILINGS", (64, 4))
+    monkeypatch.setattr("lyapcheck.answers.gate.stability.CEILINGS", (64, 4))
     (result,) = judged(gain_file(tmp_path / "g.toml", "robot = 'reyes-kelly2'"), name).values()
     assert result.verdict == "undecided"
     assert "accepted no proof" in result.failures[0].reason
@@ -223,9 +221,9 @@ def test_stability_is_proved_where_19_alone_fails():
 
 def test_stability_is_not_said_where_it_was_not_verified(monkeypatch):
     """Without the checker's word for either proof nothing is said of stability."""
-    undecided = "lyapcheck.answers.gate.otherwise.judged_statement"
+    undecided = "lyapcheck.search.controlled_arm.judged_statement"
     monkeypatch.setattr(undecided, lambda statement, proofs: JudgedStatement(statement, None, "undecided"))
-    monkeypatch.setattr("lyapcheck.answers.gate.otherwise.lasalle", lambda *_: UNPROVED)
+    monkeypatch.setattr("lyapcheck.answers.gate.stability.Prover.lasalle", lambda *_: UNPROVED)
     result = judged(paper_gain_file())["tau_m2"]
     assert (result.verdict, result.standing) == ("rejected", "rejected")
     assert result.stable is None

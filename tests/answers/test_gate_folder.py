@@ -7,8 +7,6 @@ from fractions import Fraction
 
 import pytest
 
-from lyapcheck.answers.gate import prover
-from lyapcheck.answers.running import from_rest
 from tests.arena.attacks import encoded, sealed
 from tests.helpers.command import invoke
 
@@ -24,8 +22,7 @@ def gain_file(folder, name, arm="reyes-kelly2", kp="[5, 1]", kv="[0.5, 0.1]", pr
 @pytest.fixture
 def without_a_search(monkeypatch):
     """Nothing that searches is installed."""
-    for module in (prover, from_rest):
-        monkeypatch.setattr(module, "installed", lambda name: False)
+    monkeypatch.setattr("lyapcheck.errors.installed", lambda name: False)
 
 
 def verdict(file, *options):

@@ -15,7 +15,6 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import GateResult, gate
-from lyapcheck.answers.running import from_rest
 from lyapcheck.answers.running.holds import HoldsCheck
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import Check
@@ -314,7 +313,7 @@ def test_from_rest_at_exactly_one_period(tmp_path: Path, monkeypatch: pytest.Mon
     with_folder, in_file = file.with_name("kept.toml"), file.with_name("in_file.toml")
     with_folder.write_text(f'certificates = "made"\n{file.read_text()}')
     in_file.write_text(f"{with_folder.read_text()}[loop]\nrate = 1000\nwithin = 90\n")
-    monkeypatch.setattr(from_rest, "installed", lambda name: False)
+    monkeypatch.setattr("lyapcheck.errors.installed", lambda name: False)
     assert judged(in_file, LoopEntry(), ("sampled",)).verdict == "accepted"
     assert left_over((words[0], str(with_folder), *words[2:]), monkeypatch) == []
     for within, answer in ((None, "accepted"), (45, "accepted"), (91, "undecided")):

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.gate.friction import rest_errors
-from lyapcheck.answers.gate.otherwise import positive
 from lyapcheck.answers.gate.promises import shown_gravity
+from lyapcheck.answers.gate.stability import positive
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -128,10 +128,10 @@ def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(monkeypatch, 
     words = (*RANGED, "--condition", condition)
     assert invoke(*words).exit_code == 0
     monkeypatch.setattr(
-        "lyapcheck.answers.gate.prover.ControlledArm",
+        "lyapcheck.search.controlled_arm.ControlledArm",
         lambda gains, arm, ranges: ControlledArm(gains, arm.fixed(), False),
     )
-    monkeypatch.setattr("lyapcheck.answers.gate.otherwise.positive", lambda arm: positive(arm.fixed()))
+    monkeypatch.setattr("lyapcheck.answers.gate.stability.positive", lambda arm: positive(arm.fixed()))
     assert "does not answer the question (" in undecided(*words)
 
 

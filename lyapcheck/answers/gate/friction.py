@@ -19,7 +19,7 @@ from functools import lru_cache
 from math import degrees, exp, pi, sqrt
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.otherwise import small
+from lyapcheck.answers.gate.stability import small
 from lyapcheck.asked import resting as asked_resting
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.control.judgement import (

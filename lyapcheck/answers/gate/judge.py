@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.folder import certificates_of
+from lyapcheck._types import Progress, part, silent
 from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
+from lyapcheck.answers.gate.stability import Prover
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
+from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, Conditions
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, RUNNING, GainFile, GainSet, deciding_for
@@ -18,13 +19,12 @@ from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.control.sampling import LoopRecord, record_of
 from lyapcheck.control.threshold import number
-from lyapcheck.errors import argument_error
+from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.family.base import named
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
-    from lyapcheck._types import Progress
     from lyapcheck.check.certificate import Certificate
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
@@ -178,16 +178,21 @@ def judged_sets(
 
     See :func:`lyapcheck.gate` for the rest.
     """
-    _require_known(asked or ())
+    unknown = ", ".join(name for name in asked or () if name not in KNOWN)
+    if unknown:
+        use = f"use some of: {', '.join(KNOWN)}"
+        raise argument_error("conditions", unknown, "names no condition", use)
     limits = limits_for(gain_file, robot, arms)
     own = NOTHING if limits.model is None else limits.model.loop
     record = record_of(loop, gain_file.loop, own)
     conditions: dict[tuple[str, int | None], Conditions] = {}
     deciding = [deciding_for(gains, asked) for gains in gain_file.gains]
-    kept = certificates_of(gain_file)
-    proved, rests_on = _certificates(gain_file, limits, deciding, on_progress, kept)
-    if rests_on:
-        limits = replace(limits, assumptions=(*limits.ranges, *limits.gravity_notes, *rests_on))
+    kept, least = certificates_of(gain_file), gain_file.bounds.viscous_min
+    prover = Prover(limits.model, least, limits.varied, kept)
+    proved = _certificates(gain_file, prover, deciding, on_progress or silent)
+    if any(proved) and limits.model is not None:
+        granted = (*limits.ranges, *limits.gravity_notes, *prover.assumptions)
+        limits = replace(limits, assumptions=granted)
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
     questions = GateQuestions(gain_file, limits)
@@ -202,14 +207,18 @@ def judged_sets(
         if not undamped and (record is not None or set(RUNNING) & set(names)):
             from lyapcheck.answers.running import running_checks
 
-            least, searched = gain_file.bounds.viscous_min, more or not explained
-            running = running_checks(gains, limits, record, least, names, checks, searched, kept)
-            checks = (*checks, *running)
+            searched = more or not explained
+            run = running_checks(gains, limits, record, least, names, checks, searched, kept)
+            checks = (*checks, *run)
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
         result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, grounds, record)
-        results.append(_looked_into(result, gain_file.bounds.viscous_min) if more else result)
+        # what breaks (19) may be stable all the same
+        known = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
+        if more and not known and result.verdict_of(("19",)) == REJECTED:
+            result = replace(result, otherwise=prover.otherwise(gains))
+        results.append(result)
     return results
 
 
@@ -223,49 +232,47 @@ def _undamped(gains: GainSet) -> list[Check]:
     ]
 
 
-def _looked_into(result: GateResult, viscous_min: Fraction | None) -> GateResult:
-    """The same, with a proof of stability where (19) fails and none was asked for."""
-    model = result.limits.model
-    known = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
-    if known or model is None or result.verdict_of(("19",)) != REJECTED:
-        return result
-    from lyapcheck.answers.gate.otherwise import proved_otherwise
-
-    return replace(result, otherwise=proved_otherwise(result.gains, model, viscous_min, result.limits.varied))
-
-
-def _require_known(deciding: Sequence[str]) -> None:
-    unknown = [name for name in deciding if name not in KNOWN]
-    if unknown:
-        raise argument_error(
-            "conditions", ", ".join(unknown), "names no condition", f"use some of: {', '.join(KNOWN)}"
-        )
-
-
 def _certificates(
-    gain_file: GainFile,
-    limits: Limits,
-    deciding: Sequence[Sequence[str]],
-    on_progress: Progress | None,
-    kept: Sequence[Certificate],
-) -> tuple[list[tuple[Check, ...]], tuple[str, ...]]:
-    """The checks of the certificates that decide, for each gain set, and what they take for granted."""
+    gain_file: GainFile, prover: Prover, deciding: Sequence[Sequence[str]], progress: Progress
+) -> list[tuple[Check, ...]]:
+    """The checks of the proofs of stability that decide, for each gain set."""
     wanted = [[name for name in CERTIFICATES if name in names] for names in deciding]
-    if not any(wanted):
-        return [()] * len(gain_file.gains), ()
-    from lyapcheck._types import part, silent
-    from lyapcheck.answers.gate.prover import Prover
-
-    prover = Prover(limits.model, gain_file.bounds.viscous_min, limits.varied, kept)
+    count, done = sum(map(len, wanted)), 0
     checks: list[tuple[Check, ...]] = []
-    step, number = 1 / sum(map(len, wanted)), 0
     for gains, own in zip(gain_file.gains, wanted, strict=True):
         found = []
         for name in own:
-            advance = part(
-                on_progress or silent, number * step, (number + 1) * step, f"{gains.name}: {name} certificate"
-            )
-            found.append(prover.check(name, gains, advance))
-            number += 1
+            about = f"{gains.name}: {name} certificate"
+            found.append(prover.check(name, gains, part(progress, done / count, (done + 1) / count, about)))
+            done += 1
         checks.append(tuple(found))
-    return checks, prover.assumptions
+    return checks
+
+
+def certificates_of(file: GainFile) -> tuple[Certificate, ...]:
+    """The certificates of the folder of a gain file, not yet judged; what is no certificate is left out.
+
+    Raises:
+        InputError: the folder cannot be read, or has no ``.json`` file.
+    """
+    if file.certificates is None:
+        return ()
+    from lyapcheck.check import kinds
+    from lyapcheck.check.certificate import certificate_of
+    from lyapcheck.check.recheck import Unreadable, content, gather
+
+    kinds.load()
+    try:
+        documents = gather([file.certificates])
+    except Unreadable as error:
+        place = None if file.document is None else file.document.place(("certificates",))
+        line, rule = None if place is None else place.line, error.problems[0][1]
+        repair = "write the certificates there with gate … --certificates DIR, or remove the key"
+        raise InputError(Problem(file.path, line, "certificates", file.certificates, rule, repair)) from None
+    found = []
+    for one in documents:
+        try:
+            found.append(certificate_of(content(one.path))[0])
+        except (Refused, OSError, ValueError, RecursionError):  # certificates of other versions, other files
+            continue
+    return tuple(found)

@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.otherwise import friction_of, unknown_function
+from lyapcheck.answers.gate.stability import friction_of, unknown_function
 from lyapcheck.asked import gate_accepted, gravity_kept
 from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck._types import part, silent
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.gate.otherwise import LASALLE, SCALAR
+from lyapcheck.answers.gate.stability import LASALLE, SCALAR
 from lyapcheck.answers.running import runs_of
 from lyapcheck.answers.tune.response.answer import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.response.search import Search
