@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from lyapcheck.answers.check import ClaimResult, ProofResult
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.answers.derive import derivation
-    from lyapcheck.answers.epsilon import EpsilonResult, epsilon
+    from lyapcheck.answers.epsilon import EpsilonResult
+    from lyapcheck.answers.epsilon.compute import epsilon
     from lyapcheck.answers.explain import explain
     from lyapcheck.answers.gate import GateResult, gate
     from lyapcheck.answers.sweep import Plan, Rows, read_plan, sweep
@@ -169,7 +170,7 @@ _HOMES = {
     "build_table": "answers.table",
     "decide": "tasks",
     "derivation": "answers.derive",
-    "epsilon": "answers.epsilon",
+    "epsilon": "answers.epsilon.compute",
     "explain": "answers.explain",
     "export_controller": "tasks",
     "gamma_less_than": "family.members.hyperbolic",

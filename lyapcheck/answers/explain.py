@@ -11,7 +11,7 @@ from typing import Any
 from unicodedata import normalize
 
 from lyapcheck._types import Progress
-from lyapcheck.answers.check.proof import ORDER, ClaimResult, cut, one_line
+from lyapcheck.answers.check import ORDER, ClaimResult, cut, one_line
 from lyapcheck.answers.check.run import paper_case_data, run_proof
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.statement import Statement

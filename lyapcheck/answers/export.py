@@ -11,7 +11,7 @@ from hashlib import sha256
 from typing import Any
 
 from lyapcheck import store
-from lyapcheck.answers.assumed import assumed_line, file_words
+from lyapcheck.answers import assumed_line, file_words
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.answers.running.sampled import largest, question

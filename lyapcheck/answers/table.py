@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from lyapcheck.answers.assumed import arm_words
+from lyapcheck.answers import arm_words
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.check.proof import ClaimResult
+from lyapcheck.answers.check import ClaimResult
 from lyapcheck.answers.gate.words import Row, advice
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About

@@ -185,7 +185,8 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
 
 def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRow, dict[str, str]]:
     """The four ε₀, rounded to the safe side, and why one is missing; and their certificates."""
-    from lyapcheck.answers.epsilon import Options, certificates, kept_epsilon
+    from lyapcheck.answers.epsilon.compute import Options
+    from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
     from lyapcheck.search.controlled_arm import ControlledArm
 
     own: dict[str, Any] = {

@@ -8,14 +8,14 @@ from dataclasses import dataclass, field, fields
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.check.proof import ClaimResult, refuted_by_source
+from lyapcheck.answers.check import ClaimResult, refuted_by_source
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.extensions import shipped
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive import Derivation
-    from lyapcheck.answers.gate.answer import GateAnswer
+    from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.answers.table import Table
     from lyapcheck.claims.decision import Decision

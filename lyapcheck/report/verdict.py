@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from lyapcheck.answers.gate.answer import GateAnswer
+from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.gate.judge import GateResult
 from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.control.conditions import ACCEPTED, REJECTED

@@ -8,8 +8,8 @@ from pathlib import Path
 import cvxpy as cp
 import pytest
 
-from lyapcheck.answers.epsilon import Contradiction, EpsilonResults, epsilon
-from lyapcheck.answers.epsilon.compute import by_forms, findings, require_consistent
+from lyapcheck.answers.epsilon import EpsilonResults
+from lyapcheck.answers.epsilon.compute import Contradiction, by_forms, epsilon, findings, require_consistent
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file

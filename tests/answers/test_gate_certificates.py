@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import load_robot, named_family
-from lyapcheck.answers.gate import GateAnswer, gate
-from lyapcheck.answers.gate.answer import remarks
+from lyapcheck.answers.gate import GateAnswer, gate, remarks
 from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.check.certificate import read
 from lyapcheck.check.kinds.resting import AtBounds, Resting

@@ -6,7 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from lyapcheck.answers.epsilon import certificates, epsilon
+from lyapcheck.answers.epsilon.compute import epsilon
+from lyapcheck.answers.epsilon.kept import certificates
 from lyapcheck.check.certificate import digest_of, judge, parse, read
 from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused

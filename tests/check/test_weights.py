@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from lyapcheck.answers.epsilon import epsilon
+from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.check.kinds.decreasing import BoxTree, statement_of
 from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.schur import Evaluator

@@ -127,17 +127,6 @@ def test_the_conditions_agree_with_an_independent_computation(gammas, case):
             assert not on_border or check.margin == 0
 
 
-# --- on the border ---------------------------------------------------------------------------------
-
-
-def test_10_at_the_printed_bound():
-    """(21 − 0)/(√4 · 1.05) = 10, though 1.05 is no binary fraction."""
-    limits = limits_of(["21", "0", "0", "0"], ["0"] * 4, None)
-    gains = gains_of(["9.5"] * 4, ["0.5"] * 4)
-    (check,) = Conditions(limits, ("num", "21/20")).check_10(gains)
-    assert (check.verdict, check.margin, check.largest_admissible) == ("accepted", 0, 10)
-
-
 # --- what cannot be decided ------------------------------------------------------------------------
 
 

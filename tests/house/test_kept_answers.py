@@ -9,7 +9,9 @@ from functools import cache
 import pytest
 
 from lyapcheck import store
-from lyapcheck.answers.epsilon import Options, certificates, epsilon, kept, kept_epsilon
+from lyapcheck.answers.epsilon import kept
+from lyapcheck.answers.epsilon.compute import Options, epsilon
+from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary

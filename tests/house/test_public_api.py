@@ -85,10 +85,10 @@ def homes_with_examples():
     """The modules of public names whose documentation has examples."""
     root = Path(lyapcheck.__file__).parent
     names = sorted({home.partition(":")[0] for home in _HOMES.values()})
-    files = {name: root / f"{name.replace('.', '/')}.py" for name in names}
-    return [
-        name for name, file in files.items() if file.is_file() and ">>> " in file.read_text(encoding="utf-8")
+    files = [
+        (name, root / f"{name.replace('.', '/')}{end}") for name in names for end in (".py", "/__init__.py")
     ]
+    return [name for name, file in files if file.is_file() and ">>> " in file.read_text(encoding="utf-8")]
 
 
 def test_gate_table_and_tune_have_examples():

@@ -27,20 +27,18 @@ ROUNDING = ("round", "significant_text")
 TAKING = ("cell", "format")
 """Functions that take such a specification."""
 BESIDE_PROOF = {
-    "answers/bounds.py:_times": "degrees that the user gave, of simulated runs",
-    "answers/gate/friction.py:friction_lines": "rounded up to tenths before",
     "answers/robot/answer.py:data": "the gap of numeric ends, for programs",
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
 SEEN = {
-    "answers/epsilon/answer.py:data": "seconds of computing",
-    "answers/epsilon/answer.py:_every": "seconds of computing",
+    "answers/epsilon/__init__.py:data": "seconds of computing",
+    "answers/epsilon/__init__.py:_every": "seconds of computing",
     "answers/robot/answer.py:data": "the gap of numeric ends",
     "answers/robot/answer.py:states": "the angles of a witness, whole in the data",
     "answers/tune/response/trial.py:__post_init__": "the largest value that may be asked",
-    "answers/simulate/simulation.py:motion": "times that the user gave or that were reached",
-    "answers/simulate/simulation.py:plain": "simulated",
-    "answers/simulate/simulation.py:row": "angles that the user gave",
+    "answers/simulate/__init__.py:motion": "times that the user gave or that were reached",
+    "answers/simulate/__init__.py:plain": "simulated",
+    "answers/simulate/__init__.py:row": "angles that the user gave",
     "answers/simulate/samples.py:quantities": "simulated",
     "answers/simulate/runs.py:module": "the band of settling, and what was simulated",
     "answers/simulate/runs.py:_falls": "simulated",
@@ -48,10 +46,7 @@ SEEN = {
     "answers/simulate/starts.py:module": "quantiles",
     "answers/simulate/starts.py:_task": "angles and times that the user gave",
     "answers/simulate/tracking.py:module": "simulated",
-    "answers/simulate/simulation.py:by_joint": "the band that the user gave",
-    "answers/tune/answer.py:effect_section": "simulated",
-    "answers/tune/answer.py:_six": "simulated",
-    "answers/tune/answer.py:module": "simulated",
+    "answers/simulate/__init__.py:by_joint": "the band that the user gave",
     "answers/tune/response/answer.py:document": "a share that the user gave",
     "answers/tune/response/answer.py:_missed_in_motions": "the time of a simulated motion",
     "answers/tune/response/answer.py:_angles": "angles that the user gave",

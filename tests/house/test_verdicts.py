@@ -21,12 +21,12 @@ HEADING, SORTING, COLOURS = "a heading or a label", "an order in which verdicts 
 CERTIFICATE = "a certificate, which recheck judges"
 GATHERED = "gathered from the verdicts of checks"
 SAID = {
-    "answers.bounds.answer": (1, CERTIFICATE),
-    "answers.check.proof": (5, "an order of verdicts, and a word that promises alone may say"),
+    "answers.bounds": (1, CERTIFICATE),
+    "answers.check": (5, "an order of verdicts, and a word that promises alone may say"),
     "answers.export": (2, "a word that promises alone may say"),
-    "answers.epsilon.answer": (4, "headings, and a sentence that promises alone may say"),
+    "answers.epsilon": (4, "headings, and a sentence that promises alone may say"),
     "answers.epsilon.kept": (5, f"{CERTIFICATE}, and what the checker said when it was taken"),
-    "answers.gate.answer": (1, GATHERED),
+    "answers.gate": (1, GATHERED),
     "answers.gate.document": (4, SORTING),
     "answers.gate.judge": (2, GATHERED),
     "answers.gate.words": (1, "the word of a check that is accepted, said by its promise"),

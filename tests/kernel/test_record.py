@@ -3,7 +3,7 @@
 import json
 from dataclasses import replace
 
-from lyapcheck.answers.check.proof import ClaimResult
+from lyapcheck.answers.check import ClaimResult
 from lyapcheck.check.certificate import certificate_of
 from lyapcheck.check.kinds.stability import Property
 from lyapcheck.claims.decision import Decision

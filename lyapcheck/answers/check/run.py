@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck._types import Progress, silent
-from lyapcheck.answers.assumed import assumed_line
+from lyapcheck.answers import assumed_line
 from lyapcheck.answers.check import ClaimResult, ProofResult
 from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About, digest_of

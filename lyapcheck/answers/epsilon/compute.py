@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import asked
 from lyapcheck._types import SEED, Progress, part, silent
-from lyapcheck.answers.epsilon.answer import FINDINGS, EpsilonResult
+from lyapcheck.answers.epsilon import FINDINGS, EpsilonResult
 from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, StateWitness, statement_of
 from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.check.loop.states import confirms_positive

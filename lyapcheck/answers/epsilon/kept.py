@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck import store
 from lyapcheck._types import Progress, silent
-from lyapcheck.answers.epsilon.answer import EpsilonResult
+from lyapcheck.answers.epsilon import EpsilonResult
 from lyapcheck.answers.epsilon.compute import Options, by_forms, four, put_together
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About

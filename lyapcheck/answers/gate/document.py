@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.assumed import arm_words, assumed_line, file_words
-from lyapcheck.answers.gate.answer import accepting, proved_otherwise, remarks, without_19
+from lyapcheck.answers import arm_words, assumed_line, file_words
+from lyapcheck.answers.gate import accepting, proved_otherwise, remarks, without_19
 from lyapcheck.answers.gate.friction import farthest, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
@@ -19,7 +19,7 @@ from lyapcheck.output.fields import table
 from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.gate.answer import GateAnswer
+    from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.answers.gate.friction import Fact
 
 NAMED = "!"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.assumed import arm_words, assumed_line
+from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text

@@ -9,7 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.running import running_sentences
-from lyapcheck.answers.simulate.simulation import (
+from lyapcheck.answers.simulate import (
     BREACH,
     Simulation,
     accuracy,

@@ -8,9 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lyapcheck.answers.simulate.runs import SETTLED
-from lyapcheck.answers.simulate.samples import quantities
-from lyapcheck.answers.simulate.simulation import (
+from lyapcheck.answers.simulate import (
     BREACH,
     Simulation,
     breach_record,
@@ -20,6 +18,8 @@ from lyapcheck.answers.simulate.simulation import (
     plains,
     row,
 )
+from lyapcheck.answers.simulate.runs import SETTLED
+from lyapcheck.answers.simulate.samples import quantities
 from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Bullets, Section, Table
 from lyapcheck.output.fields import Field, records

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from lyapcheck.answers.simulate.simulation import (
+from lyapcheck.answers.simulate import (
     BREACH,
     Simulation,
     accuracy,

@@ -191,7 +191,7 @@ Options = Mapping[str, Any]
 
 def _gate(questions: Sequence[Question], known: UncertainArm, options: Options) -> Iterator[Answered]:
     """Whether each gain set is accepted, with the least margin as a share of its limit."""
-    from lyapcheck.answers.gate.answer import GateAnswer
+    from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.answers.gate.certificates import running_certificates, whole
     from lyapcheck.answers.gate.judge import judged_sets
     from lyapcheck.control.conditions import UNDECIDED
@@ -225,9 +225,9 @@ def _gate(questions: Sequence[Question], known: UncertainArm, options: Options) 
 
 def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answered:
     """The four ε₀, over all ranges where there are some: ``proved`` if one is certified."""
-    from lyapcheck.answers.epsilon import Options as Asked
-    from lyapcheck.answers.epsilon import certificates, kept_epsilon
-    from lyapcheck.answers.epsilon.answer import FIELDS, exact
+    from lyapcheck.answers.epsilon import FIELDS, exact
+    from lyapcheck.answers.epsilon.compute import Options as Asked
+    from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
     from lyapcheck.output.fields import data
 
     assert question.gains is not None
@@ -260,8 +260,8 @@ def _said(promise: Any) -> str:
 
 def _simulate(question: Question, known: UncertainArm, options: Options) -> Answered:
     """One run, and one at each corner that is tried; the slowest of them counts. Observed, never proved."""
+    from lyapcheck.answers.simulate import Unfinished
     from lyapcheck.answers.simulate.runs import SetPointRuns
-    from lyapcheck.answers.simulate.simulation import Unfinished
     from lyapcheck.robots.vary import corners, corners_text
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed

@@ -61,7 +61,7 @@ def run(
     """
     from dataclasses import replace
 
-    from lyapcheck.answers.check.proof import ALL, FAILED, SHORT
+    from lyapcheck.answers.check import ALL, FAILED, SHORT
     from lyapcheck.answers.check.run import run_proof
     from lyapcheck.claims.decision import ContradictionError
     from lyapcheck.errors import argument_error

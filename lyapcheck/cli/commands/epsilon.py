@@ -15,7 +15,8 @@ from lyapcheck.errors import argument_error
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.epsilon import EpsilonResult, Options
+    from lyapcheck.answers.epsilon import EpsilonResult
+    from lyapcheck.answers.epsilon.compute import Options
     from lyapcheck.cli.parser import Parser
     from lyapcheck.control.gains import GainFile, GainSet
     from lyapcheck.robots import RobotModel
@@ -86,8 +87,9 @@ def run(
     chosen = _chosen(gain_file, m)
     require_joints([gain_file], model)
     folder = certificate_folder(certificates)
-    from lyapcheck.answers.epsilon import EpsilonResults, Options
-    from lyapcheck.answers.epsilon import certificates as certificates_of
+    from lyapcheck.answers.epsilon import EpsilonResults
+    from lyapcheck.answers.epsilon.compute import Options
+    from lyapcheck.answers.epsilon.kept import certificates as certificates_of
 
     ranges = ranges or spread is not None or bool(ranged)
     options = Options(ranges=ranges, weights=weights or None, **numbers)
@@ -133,7 +135,7 @@ def _each(
         options: what is asked.
         advance: receives the fraction done.
     """
-    from lyapcheck.answers.epsilon import kept_epsilon
+    from lyapcheck.answers.epsilon.kept import kept_epsilon
     from lyapcheck.robots.vary import outside
 
     results: list[EpsilonResult] = []

@@ -128,7 +128,7 @@ def _subject(m: str, robot: str | None, gains: Path | None) -> Subject:
 
 def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) -> Document:
     """What was found, the worst first, and where to read it."""
-    from lyapcheck.answers.assumed import assumed_line
+    from lyapcheck.answers import assumed_line
     from lyapcheck.report.model import SIGNS
     from lyapcheck.report.verdict import badges, sentences
 

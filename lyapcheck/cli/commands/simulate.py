@@ -39,7 +39,7 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.simulate.runs import SetPointRuns
-    from lyapcheck.answers.simulate.simulation import Simulation, Unfinished
+    from lyapcheck.answers.simulate import Simulation, Unfinished
     from lyapcheck.answers.simulate.starts import RandomStarts
     from lyapcheck.answers.simulate.tracking import TrackingRuns
     from lyapcheck.cli.parser import Parser
@@ -84,7 +84,7 @@ class Job:
 
     def fail(self, gain_set: GainSet, reason: str) -> None:
         """Keep why not all that was asked of a gain set could be found out."""
-        from lyapcheck.answers.simulate.simulation import Unfinished
+        from lyapcheck.answers.simulate import Unfinished
 
         self.unfinished.append(Unfinished(gain_set.name, reason))
 
@@ -103,7 +103,7 @@ class Job:
         """The ε₀ to watch V with, rounded down; 0 where nothing is asked, or none is certified."""
         if not self.certified:
             return self.eps0 or 0.0
-        from lyapcheck.answers.epsilon import epsilon
+        from lyapcheck.answers.epsilon.compute import epsilon
         from lyapcheck.check.numbers.polynomials import Enclosure
 
         progress(0.0, f"{gain_set.name}: what ε₀ is certified")

@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers.assumed import arm_words, assumed_line
+from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.gate.stability import LASALLE, SCALAR
 from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
