@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateResult, gate
     from lyapcheck.answers.sweep import Plan, Rows, read_plan, sweep
     from lyapcheck.answers.table import Table, build_table
+    from lyapcheck.answers.tune import tune as tune_gains
     from lyapcheck.answers.tune.answer import Tuning
     from lyapcheck.answers.tune.targets import Targets
-    from lyapcheck.answers.tune.tuning import tune as tune_gains
     from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
     from lyapcheck.check.numbers.polynomials import Enclosure
     from lyapcheck.check.recheck import gather as read_certificates
@@ -196,7 +196,7 @@ _HOMES = {
     "sweep": "answers.sweep",
     "torque": "tasks",
     "tune_for_targets": "tasks",
-    "tune_gains": "answers.tune.tuning:tune",
+    "tune_gains": "answers.tune:tune",
 }
 """The module of each public name, and its name there if that is another."""
 

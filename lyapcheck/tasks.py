@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck._types import Array, Progress
     from lyapcheck.answers.bounds import Comparisons
     from lyapcheck.answers.export import Export
-    from lyapcheck.answers.tune.response.answer import BenchTuning
+    from lyapcheck.answers.tune.bench import BenchTuning
     from lyapcheck.check.statement import Statement
     from lyapcheck.claims.decision import Decision
     from lyapcheck.control.gains import GainFile, GainSet
@@ -59,8 +59,8 @@ def tune_for_targets(
 
     Soundness: the gate proves stability and torque limits. The motion is simulated.
     """
-    from lyapcheck.answers.tune.response.trial import Trials, Wishes
-    from lyapcheck.answers.tune.response.tuning import tune_for
+    from lyapcheck.answers.tune.trial import Trials, Wishes
+    from lyapcheck.answers.tune.search import tune_for
     from lyapcheck.robots import load
 
     wishes = Wishes(overshoot, settle, peak_share, rest_error)

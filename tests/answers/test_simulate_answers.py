@@ -17,8 +17,7 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.answers.simulate import Simulation, Unfinished
 from lyapcheck.answers.simulate.runs import SetPointRuns
-from lyapcheck.answers.simulate.samples import starts_csv
-from lyapcheck.answers.simulate.starts import RandomStarts
+from lyapcheck.answers.simulate.starts import RandomStarts, starts_csv
 from lyapcheck.answers.simulate.tracking import TrackingRuns
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.output.answer import JUDGED_FORMATS, Level

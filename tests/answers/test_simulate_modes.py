@@ -242,7 +242,7 @@ def test_v_falls_with_the_eps0_that_is_certified(tmp_path):
 
 def test_a_certified_eps0_is_asked_for_each_gain_set(single, monkeypatch):
     """0.5 for the gain set of the file; and none at all is said, not passed over."""
-    import lyapcheck.answers.epsilon as gain_range
+    import lyapcheck.answers.epsilon.compute as gain_range
 
     def found(gain_set, model, **options):
         return SimpleNamespace(certified=Fraction(1, 2) if options["max_boxes"] else None)

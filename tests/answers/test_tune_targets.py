@@ -15,12 +15,11 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune.bench import BenchTuning, Candidate
 from lyapcheck.answers.tune.gain_file import bench_file_text
-from lyapcheck.answers.tune.response.answer import BenchTuning, Candidate
-from lyapcheck.answers.tune.response.search import Search
-from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried
-from lyapcheck.answers.tune.response.tuning import accepted, tune_for
-from lyapcheck.answers.tune.tuning import arm_limits
+from lyapcheck.answers.tune.search import Search, accepted, tune_for
+from lyapcheck.answers.tune.targets import arm_limits
+from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import varied_limits

@@ -6,9 +6,9 @@ import numpy as np
 from scipy.optimize import differential_evolution
 
 from lyapcheck import robots
-from lyapcheck.answers.tune.response.search import BRIEFLY, Search
-from lyapcheck.answers.tune.response.trial import Trials, Wishes, tried, tried_all
-from lyapcheck.answers.tune.tuning import arm_limits
+from lyapcheck.answers.tune.search import BRIEFLY, Search
+from lyapcheck.answers.tune.targets import arm_limits
+from lyapcheck.answers.tune.trial import Trials, Wishes, tried, tried_all
 from lyapcheck.simulate.task import task_for
 
 from .measure import ROOT

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import gate, robots
-from lyapcheck.answers.tune.response.trial import Trials, Wishes, tried
+from lyapcheck.answers.tune.trial import Trials, Wishes, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.errors import InputError
 from lyapcheck.robots.numeric import NumericModel

@@ -92,7 +92,7 @@ def homes_with_examples():
 
 
 def test_gate_table_and_tune_have_examples():
-    assert {"answers.table", "answers.tune.tuning", "answers.tune.targets", "answers.explain"} <= set(
+    assert {"answers.table", "answers.tune", "answers.tune.targets", "answers.explain"} <= set(
         homes_with_examples()
     )
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune.response.trial import Trials, Wishes
-from lyapcheck.answers.tune.response.tuning import tune_for
+from lyapcheck.answers.tune.search import tune_for
+from lyapcheck.answers.tune.trial import Trials, Wishes
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.limits import varied_limits
 from lyapcheck.errors import InputError

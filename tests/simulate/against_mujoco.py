@@ -18,9 +18,9 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.answers.tune.response.search import Search
-from lyapcheck.answers.tune.response.trial import BY_PROOF, Trials, Wishes
-from lyapcheck.answers.tune.tuning import arm_limits
+from lyapcheck.answers.tune.search import Search
+from lyapcheck.answers.tune.targets import arm_limits
+from lyapcheck.answers.tune.trial import BY_PROOF, Trials, Wishes
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.sampling import LoopRecord

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.answers.simulate.samples import runs_csv
+from lyapcheck.answers.simulate import runs_csv
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.simulate.closed_loop import closed_loop, simulate

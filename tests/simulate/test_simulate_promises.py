@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
+from lyapcheck.answers.simulate import runs_csv
 from lyapcheck.answers.simulate.runs import SetPointRuns
-from lyapcheck.answers.simulate.samples import runs_csv
 from lyapcheck.check.loop.states import State, confirms_positive
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.control.gains import paper_gain_file, read_gain_file

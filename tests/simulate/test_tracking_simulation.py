@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.answers.simulate.samples import runs_csv
+from lyapcheck.answers.simulate import runs_csv
 from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError

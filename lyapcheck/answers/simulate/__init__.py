@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
@@ -13,6 +15,7 @@ from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
+from lyapcheck.output.escapes import csv_text
 from lyapcheck.output.fields import Field
 from lyapcheck.verdicts import Exit
 
@@ -290,3 +293,50 @@ def degrees(values: Iterable[float]) -> list[float | None]:
 def row(values: Iterable[float]) -> str:
     """Numbers in parentheses."""
     return f"({', '.join(shown(value, 'g') for value in values)})"
+
+
+# --- The samples of runs as comma-separated values, with units in the header.
+
+
+TRACKING = "tracking"
+SIGNALS = (("q", "rad", "q"), ("w", "rad/s", "w"), ("e", "rad", "e"), ("tau", "N.m", "tau"))
+"""Angles, rates, errors, torques of each joint, by their names in a `Motion`."""
+TRACKING_SIGNALS = (
+    *(("q", "rad", "q"), ("qd", "rad", "goal"), ("e", "rad", "e")),
+    *(("v", "rad/s", "velocity"), ("vd", "rad/s", "speed"), ("tau", "N.m", "tau")),
+)
+"""Angles, reference, errors, rates, rates of the reference, torques."""
+
+
+def runs_csv(runs: Sequence[Motion]) -> str:
+    """The samples of runs on one arm: gain set, whether its run is complete, t, q, w, e, tau, V, dV.
+
+    Of tracking runs see `TRACKING_SIGNALS`; then also the bound that dV must not exceed, empty without one.
+    Every number is the shortest decimal that reads back as the same double. A run that was cut short says
+    ``no`` under ``complete`` and ends with the last sample it reached.
+    """
+    tracking = any(run.kind == TRACKING for run in runs)
+    signals = TRACKING_SIGNALS if tracking else SIGNALS
+    import numpy as np
+
+    n = len(runs[0].joints) if runs else 0
+    each = [f"{signal}{i} [{unit}]" for signal, unit, _ in signals for i in range(1, n + 1)]
+    head = ["gains", "complete", "t [s]", *each, "V [J]", "dV [W]", *(["bound [W]"] if tracking else [])]
+    rows: list[list[str]] = []
+    for run in runs:
+        table = np.column_stack((run.t, *(getattr(run, name) for *_, name in signals), run.V, run.dV))
+        known = getattr(run, "bound", None)
+        bound = [""] * run.t.size if known is None else map(repr, known.tolist())
+        names = csv_text(run.name), "yes" if run.complete else "no"
+        for sample, last in zip(table.tolist(), bound, strict=True):
+            rows.append([*names, *map(repr, sample), *([last] if tracking else [])])
+    return csv_of(head, rows)
+
+
+def csv_of(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """Lines of comma-separated values."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows(rows)
+    return text.getvalue()

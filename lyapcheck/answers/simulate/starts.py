@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from lyapcheck._types import Array
 from lyapcheck.answers.simulate import (
     BREACH,
     Simulation,
     breach_record,
+    csv_of,
     degrees,
     lower,
     plain,
@@ -19,14 +22,53 @@ from lyapcheck.answers.simulate import (
     row,
 )
 from lyapcheck.answers.simulate.runs import SETTLED
-from lyapcheck.answers.simulate.samples import quantities
 from lyapcheck.output.digits import shown
 from lyapcheck.output.document import Bullets, Section, Table
+from lyapcheck.output.escapes import csv_text
 from lyapcheck.output.fields import Field, records
 from lyapcheck.simulate.many import SHARES, Sweep, quantiles
 
 QUANTILES = tuple("least" if s == 0 else "most" if s == 1 else f"{100 * s:g} %" for s in SHARES)
 WITHOUT = "Of each quantity: its quantiles over the runs, and how many runs are without it."
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """One index of every run.
+
+    Args:
+        name: with the joint and the unit.
+        values: (R,), NaN where a run has none.
+        form: how a number of it is shown.
+    """
+
+    name: str
+    values: Array
+    form: str
+
+    @property
+    def without(self) -> int:
+        """How many runs have no such number."""
+        return int(np.count_nonzero(~np.isfinite(self.values)))
+
+
+def quantities(result: Sweep) -> list[Quantity]:
+    """L2, then each index joint by joint."""
+    runs = result.runs
+    tables = (
+        ("settling [s]", runs.settling, "z.3f"),
+        ("overshoot [%]", runs.overshoot, "z.2f"),
+        ("peak torque [N·m]", runs.peak_torque, "z.2f"),
+        ("final error [°]", runs.final_error, "z.4f"),
+    )
+    return [
+        Quantity("L2 [°]", runs.L2, ".4f"),
+        *(
+            Quantity(f"{joint} {name}", table[:, i], form)
+            for name, table, form in tables
+            for i, joint in enumerate(result.joints)
+        ),
+    ]
 
 
 FIELDS = (
@@ -122,3 +164,17 @@ def _task(one: Sweep) -> str:
 
 def _count(flags: np.ndarray[Any, np.dtype[np.bool_]]) -> int:
     return int(np.count_nonzero(flags))
+
+
+def starts_csv(sweeps: Sequence[Sweep]) -> str:
+    """One row a run from a random start: its start, whether it is complete, and its indices."""
+    if not sweeps:
+        return csv_of(["gains", "run", "complete"], ())
+    starts = [f"q{i + 1}(0) [rad]" for i in range(len(sweeps[0].joints))]
+    indices = [csv_text(one.name) for one in quantities(sweeps[0])]
+    rows: list[list[object]] = []
+    for result in sweeps:
+        table = np.column_stack((result.q0, *(one.values for one in quantities(result)))).tolist()
+        for number, (sample, whole) in enumerate(zip(table, result.runs.complete, strict=True), start=1):
+            rows.append([csv_text(result.name), number, "yes" if whole else "no", *map(repr, sample)])
+    return csv_of(["gains", "run", "complete", *starts, *indices], rows)

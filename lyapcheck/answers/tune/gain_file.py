@@ -21,7 +21,7 @@ from lyapcheck.robots.choice import placed
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
-    from lyapcheck.answers.tune.response.answer import BenchTuning, Candidate
+    from lyapcheck.answers.tune.bench import BenchTuning, Candidate
 
 HEAD = """\
 # The largest gains that meet (10p) and (19), with {targets}.

@@ -35,6 +35,7 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.limits import Limits
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.convex import Ended, solved
+from lyapcheck.files.decimals import decimal_text, round_down
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.trig import to_terms
 
@@ -269,3 +270,37 @@ def binding(gain_range: GainRange, kp: int, kv: int) -> tuple[str, str]:
     if not (for_kp and for_kv):
         raise ArithmeticError(f"{kp} and {kv} units are not the largest gains")
     return for_kp, for_kv
+
+
+def obstacle(gain_range: GainRange, joint: int, limits: Limits, targets: Targets) -> str:
+    """Why a joint with positive limits still has no gains; empty where it has."""
+    name, unit = limits.joints[joint], gain_range.unit
+    if min(gain_range.most_kv, gain_range.most_sum - 1) < 1:
+        return f"{name}: {targets.digits} decimal places are too few for gains this small; raise --digits"
+    if gain_range.least_kv > gain_range.most_kv:
+        return (
+            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} breaks (19), which admits k_v ≤ "
+            f"{decimal_text(gain_range.most_kv * unit)}; lower --kv-min"
+        )
+    if gain_range.least_kv >= gain_range.most_sum:
+        return (
+            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} leaves no room for k_p, "
+            f"as (10p) admits k_p + k_v ≤ {decimal_text(gain_range.most_sum * unit)}; "
+            f"{_less_damping(joint, limits, targets)}"
+        )
+    if gain_range.most_kp(gain_range.kv_range[1]) < 1:
+        return (
+            f"{name}: the damping ratio needs k_p below one unit of the last digit; lower --damping or "
+            "raise --digits"
+        )
+    return ""
+
+
+def _less_damping(joint: int, limits: Limits, targets: Targets) -> str:
+    if targets.kv_min is not None:
+        return "lower --kv-min or --kv-share"
+    torque, friction = limits.torque[joint], limits.viscous_min
+    if torque is None or friction is None:
+        return "lower --kv-share"
+    share = round_down((torque - limits.gravity[joint]) / friction, 2)
+    return f"lower --kv-share below {decimal_text(share)}" if share > 0 else "lower --kv-share"

@@ -1,4 +1,4 @@
-"""What a user asks of tuned gains beyond the arm's limits."""
+"""What a user asks of tuned gains, and what the limits of an arm leave to any."""
 
 from __future__ import annotations
 
@@ -6,10 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from lyapcheck.control.gains import Bounds, GainFile, GainSet
+from lyapcheck.control.limits import Limits, limits_for, varied_limits
 from lyapcheck.errors import InputError, Problem
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, round_down
+from lyapcheck.robots.choice import split
+
+if TYPE_CHECKING:
+    from lyapcheck.robots.vary import Vary
 
 MOST_DIGITS = 12
 Number = int | str | Fraction | Decimal
@@ -136,3 +142,75 @@ def _complaints(option: str, values: Sequence[Fraction], top: Fraction | None, n
     if top is not None and max(values) > top:
         return [Problem("argument", None, option, shown, "is a share, at most 1", "write for instance 0.8")]
     return []
+
+
+# --- What the limits of an arm leave to gains, and why there may be none.
+
+
+def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[Vary, ...] = ()) -> Limits:
+    """The limits that the gate would judge gains for this arm by.
+
+    Args:
+        robot: a built-in arm, or the path of an arm file.
+        n: its number of joints.
+        bounds: limits to take instead of the arm's.
+        varies: ranges that the limits are to hold for.
+    """
+    ones = (Fraction(1),) * n
+    arms = {robot: varied_limits(robot, varies)} if varies else None
+    return limits_for(
+        GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds or Bounds()), None, arms
+    )
+
+
+def unknown(limits: Limits) -> list[str]:
+    """What is not known of the arm and has to be given."""
+    result = [
+        f"{name}: the arm has no torque limit for this joint; give --torque"
+        for name, torque in zip(limits.joints, limits.torque, strict=True)
+        if torque is None
+    ]
+    if limits.viscous_min is None:
+        result.append("the arm has no viscous friction; give --viscous-min")
+    return result
+
+
+def impossible(limits: Limits) -> list[str]:
+    """Limits that leave nothing to any gain, whatever the member of the family."""
+    result = []
+    for name, torque, gravity in zip(limits.joints, limits.torque, limits.gravity, strict=True):
+        if torque is not None and torque <= gravity:
+            result.append(
+                f"{name}: the torque limit of {decimal_text(torque)} N·m is not above the gravity torque of "
+                f"{decimal_text(round_down(gravity, 6))} N·m, so (10p) admits no gain; take a stronger "
+                "motor, a lighter arm or a larger --peak-share"
+            )
+    if limits.viscous_min is not None and limits.viscous_min <= 0:
+        result.append(
+            f"λmin(B) is 0, so (19) admits no k_v: {_without_friction(limits)}; measure the friction and "
+            f"{_state_it(limits)}, or give --viscous-min, or give targets, such as --overshoot 5: stability "
+            "by LaSalle's theorem needs none"
+        )
+    return result
+
+
+def _without_friction(limits: Limits) -> str:
+    """The joints whose viscous friction may be 0, and where to state another."""
+    model = limits.model
+    if model is None:
+        return "the viscous friction of a joint is not known"
+    said: dict[str, list[str]] = {}
+    for joint, number in zip(model.joints, model.viscous, strict=True):
+        if number.bounds[0] <= 0:
+            told = "is not known" if number.assumed else "is 0 in the file"
+            said.setdefault("may be 0 in its range" if number.value > 0 else told, []).append(joint)
+    return ", ".join(f"the viscous friction of {', '.join(of)} {what}" for what, of in said.items())
+
+
+def _state_it(limits: Limits) -> str:
+    """How to state friction in an arm file."""
+    if not split(limits.robot)[0].endswith(".toml") and "." in limits.robot:
+        return "state it in an arm file that names this URDF, as viscous = … of the joint under [[joints]]"
+    return (
+        "state it in the arm file as viscous = … of the joint, under [[joints]] where that names a URDF file"
+    )

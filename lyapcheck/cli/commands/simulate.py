@@ -177,7 +177,7 @@ def spread_out(job: Job, task: Task, starts: Starts, unsampled: bool) -> RandomS
 
 def plot_run(run: Motion, place: Path) -> None:
     """The samples of a run, and as figures its errors, torques and V; of a tracking run also its angles."""
-    from lyapcheck.answers.simulate.samples import runs_csv
+    from lyapcheck.answers.simulate import runs_csv
     from lyapcheck.report.plots import drawn, png, svg
 
     stem = file_stem(run.name)
@@ -254,7 +254,8 @@ def run(
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
       lyapcheck simulate gains.toml --eps0 1 --certificates breaches/
     """
-    from lyapcheck.answers.simulate.samples import runs_csv, starts_csv
+    from lyapcheck.answers.simulate import runs_csv
+    from lyapcheck.answers.simulate.starts import starts_csv
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners, corners_text, outside
     from lyapcheck.simulate.reference import read_reference

@@ -19,8 +19,8 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck.answers.tune.answer import Tuning
-    from lyapcheck.answers.tune.response.answer import BenchTuning
-    from lyapcheck.answers.tune.response.trial import Trials
+    from lyapcheck.answers.tune.bench import BenchTuning
+    from lyapcheck.answers.tune.trial import Trials
     from lyapcheck.cli.parser import Parser
     from lyapcheck.robots import RobotModel
 
@@ -109,9 +109,9 @@ def run(
       lyapcheck tune arm.toml --overshoot 10 --settle 2 --runs 16 --rate 1000
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
-    from lyapcheck.answers.tune.response.tuning import tune_for
+    from lyapcheck.answers.tune.search import tune_for
     from lyapcheck.answers.tune.targets import Targets
-    from lyapcheck.answers.tune.tuning import tune
+    from lyapcheck.answers.tune import tune
     from lyapcheck.control.gains import Bounds
     from lyapcheck.robots import load
     from lyapcheck.robots.dynamics import FEW_JOINTS
@@ -195,7 +195,7 @@ def _trials_of(robot: str, model: RobotModel, wishes: dict[str, float], options:
     Raises:
         InputError: a target or an angle that cannot be used.
     """
-    from lyapcheck.answers.tune.response.trial import Trials, Wishes
+    from lyapcheck.answers.tune.trial import Trials, Wishes
     from lyapcheck.simulate.results import LEAST_STEP
 
     quantile, goals, runs = options["quantile"], options["goal"], options["runs"]

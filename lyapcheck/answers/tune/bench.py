@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.gate.stability import LASALLE, SCALAR
 from lyapcheck.answers.running import running_sentences
-from lyapcheck.answers.tune.response.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
+from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.sampling import record_of, time_text

@@ -1,1 +1,0 @@
-"""Gains for a wanted response: overshoot, settling, torque, rest; searched, tried, confirmed by the gate."""
