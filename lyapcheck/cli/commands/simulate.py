@@ -38,8 +38,8 @@ from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.answers.simulate import Simulation, Unfinished
+    from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.answers.simulate.starts import RandomStarts
     from lyapcheck.answers.simulate.tracking import TrackingRuns
     from lyapcheck.cli.parser import Parser
