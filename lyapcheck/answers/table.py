@@ -9,13 +9,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from lyapcheck.answers import arm_words
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
-from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants, precision, to_arb
+from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
@@ -23,16 +22,15 @@ from lyapcheck.control.gains import PRINTED_GAMMA
 from lyapcheck.family.members.hyperbolic import gamma_less_than
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import correct_digits, decimals
+from lyapcheck.output.digits import correct_digits, decimals, ends
 from lyapcheck.output.document import Bullets, Document, command
-from lyapcheck.output.document import Table as Cells
 from lyapcheck.output.fields import Field, data, table
 
 TITLE = "Constants of h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x)"
 LEGEND = "γ = sup h_m, ρ = sup |h_m'|, L = sup h_m(x)/x. Digits are cut off, not rounded."
 CONSTANTS = {"gamma": "γ", "rho": "ρ", "L": "L", "gamma_at": "x of γ", "rho_at": "x of ρ", "L_at": "x of L"}
 ENDS = ("lower", "upper")
-INFINITY, NONE = "∞", "none"
+INFINITY = "∞"
 
 LIMITS = (
     "For m → ∞: γ → √2, ρ = m − 1/2 + O(1/m), L → √2/asinh 1 = 1.6045…; "
@@ -42,23 +40,11 @@ GROWS = (
     "As m grows h goes flat at 0, like x^(2m−1), and γ rises: less torque near the goal, a slower end, "
     "farther rest under dry friction, and less k_p within (10p); lyapcheck simulate shows it in runs."
 )
-_GUARD_DIGITS, _GUARD_BITS = 6, 32
+_GUARD_DIGITS = 6
 PROOF = "table"
 PRECISIONS = (128, 512, 2048)
 """Bits."""
 FUNCTIONS = {"gamma": "h", "rho": "dh"}
-
-
-@dataclass(frozen=True)
-class Budget:
-    """What an arm leaves to k_p + k_v: (τmax − k_g)/(√n γ) of each joint, N·m, a tuple a row of the table.
-
-    ``None`` where a joint has no torque limit, or none above its gravity torque.
-    """
-
-    robot: str
-    joints: tuple[str, ...]
-    rows: tuple[tuple[Enclosure | None, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -68,72 +54,39 @@ class Table(Answer):
     Args:
         digits: number of printed digits. The enclosures are tighter.
         rows: the constants of each member.
-        budget: the largest gains within the torque limits of an arm.
     """
 
     schema = "lyapcheck/table/1"
 
     digits: int
     rows: tuple[Constants, ...]
-    budget: Budget | None = None
 
     def document(self) -> Document:
-        """What was asked for of the constants, all digits correct; the rest with -v."""
-        members = table(self._fields, [(row,) for row in self.rows])
-        first, *others = [one for one in (self._budget(), members) if one is not None]
+        """The constants, all digits correct."""
         printed = tuple(self._printed())
         return Document(
             TITLE,
-            (first, *([Bullets(printed)] if printed else [])),
-            tuple(self._notes()),
+            (table(self._fields, [(row,) for row in self.rows]), *([Bullets(printed)] if printed else [])),
+            (LIMITS, *([GROWS] if any(row.m > 1 for row in self.rows) else [])),
             (LEGEND,),
-            tuple(others),
-            next=self._next(),
+            next=command("tune", "buap3", "--m", self.rows[0].m if self.rows else 1),
         )
-
-    def _next(self) -> str:
-        member = self.rows[0].m if self.rows else 1
-        if self.budget is None:
-            return command("table", "--m", member, "--robot", "buap3")
-        return command("tune", *arm_words(self.budget.robot), "--m", member)
 
     def data(self) -> dict[str, Any]:
         """``rows: [{m, gamma: {lower, upper}, …}]``, decimal strings that enclose; ``None`` at infinity."""
-        head: dict[str, Any] = {"digits": self.digits}
-        if self.budget is not None:
-            head["robot"] = self.budget.robot
-        return head | {"rows": [self._row(index) for index in range(len(self.rows))]}
+        return {"digits": self.digits, "rows": [data(self._fields, row) for row in self.rows]}
 
     def records(self) -> list[dict[str, Any]]:
-        """A row an m; the budget of each joint under its name."""
-        rows = []
-        for row in self.data()["rows"]:
-            budget = {
-                limit["joint"]: limit["limit"] or dict.fromkeys(ENDS) for limit in row.pop("budget", [])
-            }
-            slope, _ = row.pop("slope_at_0"), row.pop("gamma_printed")
-            ends = {name: dict.fromkeys(ENDS) if value is None else value for name, value in row.items()}
-            rows.append({**ends, **({"budget": budget} if budget else {}), "slope_at_0": slope})
-        return rows
+        """A row an m."""
+        rows = (data(self._fields[:-1], row) for row in self.rows)
+        return [{key: dict.fromkeys(ENDS) if of is None else of for key, of in row.items()} for row in rows]
 
     @cached_property
     def _fields(self) -> tuple[Field, ...]:
-        """What is said of a member, whatever else was asked."""
-
+        """What is said of a member; last what the paper prints."""
         constants = (Field(key, key, head, self._cell, self._ends, "l") for key, head in CONSTANTS.items())
         slope = Field("slope_at_0", lambda row: str(slope_at_zero(row.m)), "h′(0)", align="l")
         return Field("m", "m", "m"), *constants, slope, Field("gamma_printed", lambda row: _printed(row.m))
-
-    def _budget(self) -> Cells | None:
-        if self.budget is None:
-            return None
-        rows = [
-            (str(row.m), *(NONE if limit is None else self._cell(limit) for limit in limits))
-            for row, limits in zip(self.rows, self.budget.rows, strict=True)
-        ]
-        title = f"Torque budget of {self.budget.robot}: k_p + k_v < (τmax − k_g)/(√n γ), N·m."
-        heads = ("m", *self.budget.joints)
-        return Cells(heads, tuple(rows), title, "r" + "l" * len(self.budget.joints))
 
     def _printed(self) -> Iterator[str]:
         """What is to be said of each printed γ in the table."""
@@ -141,25 +94,11 @@ class Table(Answer):
             bounds = "an upper bound of h" if printed_bounds(m) else "not an upper bound, h exceeds it"
             yield f"The paper prints γ_{m} = {decimal_text(PRINTED_GAMMA[m])}: {bounds}."
 
-    def _notes(self) -> list[str]:
-        """What is proved about large m."""
-        grows = [GROWS] if any(row.m > 1 for row in self.rows) else []
-        return [LIMITS, *grows]
-
     def _cell(self, value: Enclosure | None) -> str:
         return INFINITY if value is None else correct_digits(value, self.digits)
 
-    def _row(self, index: int) -> dict[str, Any]:
-        result = data(self._fields, self.rows[index])
-        if self.budget is not None:
-            result["budget"] = [
-                {"joint": joint, "limit": self._ends(limit)}
-                for joint, limit in zip(self.budget.joints, self.budget.rows[index], strict=True)
-            ]
-        return result
-
-    def _ends(self, value: Enclosure | None) -> dict[str, str] | None:
-        return None if value is None else dict(zip(ENDS, decimals(value, self.digits), strict=True))
+    def _ends(self, value: Enclosure) -> dict[str, str]:
+        return ends(value, self.digits)
 
 
 def build_table(
@@ -240,29 +179,3 @@ def _shown(statement: NormBound) -> tuple[Accepted, Supremum] | None:
             proof = Supremum(numbers)
             return verify(statement, proof), proof
     return None
-
-
-def torque_budget(robot: str, table: Table) -> Budget:
-    """(τmax − k_g)/(√n γ_m) of each joint and each row of a table, N·m, as tight as the table is.
-
-    A joint without a torque limit, or whose gravity torque reaches it, has ``None``.
-
-    Raises:
-        InputError: no such arm.
-
-    References: the tuning rule of Section 4, reyes2019family.
-    """
-    from lyapcheck.control.limits import arm_limits
-
-    limits = arm_limits(robot)
-
-    def row(gamma: Enclosure) -> Iterator[Enclosure | None]:
-        for torque, gravity in zip(limits.torque, limits.gravity, strict=True):
-            if torque is None or torque <= gravity:
-                yield None
-            else:
-                scale = to_arb(limits.n).sqrt() * gamma.to_arb()
-                yield Enclosure.from_arb(to_arb(torque - gravity) / scale)
-
-    with precision(4 * table.digits + _GUARD_BITS):
-        return Budget(robot, limits.joints, tuple(tuple(row(one.gamma)) for one in table.rows))

@@ -80,6 +80,12 @@ def decimals(number: Enclosure, digits: int) -> tuple[str, str]:
     return scaled_text(low, places), scaled_text(high, places)
 
 
+def ends(number: Enclosure, digits: int) -> dict[str, str]:
+    """The same by their names, for programs."""
+    low, high = decimals(number, digits)
+    return {"lower": low, "upper": high}
+
+
 def correct_digits(number: Enclosure, digits: int) -> str:
     """The leading digits of the number, at most ``digits`` and all correct: cut off, never rounded.
 

@@ -170,7 +170,6 @@ CHECKS = {
 SHORT = "--target 10 --time 0.1"
 COMMANDS = {
     "gate gains.toml": JUDGED_FORMATS,
-    "table --m 1 --robot arm.toml": FORMATS,
     "check scalar.py --m 1 --robot arm.toml --gains one.toml --only h.odd": JUDGED_FORMATS,
     f"simulate gains.toml {SHORT}": JUDGED_FORMATS,
     f"simulate gains.toml {SHORT} --runs 2": JUDGED_FORMATS,

@@ -14,7 +14,7 @@ from tests.helpers.command import invoke
 from tests.helpers.urdf_texts import TWO
 
 GAINS = 'robot = "two.urdf"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.1]\n'
-TAKING = ("robot", "tune", "gate", "epsilon", "bounds", "simulate", "check", "derive", "table", "report")
+TAKING = ("robot", "tune", "gate", "epsilon", "bounds", "simulate", "check", "derive", "report")
 
 
 @pytest.fixture(autouse=True)

@@ -59,7 +59,7 @@ BAD = [
     ("table --format xml", ["--format = xml: is not one of csv, html, json, latex, markdown, text"]),
     ("table --format jsn", ["did you mean json?"]),
     ("table left over", ["table: left: is one argument too many", "over: is one argument too many"]),
-    ("table --digit 3 --robo buap3", ["did you mean --digits?", "did you mean --robot?"]),
+    ("table --digit 3 --certificate c", ["did you mean --digits?", "did you mean --certificates?"]),
     ("recheck --kernel=yes", ["--kernel: ignored explicit argument 'yes'"]),
     ("gate", ["lyapcheck gate: arguments: the following arguments are required: FILE...;"]),
     ("gate TABLE2 --rate 1e-30", ["--rate = 1e-30: must be between 1e-15 and 1e15 in size"]),

@@ -55,7 +55,7 @@ def base_lines(folder, arm, m=1):
         "gate": f"gate {gains}",
         "robot": f"robot {arm} --max-boxes 20",
         "simulate": f"simulate {gains} --target={goal} --time 0.05",
-        "table": f"table --m {m} --robot {arm}",
+        "table": f"table --m {m}",
         "tune": f"tune {arm} --m {m}",
         TARGETED: f"tune {arm} --m {m} --overshoot 50 --stability 19",
     }

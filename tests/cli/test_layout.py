@@ -32,7 +32,6 @@ ASKED = {
     "bounds, several sets": ("bounds", TABLE2, "--time", "1"),
     "sweep": ("sweep", "plan.toml", "--jobs", "1"),
     "table": ("table", "--m", "1:3"),
-    "table, of an arm": ("table", "--m", "1:3", "--robot", "buap3"),
     "recheck": ("recheck", str(ROOT / "tests/kernel/certificates/2.1.json")),
     "epsilon": ("epsilon", "gains.toml", "--max-boxes", "40", "--starts", "1"),
     "simulate": ("simulate", "gains.toml"),

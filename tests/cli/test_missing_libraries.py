@@ -29,7 +29,7 @@ ALONE = {
 MORE = {
     "gate mine/gains.toml --format html": 0,
     "gate one.toml --format junit --strict": 1,
-    "table --m 1:3 --robot buap3 --format latex": 0,
+    "table --m 1:3 --format latex": 0,
     f"recheck {GOOD / 'asy.A.rho.m1.json'}": 0,
     "--version": 0,
     "--help": 0,

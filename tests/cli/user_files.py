@@ -29,7 +29,6 @@ COMMANDS = {
     "arm of gate": "gate gains.toml --robot bad.toml",
     "arm of robot": "robot bad.toml",
     "arm of tune": "tune bad.toml",
-    "arm of table": "table --robot bad.toml",
     "arm of report": "report --m 1 --robot bad.toml",
     "URDF file": "robot bad.urdf",
     "URDF file of an arm file": "robot overlay.toml",

@@ -68,7 +68,7 @@ ASKED = {
     "sweep": ("sweep", "plan.toml", "--jobs", "1", "--out", "sweep"),
     "robot": ("robot", "pendulum1"),
     "robot with ranges": ("robot", "buap3", "--max-boxes", "200"),
-    "table": ("table", "--m", "1:3", "--robot", "buap3"),
+    "table": ("table", "--m", "1:3"),
     "check": ("check", "scalar.py", "--m", "1"),
     "check of some": ("check", "scalar.py", "--m", "1", "--only", "arm.theta"),
     "derive": ("derive", "--m", "1,2", "--n", "2"),

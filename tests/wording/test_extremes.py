@@ -39,7 +39,7 @@ QUICK = {
     "tune": "tune pendulum1 --m 1,2",
     "simulate": f"simulate g.toml {SHORT}",
     "starts": f"simulate g.toml {SHORT} --runs 2",
-    "table": "table --m 1,2 --robot pendulum1 --digits 6",
+    "table": "table --m 1,2 --digits 6",
     "check": "check scalar.py --m 1 --only h.odd",
     "robot": "robot pendulum1 --max-boxes 20",
 }

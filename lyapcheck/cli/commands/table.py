@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,8 +21,6 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_members("1:12")
     parser.add_number("--digits", int, "Significant digits.", default=30)
-    about = "Add the largest k_p + k_v that the motors of this arm allow, for each joint."
-    parser.add_robot(about)
     parser.add_certificates("Write the certificates of γ and ρ to this folder")
     parser.add_format(FORMATS)
 
@@ -31,7 +28,6 @@ def arguments(parser: Parser) -> None:
 def run(
     m: str,
     digits: int,
-    robot: str | None,
     certificates: Path | None,
     format: str,  # noqa: A002
 ) -> Exit:
@@ -42,19 +38,17 @@ def run(
 
     Examples:
       lyapcheck table --m 1:3 --digits 50
-      lyapcheck table --m 1,2,5 --robot buap3 --format latex
+      lyapcheck table --m 1,2,5 --format latex
     """
     members = parse_m(m)
     if not 1 <= digits <= _MOST_DIGITS:
         raise argument_error("--digits", digits, f"must be from 1 to {_MOST_DIGITS}", "write --digits 30")
-    from lyapcheck.answers.table import build_table, torque_budget
+    from lyapcheck.answers.table import build_table
     from lyapcheck.answers.table import certificates as certificates_of
 
     folder = certificate_folder(certificates)
     with progress("table", PATIENCE) as advance:
         table = build_table(members, digits, advance)
-    if robot is not None:
-        table = replace(table, budget=torque_budget(robot, table))
     if folder is not None:
         write_certificates(folder, certificates_of(table))
     show(table, format)
