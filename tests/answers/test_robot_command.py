@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.answers.robot import build
-from lyapcheck.answers.robot.answer import RobotReport
+from lyapcheck.answers.robot import RobotReport, build
 from lyapcheck.answers.robot.certified import CertifiedBounds
 from lyapcheck.answers.robot.properties import PropertyResult
 from lyapcheck.check.numbers.polynomials import Enclosure

@@ -210,7 +210,7 @@ def gain_ranges(robot="buap3", m=2, **targets):
         {},
         {"kv_share": (Fraction(1, 3),), "digits": 6},
         {"damping": (Fraction(1, 20),), "kv_share": (Fraction(1, 10),)},
-        {"damping": (Fraction(3, 100),), "kv_min": (Fraction(1, 100),), "digits": 5},
+        {"damping": (Fraction(3, 100),), "digits": 5},
     ],
 )
 def test_the_cone_program_and_exact_search_agree(targets):
@@ -256,7 +256,6 @@ def test_the_share_of_the_peak_torque_stands_in_the_gain_file(tmp_path):
         (("pelican2",), 3, "give --torque"),
         (("buap3", "--torque", "50,40,15"), 2, "not above the gravity torque of 40.28 N·m"),
         (("buap3", "--peak-share", "0.2"), 2, "larger --peak-share"),
-        (("buap3", "--kv-min", "0.3"), 2, "lower --kv-min"),
         (("buap3", "--digits", "0"), 2, "raise --digits"),
         (("buap3", "--damping", "100"), 2, "lower --damping"),
         (("buap3", "--viscous-min", "30"), 2, "lower --kv-share below 0.43"),
@@ -311,7 +310,6 @@ def test_every_bad_option_is_named_in_one_go(tmp_path):
         "--digits": "77",
         "--peak-share": "3",
         "--kv-share": "a,b",
-        "--kv-min": "0",
         "--damping": ",",
         "--torque": "1,2",
         "--gravity": "-1,0,0",
@@ -344,9 +342,9 @@ def test_the_first_line_says_whether_there_are_gains():
     assert second.startswith("  estimated damping ratio")
     assert str(tune("pelican2", [1, 3])).startswith("? pelican2: its limits are not known")
     assert "for m = 1, 3\n" in str(tune("pelican2", [1, 3]))
-    refused = tune("buap3", [2], Targets.of(kv_min=100)).document()
+    refused = tune("buap3", [2], Targets.of(digits=0)).document()
     assert refused.title == "✗ buap3: no gains within (10p) and (19) for m = 2"
-    assert "lower --kv-min" in refused.blocks[0].items[0]
+    assert "raise --digits" in refused.blocks[0].items[0]
 
 
 def test_a_record_is_a_joint():
@@ -359,9 +357,9 @@ def test_a_record_is_a_joint():
 
 
 def test_targets_are_read_as_they_are_written():
-    several = Targets.of(peak_share=["0.8", Decimal("0.9"), 1], kv_min=Fraction(1, 7))
+    several = Targets.of(peak_share=["0.8", Decimal("0.9"), 1], damping=Fraction(1, 7))
     assert several.peak_share == (Fraction(4, 5), Fraction(9, 10), Fraction(1))
-    assert several.kv_min == (Fraction(1, 7),)
+    assert several.damping == (Fraction(1, 7),)
     assert several.kv_share is None
     assert Targets.of() == Targets()
 

@@ -127,7 +127,7 @@ BAD = [
     ("tune buap3 --m 0", ["--m = 0: m must be at least 1"]),
     ("tune buap3 --digits -1", ["--digits = -1: must be from 0"]),
     ("tune buap3 --torque 1,2", ["--torque = 1,2: has 2 values for 3 joints"]),
-    ("tune buap3 --kv-min x", ["--kv-min = x: is not a decimal number"]),
+    ("tune buap3 --kv-share x", ["--kv-share = x: is not a decimal number"]),
     ("tune buap3 --out none/x.toml", ["--out = none/x.toml: there is no directory none"]),
     ("report --m 0", ["--m = 0: m must be at least 1"]),
     ("report --m 1:21", ["a report covers at most 20 members"]),

@@ -27,14 +27,14 @@ ROUNDING = ("round", "significant_text")
 TAKING = ("cell", "format")
 """Functions that take such a specification."""
 BESIDE_PROOF = {
-    "answers/robot/answer.py:data": "the gap of numeric ends, for programs",
+    "answers/robot/numbers.py:data": "the gap of numeric ends, for programs",
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
 SEEN = {
     "answers/epsilon/__init__.py:data": "seconds of computing",
     "answers/epsilon/__init__.py:_every": "seconds of computing",
-    "answers/robot/answer.py:data": "the gap of numeric ends",
-    "answers/robot/answer.py:states": "the angles of a witness, whole in the data",
+    "answers/robot/numbers.py:data": "the gap of numeric ends",
+    "answers/robot/numbers.py:states": "the angles of a witness, whole in the data",
     "answers/tune/trial.py:__post_init__": "the largest value that may be asked",
     "answers/simulate/__init__.py:motion": "times that the user gave or that were reached",
     "answers/simulate/__init__.py:plain": "simulated",

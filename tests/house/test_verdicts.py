@@ -32,7 +32,7 @@ SAID = {
     "answers.gate.words": (1, "the word of a check that is accepted, said by its promise"),
     "answers.gate.certificates": (2, CERTIFICATE),
     "answers.recheck": (2, SORTING),
-    "answers.robot.answer": (3, "a heading, and a word that promises alone may say"),
+    "answers.robot": (3, "a heading, and a word that promises alone may say"),
     "answers.sweep.questions": (3, "the words for the exit codes of answers, and the name of a reason"),
     "claims.decision": (1, "what a fresh process of the checker said"),
     "claims.procedures": (1, "what parts are looked at for"),

@@ -59,7 +59,7 @@ ASKED = {
         *("tune", "arm.toml", "--m", "1:3", "--damping", "0.2", "--kv-share", "0.5", "--peak-share", "0.9"),
         *("--vary", "payload=0..2"),
     ),
-    "tune what cannot be": ("tune", "arm.toml", "--m", "1", "--kv-min", "70"),
+    "tune what cannot be": ("tune", "arm.toml", "--m", "1", "--kv-share", "1", "--viscous-min", "70"),
     "tune to targets": ("tune", "arm.toml", "--m", "1", *TARGETS),
     "tune to targets that are missed": ("tune", "arm.toml", "--m", "1", "--settle", "0.01", "--goal", "45"),
     "sweep": ("sweep", "plan.toml", "--jobs", "1", "--out", "swept"),

@@ -2,19 +2,52 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress
+from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.check.run import proposed_proof
-from lyapcheck.answers.robot.answer import RobotReport
-from lyapcheck.answers.robot.certified import bound_questions, certified
-from lyapcheck.answers.robot.properties import IDS, answered, certificates, print_questions, properties
+from lyapcheck.answers.robot.certified import CertifiedBounds, bound_questions, certified
+from lyapcheck.answers.robot.numbers import (
+    JOINT,
+    NONE,
+    SHORT,
+    Constant,
+    constants_section,
+    inertia_sections,
+    number_data,
+    numbers_table,
+)
+from lyapcheck.answers.robot.properties import (
+    IDS,
+    PropertyResult,
+    answered,
+    certificates,
+    print_questions,
+    properties,
+)
 from lyapcheck.check.verify import each_once
 from lyapcheck.claims.decision import file_name, judge_afresh
-from lyapcheck.constants import arm_constants
-from lyapcheck.robots import RobotModel
-from lyapcheck.verdicts import Verdict
+from lyapcheck.constants import SEED, arm_constants
+from lyapcheck.output.answer import Annotation, Answer, Level
+from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
+from lyapcheck.output.fields import records, table
+from lyapcheck.promise import Promise, all_say, told
+from lyapcheck.verdicts import Exit, Verdict, exit_code
 
+if TYPE_CHECKING:
+    from lyapcheck.certificate import Certificate
+    from lyapcheck.constants import ConstantResult
+    from lyapcheck.robots import RobotModel
+
+RANGES, NOMINAL = "all values of the ranges", "nominal numbers"
+LEVELS = {Verdict.PROVED: Level.PASSED, Verdict.REFUTED: Level.FAILED}
+MARKS = {Verdict.ERROR: "!", Verdict.REFUTED: "✗", Verdict.UNDECIDED: "?"}
+"""From what matters most."""
+ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
+MOST_REMARKS = 3
 MAX_BOXES = 200_000
 """Over the square of the number of joints: the budget that takes a minute or so."""
 
@@ -58,4 +91,234 @@ def build(
         tuple(shown),
         certified(about_bounds, positive),
         {**of_properties, **own},
+    )
+
+
+@dataclass(frozen=True)
+class RobotReport(Answer):
+    """An arm with what was decided and certified about it; ``extent`` says for which of its values.
+
+    Args:
+        model: the arm.
+        properties: 2.1 to 2.8.
+        constants: from both sides, in floating point.
+        prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
+            follow from M and the potential.
+        certified: by the name of a constant its ends that a certificate shows.
+        certificates: of all that is decided, by file name.
+        path: of the file that describes the arm; empty for a built-in one.
+    """
+
+    schema = "lyapcheck/robot/1"
+
+    model: RobotModel
+    properties: tuple[PropertyResult, ...]
+    constants: tuple[ConstantResult, ...]
+    prints: tuple[PropertyResult, ...] = ()
+    certified: Mapping[str, CertifiedBounds] = field(default_factory=dict)
+    certificates: Mapping[str, Certificate] = field(default_factory=dict)
+    path: str = ""
+
+    @property
+    def rows(self) -> list[Constant]:
+        """The constants, each with its certified ends."""
+        known = self.certified
+        return [Constant(one, known.get(one.name, CertifiedBounds()), self.model) for one in self.constants]
+
+    @property
+    def exit_code(self) -> Exit:
+        """0 all properties proved, 1 one refuted, 3 one undecided."""
+        return exit_code(row.verdict for row in self.properties)
+
+    def document(self) -> Document:
+        """The verdicts first, then the constants and what was not proved; in detail all there is."""
+        model = self.model
+        judged = [(f"property {row.id}", row) for row in self.properties]
+        judged += [(row.statement, row) for row in self.prints]
+        wrong = tuple(
+            f"{what}: {row.word}; {evidence(row)}"
+            for what, row in judged
+            if row.verdict is not Verdict.PROVED
+        )
+        wide = (text for row in self.rows for text in row.wide())
+        remarks = (*wrong, *wide, *model.doubts, *model.remarks)
+        left = len(remarks) - MOST_REMARKS
+        said = remarks if left <= 0 else (*remarks[: MOST_REMARKS - 1], f"{left + 1} more remarks: add -v")
+        ends = table(SHORT, [(row,) for row in self.rows], drop=(1, 4))
+        arm = self.path or model.name
+        limits = all(number is not None for number in model.torque_limit)
+        then = ("tune", *arm_words(arm), "--m", "1") if limits else ("robot", *arm_words(arm), "-v")
+        return Document(
+            _title(self),
+            (ends, *([Bullets(said)] if said else [])),
+            lead=_lead(self),
+            details=tuple(_sections(self)),
+            assumed=assumed_line(model, arm),
+            next=command(*then),
+        )
+
+    def data(self) -> dict[str, Any]:
+        """``properties: [{id, verdict, …}], constants: [{name, lower, upper, …}], joints, numbers, …``."""
+        model = self.model
+        return {
+            "robot": model.name,
+            "title": model.title,
+            "n": model.n,
+            "seed": SEED,
+            "properties": [property_data(row, extent(row, model)) for row in self.properties],
+            "prints": [property_data(row, extent(row, model)) for row in self.prints],
+            "constants": [row.data() for row in self.rows],
+            "joints": records(JOINT, model, model.n),
+            "numbers": {name: number_data(number) for name, number in model.numbers.items()},
+            "parameters": list(model.parameters),
+            "assumptions": list(model.assumptions),
+        }
+
+    def records(self) -> list[dict[str, Any]]:
+        """A row a property, a claim about the print, and a constant; ``kind`` says which."""
+        judged = [("property", row) for row in self.properties] + [("print", row) for row in self.prints]
+        entries = [(kind, property_data(row)) for kind, row in judged]
+        rows = [{"kind": kind, **{key: row[key] for key in ROW_KEYS}} for kind, row in entries]
+        for result in (row.data() for row in self.rows):
+            kept = {key: result[key] for key in ("unit", "certified", "numeric", "gap", "q")}
+            rows.append({"kind": "constant", "id": result["name"], **kept, "x": result["x"] or []})
+        return rows
+
+    def annotations(self) -> list[Annotation]:
+        """A case a property; a refuted claim about the print is a remark."""
+        result = [self._annotation(row, LEVELS.get(row.verdict, Level.UNDECIDED)) for row in self.properties]
+        wrong = [row for row in self.prints if row.verdict is not Verdict.PROVED]
+        return [*result, *(self._annotation(row, Level.REMARK) for row in wrong)]
+
+    def _annotation(self, row: PropertyResult, level: Level) -> Annotation:
+        said = "" if level is Level.PASSED else f"{row.word}: {row.statement}; {evidence(row)}"
+        rule = row.id.replace(" ", "-") if level is not Level.REMARK else f"print-{row.id.replace(' ', '-')}"
+        return Annotation(level, rule, row.finding.says(row.statement), self.model.name, "", said, self.path)
+
+
+def uncertain(model: RobotModel) -> bool:
+    """Whether the file gives a range to a number that the properties are about."""
+    return any(number.ranged for number in (*model.parameters.values(), *model.viscous))
+
+
+def extent(row: PropertyResult, model: RobotModel) -> str:
+    """For which arms a decided row holds; empty where nothing is decided, and for an arm without ranges."""
+    if row.finding.certificate is None or not uncertain(model):
+        return ""
+    return NOMINAL if row.over is None else RANGES
+
+
+def together(ids: Sequence[str], every: Sequence[str]) -> str:
+    """Some ids of a list, neighbours as a span: ``2.1, 2.3–2.5``."""
+    spans: list[list[str]] = []
+    for before, name in zip(["", *every], every, strict=False):
+        if name in ids:
+            if before in ids:
+                spans[-1].append(name)
+            else:
+                spans.append([name])
+    return ", ".join(f"{one[0]}–{one[-1]}" if len(one) > 2 else ", ".join(one) for one in spans)
+
+
+def property_data(row: PropertyResult, about: str = "") -> dict[str, Any]:
+    """One property, or a claim about the print, and for which arms it holds where the arm has ranges."""
+    finding = row.finding
+    return {
+        "id": row.id,
+        "statement": finding.says(row.statement),
+        "verdict": row.word,
+        "for": about or None,
+        "grade": finding.grade.label,
+        "method": finding.says(finding.method),
+        "reason": finding.reason,
+        "witness": finding.witness,
+        "evidence": told(finding.promise, finding.evidence),
+    }
+
+
+def evidence(row: PropertyResult) -> str:
+    """What supports the verdict."""
+    finding = row.finding
+    parts = [finding.says(finding.method), finding.reason]
+    if finding.witness is not None:
+        point = ", ".join(f"{name} = {value}" for name, value in finding.witness["point"].items())
+        left, right = (finding.witness[side][0] for side in ("left", "right"))
+        at = f"at {point}: " if point else ""
+        parts.append(f"{at}not {left} {finding.witness['operator']} {right}")
+    return "; ".join(part for part in parts if part)
+
+
+def _title(report: RobotReport) -> str:
+    name = report.model.name
+    for verdict, mark in MARKS.items():
+        result = [row.id for row in report.properties if row.verdict is verdict]
+        if result:
+            ending = "y" if len(result) == 1 else "ies"
+            return f"{mark} {name}: propert{ending} {', '.join(result)} {verdict.value}"
+    every = [row.id for row in report.properties]
+    if not uncertain(report.model):
+        said = all_say(_promises(report), "proved")
+        return f"✓ {name}: properties {together(every, every)} {said}"
+    extents = {row.id: extent(row, report.model) for row in report.properties}
+    ranged, nominal = ([key for key in every if extents[key] == kind] for kind in (RANGES, NOMINAL))
+    said = all_say(_promises(report), "proved")
+    if not nominal:
+        return f"✓ {name}: properties {together(ranged, every)} {said} for {RANGES}"
+    if not ranged:
+        return f"! {name}: properties {together(nominal, every)} {said} at {NOMINAL} only"
+    return f"! {name}: properties {together(ranged, every)} {said} for its ranges"
+
+
+def _lead(report: RobotReport) -> tuple[str, ...]:
+    """What arm it is, and what is shown at its nominal numbers only."""
+    model = report.model
+    about = f"{model.title}; {model.n} joint{'s' if model.n > 1 else ''}"
+    every = [row.id for row in report.properties]
+    nominal = [row.id for row in report.properties if extent(row, model) == NOMINAL]
+    if not nominal or len(nominal) == len(every) or report.exit_code is not Exit.PROVED:
+        return (about,)
+    words = f"{together(nominal, every)} proved at {NOMINAL} only"
+    return about, all_say(_promises(report), words)
+
+
+def _promises(report: RobotReport) -> list[Promise | None]:
+    """One a property: about all ranges where that is shown, else about the nominal numbers."""
+    return [row.over or row.finding.promise for row in report.properties]
+
+
+def _sections(report: RobotReport) -> list[Section]:
+    model = report.model
+    prints = [_judged("As the source prints it", "claim", report.prints, report)] if report.prints else []
+    joints = [Section("Joints", (table(JOINT, [(model, i) for i in range(model.n)]),))]
+    assumed = [Section("Assumed", (Bullets(model.assumptions),))] if model.assumptions else []
+    numbers = [Section("Numbers", (numbers_table(model),))] if model.numbers else []
+    properties = _judged("Properties", "property", report.properties, report)
+    return [
+        properties,
+        *prints,
+        constants_section(report.rows),
+        *joints,
+        *numbers,
+        *assumed,
+        *inertia_sections(model),
+    ]
+
+
+def _judged(title: str, head: str, rows: Sequence[PropertyResult], report: RobotReport) -> Section:
+    """Verdicts with the arms that they are about, then what supports them."""
+    ranged = int(uncertain(report.model))  # a column of its own
+    cells = tuple(
+        (
+            row.id,
+            row.word,
+            *([extent(row, report.model) or NONE] * ranged),
+            row.finding.grade.label,
+            row.finding.says(row.statement),
+        )
+        for row in rows
+    )
+    heads = (head, "verdict", *(["for"] * ranged), "grade", "statement")
+    shown = tuple(f"{row.id}: {evidence(row)}" for row in rows)
+    return Section(
+        title, (Table(heads, cells, align="l" * len(heads)), Paragraph("Shown by:"), Bullets(shown))
     )

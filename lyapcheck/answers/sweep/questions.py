@@ -297,8 +297,7 @@ def _robot(question: Question, known: UncertainArm, options: Options) -> Answere
 
     Over a variation a property that is shown at nominal numbers only is undecided.
     """
-    from lyapcheck.answers.robot import build
-    from lyapcheck.answers.robot.answer import NOMINAL, extent
+    from lyapcheck.answers.robot import NOMINAL, build, extent
 
     report = build(known.model, options["max_boxes"])
     verdict, reason = VERDICTS[report.exit_code], ""

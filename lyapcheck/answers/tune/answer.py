@@ -105,7 +105,7 @@ def _limit(value: Enclosure) -> str:
 
 ASKED = (
     Field("digits", "digits"),
-    *(Field(key, key, to=texts) for key in ("peak_share", "kv_share", "kv_min", "damping")),
+    *(Field(key, key, to=texts) for key in ("peak_share", "kv_share", "damping")),
 )
 TUNED_TO = (
     Field("torque", "torque", to=texts),

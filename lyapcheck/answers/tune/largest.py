@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, floor, isqrt, prod, sqrt
+from math import floor, isqrt, prod, sqrt
 
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.expressions.expression import Tree
@@ -157,14 +157,13 @@ def gain_range_of(
     torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
     dampings = scaled(friction, limits.n, gamma)
     kept = scaled(targets.share_of_kv(joint) * friction, limits.n, gamma).most_units(targets.digits)
-    least = ceil(targets.kv_min[joint] / targets.unit) if targets.kv_min else 0
     return GainRange(
         unit=targets.unit,
         sum_limit=_enclosed(torques),
         kv_limit=_enclosed(dampings),
         most_sum=torques.most_units(targets.digits),
         most_kv=dampings.most_units(targets.digits),
-        least_kv=max(kept, least, 1),
+        least_kv=max(kept, 1),
         damping=damping,
     )
 
@@ -277,16 +276,15 @@ def obstacle(gain_range: GainRange, joint: int, limits: Limits, targets: Targets
     name, unit = limits.joints[joint], gain_range.unit
     if min(gain_range.most_kv, gain_range.most_sum - 1) < 1:
         return f"{name}: {targets.digits} decimal places are too few for gains this small; raise --digits"
-    if gain_range.least_kv > gain_range.most_kv:
-        return (
-            f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} breaks (19), which admits k_v ≤ "
-            f"{decimal_text(gain_range.most_kv * unit)}; lower --kv-min"
-        )
     if gain_range.least_kv >= gain_range.most_sum:
+        torque, friction, less = limits.torque[joint], limits.viscous_min, "lower --kv-share"
+        if torque is not None and friction is not None:
+            share = round_down((torque - limits.gravity[joint]) / friction, 2)
+            less += f" below {decimal_text(share)}" if share > 0 else ""
         return (
             f"{name}: k_v ≥ {decimal_text(gain_range.least_kv * unit)} leaves no room for k_p, "
             f"as (10p) admits k_p + k_v ≤ {decimal_text(gain_range.most_sum * unit)}; "
-            f"{_less_damping(joint, limits, targets)}"
+            f"{less}"
         )
     if gain_range.most_kp(gain_range.kv_range[1]) < 1:
         return (
@@ -294,13 +292,3 @@ def obstacle(gain_range: GainRange, joint: int, limits: Limits, targets: Targets
             "raise --digits"
         )
     return ""
-
-
-def _less_damping(joint: int, limits: Limits, targets: Targets) -> str:
-    if targets.kv_min is not None:
-        return "lower --kv-min or --kv-share"
-    torque, friction = limits.torque[joint], limits.viscous_min
-    if torque is None or friction is None:
-        return "lower --kv-share"
-    share = round_down((torque - limits.gravity[joint]) / friction, 2)
-    return f"lower --kv-share below {decimal_text(share)}" if share > 0 else "lower --kv-share"

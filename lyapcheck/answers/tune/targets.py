@@ -33,16 +33,13 @@ class Targets:
     Args:
         digits: decimal places of the gains, 0 to 12.
         peak_share: the share of each torque limit that may be used, in (0, 1].
-        kv_share: smallest share of the largest k_v under (19), in (0, 1]. None is 1, or leaves the bound to
-            ``kv_min`` if that is given.
-        kv_min: a lower bound of k_v, N·m.
+        kv_share: smallest share of the largest k_v under (19), in (0, 1]. None is 1.
         damping: a lower bound of the damping ratio ζ_i of each joint. See ``lyapcheck.answers.tune.largest``.
     """
 
     digits: int = 3
     peak_share: tuple[Fraction, ...] = ONE
     kv_share: tuple[Fraction, ...] | None = None
-    kv_min: tuple[Fraction, ...] | None = None
     damping: tuple[Fraction, ...] | None = None
 
     @classmethod
@@ -52,7 +49,6 @@ class Targets:
         digits: int = 3,
         peak_share: Numbers = 1,
         kv_share: Numbers | None = None,
-        kv_min: Numbers | None = None,
         damping: Numbers | None = None,
     ) -> Targets:
         """The targets from one number for all joints, or one a joint.
@@ -67,7 +63,7 @@ class Targets:
             >>> Targets.of(peak_share="0.8", damping=["0.05", "0.1"]).peak_share
             (Fraction(4, 5),)
         """
-        optional = (None if each is None else _exact(each) for each in (kv_share, kv_min, damping))
+        optional = (None if each is None else _exact(each) for each in (kv_share, damping))
         return cls(digits, _exact(peak_share), *optional)
 
     @property
@@ -76,10 +72,8 @@ class Targets:
         return Fraction(1, 10**self.digits)
 
     def share_of_kv(self, joint: int) -> Fraction:
-        """The share that k_v of a joint takes; 0 where ``kv_min`` alone says how large it is."""
-        if self.kv_share is None:
-            return Fraction(1 if self.kv_min is None else 0)
-        return self.kv_share[joint]
+        """The share that k_v of a joint takes."""
+        return Fraction(1) if self.kv_share is None else self.kv_share[joint]
 
     def for_joints(self, n: int) -> Targets:
         """The same with one value per joint.
@@ -91,7 +85,7 @@ class Targets:
         wrong = Problem("argument", None, "--digits", str(self.digits), rule, "write --digits 3")
         problems = [] if 0 <= self.digits <= MOST_DIGITS else [wrong]
         each: dict[str, Any] = {}
-        tops = {"peak_share": Fraction(1), "kv_share": Fraction(1), "kv_min": None, "damping": None}
+        tops = {"peak_share": Fraction(1), "kv_share": Fraction(1), "damping": None}
         for name, top in tops.items():
             values = getattr(self, name)
             if values is not None:
@@ -107,7 +101,6 @@ class Targets:
         for words, values in (
             ("no more than {} of each torque limit", self.peak_share),
             ("k_v ≥ {} of what (19) admits", self.kv_share),
-            ("k_v ≥ {} N·m", self.kv_min),
             ("damping ratio ≥ {}", self.damping),
         ):
             if values is not None and (values is not self.peak_share or min(values) < 1):

@@ -77,7 +77,7 @@ def run(
         return Exit.PROVED
     model = load(robot)
     if assumptions:
-        from lyapcheck.answers.robot.answer import ArmAssumptions
+        from lyapcheck.answers.robot.numbers import ArmAssumptions
 
         show(ArmAssumptions(model, robot), format)
         return Exit.PROVED

@@ -32,7 +32,7 @@ MOST_RUNS, MOST_SPREAD = 64, 90.0
 WAYS = ("19", "proof")
 """How stability may be shown."""
 TARGETS = ("overshoot", "settle", "rest_error")
-FOR_LARGEST = ("kv_share", "kv_min", "damping")
+FOR_LARGEST = ("kv_share", "damping")
 """Options that have a meaning without targets only."""
 FOR_TARGETS = ("start", "goal", "best", "runs", "spread", "seed")
 """Options that have a meaning with targets only."""
@@ -69,7 +69,6 @@ def arguments(parser: Parser) -> None:
     parser.add_choice("--stability", ("both", *WAYS), about, default="both")
     about = "Smallest share of the largest k_v under (19). Default: 1."
     parser.add_argument("--kv-share", metavar="SHARES", help=about)
-    parser.add_argument("--kv-min", metavar="TORQUES", help="Lower bound of k_v in N·m, instead of a share.")
     parser.add_argument("--damping", metavar="RATIOS", help="Lower bound of each joint's damping ratio.")
     parser.add_vary()
     parser.add_loop()
