@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.friction import damping_lines, friction_lines, held
 from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult, judged_sets
-from lyapcheck.answers.gate.words import FIELDS, RULES, Row, advices, exact
+from lyapcheck.answers.gate.words import FIELDS, RULES, Row, advices
 from lyapcheck.answers.running import running_sentences
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, GainFile, gain_file_of
 from lyapcheck.control.limits import Limits
+from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import at_least
 from lyapcheck.output.document import Document
-from lyapcheck.output.fields import data
+from lyapcheck.output.fields import Field, data
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -111,6 +112,10 @@ def gate(
     return GateAnswer(judged_sets(file, robot, deciding, strict, arms, on_progress=on_progress, loop=loop))
 
 
+STABLE = (Field("condition", "id"), Field("eps0", "value", to=decimal_text))
+"""What is said of a proof of stability."""
+
+
 def _data(result: GateResult) -> dict[str, Any]:
     stable = result.stable
     return {
@@ -123,7 +128,7 @@ def _data(result: GateResult) -> dict[str, Any]:
         "deciding": list(result.deciding),
         "strict": result.strict,
         "loop": None if result.record is None else result.record.text,
-        "stable_otherwise": None if stable is None else {"condition": stable.id, "eps0": exact(stable)},
+        "stable_otherwise": None if stable is None else data(STABLE, stable),
         "remarks": remarks(result),
         "assumptions": list(result.rests_on),
         "checks": [data(FIELDS, Row(result, check)) for check in result.checks],

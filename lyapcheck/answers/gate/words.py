@@ -9,6 +9,7 @@ from math import degrees
 from typing import TYPE_CHECKING, NamedTuple
 
 from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult
+from lyapcheck.answers.gate.stability import GLOBAL, LASALLE, SCALAR
 from lyapcheck.answers.running import HOLDS, SAMPLED, SampledCheck
 from lyapcheck.answers.running.holds import HoldsCheck, falls
 from lyapcheck.answers.running.sampled import unstable_text
@@ -17,7 +18,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.sampling import time_text
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.output.digits import at_least, at_most, correct_digits, decimals, scaled_text
+from lyapcheck.output.digits import at_least, at_most, correct_digits, ends, scaled_text
 from lyapcheck.output.fields import Field
 from lyapcheck.promise import promised
 
@@ -30,12 +31,16 @@ SYMBOLS = {"accepted": "✓", "rejected": "✗", "undecided": "?"}
 
 
 class Rule(NamedTuple):
-    """A condition: its formula, what it means if it holds, the gain to look at, and what is compared."""
+    """A condition: its formula, what it means if it holds, the gain to look at, and what is compared.
+
+    ``limit`` is what it asks for where that is no number.
+    """
 
     formula: str
     holds: str
     key: str = ""
     subject: str = ""
+    limit: str = ""
 
 
 RULES = {
@@ -46,14 +51,18 @@ RULES = {
     "10p": Rule("k_p + k_v < (τmax − k_g)/(√n γ)", "no motor saturates (10p)", "kp", "k_p + k_v"),
     "10i": Rule("k_p + k_v ≤ (τmax − k_g)/γ", "no motor saturates (10i)", "kp", "k_p + k_v"),
     "19": Rule("k_v < λmin(B)/(√n γ)", "k_v is within (19)", "kv", "k_v"),
-    "scalar": Rule(
-        "dV/dt < 0 at each state but the goal with the ε₀ shown, from norms alone", "stable (scalar)"
+    SCALAR: Rule(
+        "dV/dt < 0 at each state but the goal with the ε₀ shown, from norms alone", "stable (scalar)",
+        limit="ε₀ > 0",
     ),
-    "global": Rule("dV/dt < 0 at each state but the goal with the ε₀ shown, box by box", "stable (global)"),
-    "lasalle": Rule(
+    GLOBAL: Rule(
+        "dV/dt < 0 at each state but the goal with the ε₀ shown, box by box", "stable (global)",
+        limit="ε₀ > 0",
+    ),
+    LASALLE: Rule(
         "M(q) ≻ 0, which is what LaSalle's theorem asks of an arm for global asymptotic stability, "
         "with or without friction (Khalil 2002, corollary 4.2)",
-        "stable (lasalle)",
+        "stable (lasalle)", limit="M ≻ 0",
     ),
     SAMPLED: Rule(
         "stability as a computer runs the gains, by b > L k_v Σ|f_j| + (½ + d) T (ρ k_p + Γ), "
@@ -67,7 +76,7 @@ RULES = {
     ),
     DAMPED: Rule(
         "k_v > 0, which the theory asks for: without it a joint has only its own friction to damp it", "",
-        "kv",
+        "kv", limit="k_v > 0",
     ),
     GRAVITY: Rule("|g_i(q)| ≤ k_gi, as it is stated: the arm's own model exceeds it at a posture", ""),
 }  # fmt: skip
@@ -107,31 +116,28 @@ def about(result: GateResult) -> str:
 
 
 def value_text(check: Check) -> str:
-    """What was compared, exactly; ``none`` where a certificate proved no ε₀."""
-    if check.id == "lasalle":
+    """What was compared, exactly; ``none`` where a proof shows no ε₀."""
+    value = check.value
+    if check.id == LASALLE:
         return ""
-    if check.id == SAMPLED and check.value is not None:
-        return time_text(check.value)
-    if check.id == HOLDS and check.value is not None:
-        return at_most(check.value, 6)
-    if check.value is None:
+    if value is None:
         return "none"
-    return decimal_text(check.value) if RULES[check.id].subject else f"ε₀ = {at_least(check.value)}"
+    if check.id in (SCALAR, GLOBAL):
+        return f"ε₀ = {at_least(value)}"
+    if check.id == HOLDS:
+        return at_most(value, 6)
+    return time_text(value) if check.id == SAMPLED else decimal_text(value)
 
 
 def limit_text(check: Check) -> str:
     """The limit to six digits, all correct; ``none`` where there is no limit."""
-    if check.id == GRAVITY:
-        return ""
     if isinstance(check, SampledCheck) and check.narrow:
         return check.narrow
-    if check.id == SAMPLED:
-        return "none" if check.limit is None else f"{at_least(1000 * check.limit.lower)} ms"
-    if check.id == DAMPED:
-        return "k_v > 0"
-    if check.id != HOLDS and not RULES[check.id].subject:
-        return "M ≻ 0" if check.id == "lasalle" else "ε₀ > 0"
-    return "none" if check.limit is None else _digits(check.limit)
+    if check.id == GRAVITY or (fixed := RULES[check.id].limit):
+        return "" if check.id == GRAVITY else fixed
+    if check.limit is None:
+        return "none"
+    return f"{at_least(1000 * check.limit.lower)} ms" if check.id == SAMPLED else _digits(check.limit)
 
 
 @lru_cache(maxsize=256)  # joints and sets share limits
@@ -139,41 +145,24 @@ def _digits(limit: Enclosure) -> str:
     return correct_digits(limit, 6)
 
 
-def exact(check: Check) -> str | None:
-    """What was compared, as a decimal."""
-    return None if check.value is None else decimal_text(check.value)
-
-
-def _limit_ends(row: Row) -> dict[str, str] | None:
-    limit = row.check.limit
-    if limit is None:
-        return None
-    ends = _decimals(limit.lower.as_integer_ratio(), limit.upper.as_integer_ratio(), DIGITS)
-    return dict(zip(("lower", "upper"), ends, strict=True))
+def _limit_ends(limit: Enclosure) -> dict[str, str]:
+    return _ends(limit.lower.as_integer_ratio(), limit.upper.as_integer_ratio())
 
 
 @lru_cache(maxsize=256)  # of integers, since hashing fractions takes longer
-def _decimals(lower: tuple[int, int], upper: tuple[int, int], digits: int) -> tuple[str, str]:
-    return decimals(Enclosure(Fraction(*lower), Fraction(*upper)), digits)
-
-
-def largest_text(check: Check) -> str:
-    """The largest value that passes, with as many decimal places as the user wrote, or ``none``."""
-    largest = check.largest_admissible
-    if check.id != SAMPLED and not RULES[check.id].subject:
-        return ""
-    if isinstance(check, SampledCheck) and check.narrow:
-        return ""
-    return "none" if largest is None else largest.text
+def _ends(lower: tuple[int, int], upper: tuple[int, int]) -> dict[str, str]:
+    return ends(Enclosure(Fraction(*lower), Fraction(*upper)), DIGITS)
 
 
 def largest_shown(check: Check) -> str:
-    """The same with its unit where that is not the one of a gain: of a period, of a payload."""
-    if isinstance(check, SampledCheck) and check.most is not None and not check.narrow:
-        return time_text(check.most)
+    """The largest value that passes, as the user would write it, or ``none``; of a payload with its unit."""
+    if isinstance(check, SampledCheck):
+        return "" if check.narrow else "none" if check.most is None else time_text(check.most)
     if isinstance(check, HoldsCheck) and check.payload is not None:
         return f"{decimal_text(check.payload)} kg"
-    return largest_text(check)
+    if not RULES[check.id].subject and check.id != SAMPLED:
+        return ""
+    return "none" if check.largest_admissible is None else check.largest_admissible.text
 
 
 def margin_shown(check: Check) -> str:
@@ -222,19 +211,18 @@ def by_joints(result: GateResult, text: Callable[[GateResult, Check], str]) -> l
 
 
 def repairs(result: GateResult) -> list[str]:
-    """What to change, for all that decides and was not accepted."""
-    return by_joints(result, lambda _, check: repaired(result, check))
+    """What to change for all that fails; where no number is too large, what is wrong."""
+
+    def said(result: GateResult, check: Check) -> str:
+        numbers = check.verdict == REJECTED and check.limit is not None and RULES[check.id].subject
+        return repair(result, check) if numbers else broken(result, check)
+
+    return by_joints(result, said)
 
 
 def advices(result: GateResult) -> list[str]:
     """The same with what is wrong."""
     return by_joints(result, broken)
-
-
-def repaired(result: GateResult, check: Check) -> str:
-    """What to change; where no number is too large, what is wrong."""
-    numbers = check.verdict == REJECTED and check.limit is not None and RULES[check.id].subject
-    return repair(result, check) if numbers else broken(result, check)
 
 
 def broken(result: GateResult, check: Check) -> str:
@@ -272,7 +260,7 @@ def repair(result: GateResult, check: Check) -> str:
     """What makes a check pass that failed, in a few words."""
     if check.largest_admissible is None:
         return "no k_v > 0 meets it without friction" if check.id == "19" else "gravity alone needs the motor"
-    most = largest_text(check)
+    most = check.largest_admissible.text
     if check.id not in ("10p", "10i") or check.joint is None:
         return _passes(check, f"lower it to at most {most}")
     kv = result.gains.kv[check.joint]
@@ -300,13 +288,13 @@ FIELDS = (
     Field("joint", lambda row: None if row.check.joint is None else row.joint),
     Field("", "joint", "joint", align="l"),
     Field("verdict", lambda row: spoken_verdict(row.check)),
-    Field("value", lambda row: exact(row.check)),
+    Field("value", "check.value", to=decimal_text),
     Field("", lambda row: value_text(row.check), "value [N·m]"),
-    Field("limit", _limit_ends),
+    Field("limit", "check.limit", to=_limit_ends),
     Field("", lambda row: limit_text(row.check), "limit"),
     Field("margin", lambda row: None if row.check.limit is None else margin_text(row.check, MARGIN_DIGITS)),
     Field("", lambda row: margin_shown(row.check), "margin"),
-    Field("largest_admissible", lambda row: row.check.largest_admissible and largest_text(row.check)),
+    Field("largest_admissible", "check.largest_admissible", to=lambda largest: largest.text),
     Field("", lambda row: largest_shown(row.check), "max allowed"),
     Field("line", "place.line"),
     Field("column", "place.column"),
