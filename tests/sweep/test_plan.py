@@ -70,7 +70,7 @@ def test_the_example_is_a_plan():
         (HEAD.replace("reyes-kelly2", "nobody") + GRID, "plan.toml:1: robots"),
         (HEAD + GRID + "[gate]\ncondition = 1\n", "gate.condition"),
         (HEAD + GRID + "[gate]\nconditions = []\n", "did you mean condition?"),
-        (HEAD + GRID + "[epsilon]\nmax_boxes = 0\n", "whole number above 0"),
+        (HEAD + GRID + "[epsilon]\nmax_boxes = 0\n", "whole number from 1"),
         (
             HEAD.replace("gate", "simulate") + GRID + "[simulate]\ntarget = [30, 45, 60]\n",
             "plan.toml:8: simulate.target: has 3 angles, but the arm reyes-kelly2 has 2 joints",

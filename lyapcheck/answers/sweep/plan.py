@@ -23,6 +23,8 @@ Gain = Fraction | tuple[Fraction, ...]
 LONGEST_NAME = 120
 TEXTS = ("condition", "loop")
 """Options that are lists of texts; the others are lists of angles."""
+LARGEST = 10**9
+"""Whole number of an option."""
 MOST = 100_000
 """Values of one row of a grid."""
 
@@ -182,29 +184,24 @@ def _options(top: Fields, name: str) -> tuple[tuple[str, Any], ...]:
 
 
 def _option(table: Fields, key: str, default: Any) -> Any:
-    value = table.raw(key)
+    if isinstance(default, tuple):
+        return _list(table, key)
+    if isinstance(default, bool):
+        value = table.raw(key)
+        if value is not None and not isinstance(value, bool):
+            table.fail(key, "must be true or false", f"write {key} = {str(default).lower()}")
+            return None
+        return value
+    if isinstance(default, int):
+        return table.integer(key, 1, LARGEST)
+    number = table.number(key)
+    return None if number is None else float(number)
+
+
+def _list(table: Fields, key: str) -> tuple[Any, ...] | None:
+    value, text = table.raw(key), key in TEXTS
     if value is None:
         return None
-    if isinstance(default, tuple):
-        return _list(table, key, value, text=key in TEXTS)
-    if isinstance(default, bool):
-        good, words = isinstance(value, bool), "must be true or false"
-    elif isinstance(default, int):
-        good = isinstance(value, int) and not isinstance(value, bool) and value > 0
-        words = "must be a whole number above 0"
-    elif isinstance(default, float):
-        good = isinstance(value, int | Fraction) and not isinstance(value, bool) and value > 0
-        words, value = "must be a number above 0", float(value) if good else value
-    else:
-        good, words = isinstance(value, str), "must be a text"
-    if not good:
-        shown = str(default).lower() if isinstance(default, bool) else repr(default)
-        table.fail(key, words, f"write {key} = {shown}")
-        return None
-    return value
-
-
-def _list(table: Fields, key: str, value: Any, text: bool) -> tuple[Any, ...] | None:
     sort: Any = str if text else int | Fraction
     if not isinstance(value, list) or not all(isinstance(x, sort) and not isinstance(x, bool) for x in value):
         table.fail(key, f"must be a list of {'texts' if text else 'angles in degrees'}", f"write {key} = […]")
