@@ -59,8 +59,8 @@ def tune_for_targets(
 
     Soundness: the gate proves stability and torque limits. The motion is simulated.
     """
-    from lyapcheck.answers.tune.trial import Trials, Wishes
     from lyapcheck.answers.tune.search import tune_for
+    from lyapcheck.answers.tune.trial import Trials, Wishes
     from lyapcheck.robots import load
 
     wishes = Wishes(overshoot, settle, peak_share, rest_error)

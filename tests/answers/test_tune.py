@@ -13,10 +13,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import _limits, _rooms, tune
 from lyapcheck.answers.tune.gain_file import gain_file_text
 from lyapcheck.answers.tune.largest import best_units, binding, damping_of, propose
 from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.answers.tune import _limits, _rooms, tune
 from lyapcheck.control.gains import Bounds, read_gain_file
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import FORMATS
