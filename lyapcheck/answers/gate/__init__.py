@@ -112,7 +112,7 @@ def gate(
     return GateAnswer(judged_sets(file, robot, deciding, strict, arms, on_progress=on_progress, loop=loop))
 
 
-STABLE = (Field("condition", "id"), Field("eps0", "value", to=decimal_text))
+OTHERWISE = (Field("condition", "id"), Field("eps0", "value", to=decimal_text))
 """What is said of a proof of stability."""
 
 
@@ -128,7 +128,7 @@ def _data(result: GateResult) -> dict[str, Any]:
         "deciding": list(result.deciding),
         "strict": result.strict,
         "loop": None if result.record is None else result.record.text,
-        "stable_otherwise": None if stable is None else data(STABLE, stable),
+        "stable_otherwise": None if stable is None else data(OTHERWISE, stable),
         "remarks": remarks(result),
         "assumptions": list(result.rests_on),
         "checks": [data(FIELDS, Row(result, check)) for check in result.checks],
