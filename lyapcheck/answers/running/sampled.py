@@ -22,7 +22,14 @@ from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, Sample
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, shown_by
-from lyapcheck.control.sampling import ONE, LoopRecord, time_text
+from lyapcheck.control.sampling import (
+    ONE,
+    LoopRecord,
+    judged_sampled,
+    require_sampled,
+    sampled_proof,
+    time_text,
+)
 from lyapcheck.errors import without
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, exact_decimal, significant_down
@@ -161,8 +168,6 @@ def sampled_check(
 
     Soundness: that of ``lyapcheck.check.verify``.
     """
-    from lyapcheck.control.sampling import judged_sampled
-
     if record is None or record.period is None:
         return Check(SAMPLED, reason=NO_PERIOD)
     known = SampledCheck(SAMPLED, value=record.period, record=record, counts=inside)
@@ -209,8 +214,6 @@ def question(
     Raises:
         ValueError: (S) does not speak of such a loop or such an h; it says why.
     """
-    from lyapcheck.control.sampling import require_sampled
-
     if record.lowpass is not None:
         raise ValueError(LOWPASS)
     family = named(gains.family, gains.m)
@@ -232,8 +235,6 @@ def largest(
     asked: SampledStable, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
     """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
-    from lyapcheck.control.sampling import sampled_proof
-
     k_g = asked.k_g or sampled_proof(asked).k_g
     still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
     rows = list(zip(asked.viscous_min, still, now, strict=True))
