@@ -108,9 +108,9 @@ def run(
       lyapcheck tune arm.toml --overshoot 10 --settle 2 --runs 16 --rate 1000
       lyapcheck tune arm.urdf --peak-share 0.8 --damping 0.7 --out gains.toml
     """
+    from lyapcheck.answers.tune import tune
     from lyapcheck.answers.tune.search import tune_for
     from lyapcheck.answers.tune.targets import Targets
-    from lyapcheck.answers.tune import tune
     from lyapcheck.control.gains import Bounds
     from lyapcheck.robots import load
     from lyapcheck.robots.dynamics import FEW_JOINTS
