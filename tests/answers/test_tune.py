@@ -24,6 +24,7 @@ from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, at_values
 from tests.helpers.command import invoke
+from tests.helpers.costly import costly
 from tests.helpers.shares import but
 from tests.helpers.urdf_texts import TWO
 
@@ -104,6 +105,7 @@ def cases(draw):
     return robot, m, targets, Bounds(draw(decimals(0.1, 5, 3)), torque, gravity)
 
 
+@costly
 @given(case=cases())
 def test_no_gain_of_any_arm_can_be_one_unit_larger(case, tmp_path_factory):
     robot, m, targets, bounds = case
@@ -112,6 +114,7 @@ def test_no_gain_of_any_arm_can_be_one_unit_larger(case, tmp_path_factory):
     require_largest(tuning, (m,), tmp_path_factory.mktemp("tuned"))
 
 
+@costly
 @given(case=cases(), ratio=decimals(0.01, 2, 3))
 def test_with_a_damping_ratio_no_other_decimals_have_a_larger_kp(case, ratio):
     robot, m, targets, bounds = case
