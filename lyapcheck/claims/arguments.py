@@ -17,8 +17,10 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from fractions import Fraction
 from functools import partial
 from itertools import combinations_with_replacement
+from operator import mul
 from typing import TYPE_CHECKING
 
 from lyapcheck.check.expressions.expression import Tree, variables
@@ -27,7 +29,14 @@ from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.bound_every_n import Term, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stability import Property, Stable
-from lyapcheck.check.kinds.stable_arm import Arm, StableArm, hessian, slopes_of_mass, slopes_of_symbols
+from lyapcheck.check.kinds.stable_arm import (
+    Arm,
+    StableArm,
+    hessian,
+    slope,
+    slopes_of_mass,
+    slopes_of_symbols,
+)
 from lyapcheck.check.letters.grammar import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
@@ -36,7 +45,7 @@ from lyapcheck.check.systems.argument import Argument, Cascade, Change, Rest, St
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import Form
 from lyapcheck.check.systems.obligations import obligations, rate_bound
-from lyapcheck.check.systems.system import System
+from lyapcheck.check.systems.system import Entrywise, Member, System
 from lyapcheck.claims.bounds import ArmBounds, above
 from lyapcheck.claims.expressions import Expr, exact_value, expr, sqrt, total
 from lyapcheck.claims.letters import AnyVector
@@ -177,9 +186,11 @@ def _require_names(loop: System, used: Iterable[str], changed: Iterable[str]) ->
     Raises:
         ValueError: with the nearest ones that it has.
     """
-    letters_of = [*loop.moving, *(f.name for f in loop.functions), *(f"y_{state}" for state in changed)]
+    letters_of = [*loop.moving, *(f.name for f in (*loop.functions, *loop.increases))]
+    letters_of += [f"y_{state}" for state in changed]
     known = {*constants_of(loop), "s", *(f"norm_{name}" for name in letters_of)}
     known |= {f"sum_U{f.name}" for f in loop.functions}
+    known |= {f"sum_{kind}{f.name}" for f in loop.functions if f.level for kind in ("LU", "T")}
     for name in sorted(set(used) - known):
         near = " or ".join(get_close_matches(name, known, n=2)) or ", ".join(sorted(known))
         raise ValueError(f"{name} is no constant or size of this system; did you mean {near}?")
@@ -243,8 +254,7 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:
     ):
         if name not in wanted:  # of seven joints they take minutes
             continue
-        sizes = (size_of(by_parameters(slope, robot.n), ()) for slope in slopes())
-        known[name] = above(sqrt(total(expr(size) ** 2 for size in sizes)))
+        known[name] = _size_of(slopes(), robot.n)
     for name, values in (rows | {"B": bounds.viscous}).items():
         squares = total(expr(value) ** 2 for value in values)
         known |= {
@@ -254,14 +264,41 @@ def at_arm(stable: Stable, robot: RobotModel, **gains: object) -> StableArm:
         }
     for f in system.functions:
         if f.member is not None:
-            known |= {f"{f.name}_slope": f.member.rho, f"{f.name}_secant": f.member.secant}
-            known |= {f"{f.name}_sector": 1 / f.member.secant}
-            reach, secant = above(sqrt(robot.n)) * (f.member.gamma or 1), f.member.secant
-            known[f"{f.name}_reach"] = reach
+            most = max(rows[f.gain]) if f.gain else Fraction(1)
+            reach, secant = above(sqrt(robot.n)) * (f.member.gamma or 1), f.member.secant * most
+            known |= {f"{f.name}_slope": f.member.rho * most, f"{f.name}_secant": secant}
+            known |= {f"{f.name}_sector": 1 / secant, f"{f.name}_reach": reach}
             known[f"{f.name}_share"] = reach * secant / (reach + secant) if f.bounded else secant
+            if f.member.steep is not None and {f"{f.name}_kg", f"{f.name}_load"} & {*wanted}:
+                known |= _compared(f, f.member, rows, energy, robot.n)
+            for one in (one for one in system.increases if one.function == f.name):
+                secant = f.member.rho * max(rows[one.gain])
+                known |= {f"{one.name}_secant": secant, f"{one.name}_sector": 1 / secant}
+                known[f"{one.name}_reach"] = 2 * reach
     if lost := [name for name in wanted if name not in known]:
         raise ValueError(f"at_arm: the conditions need numbers for {', '.join(lost)}")
     return StableArm(stable.argument, arm, tuple(rows.items()), tuple((name, known[name]) for name in wanted))
+
+
+def _size_of(polynomials: Iterable[Monomials], n: int) -> Fraction:
+    """At least the root of the sum of their squares."""
+    sizes = (size_of(by_parameters(one, n), ()) for one in polynomials)
+    return above(sqrt(total(expr(size) ** 2 for size in sizes)))
+
+
+def _compared(
+    f: Entrywise, member: Member, rows: Mapping[str, tuple[Fraction, ...]], energy: Monomials, n: int
+) -> dict[str, Fraction]:
+    """How large gravity is beside a function, and beside L f joint by joint: see ``check.systems.facts``."""
+    assert member.steep is not None
+    steep = [member.steep * a for a in (rows[f.gain] if f.gain else (1,) * n)]
+    slopes, torque = _size_of(hessian(energy, n), n), [slope(energy, i, n) for i in range(n)]
+    result = {f"{f.name}_kg": max(slopes / min(steep), 2 * _size_of(torque, n) / member.low)}
+    if f.level:
+        level = rows[f.level]
+        far = (2 * _size_of([one], n) / (k * member.low) for one, k in zip(torque, level, strict=True))
+        result[f"{f.name}_load"] = max(slopes / min(map(mul, level, steep)), *far)
+    return result
 
 
 def _entries(gain: object) -> Iterable[object]:

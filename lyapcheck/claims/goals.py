@@ -8,7 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lyapcheck.check.expressions.text import expression_text
-from lyapcheck.check.systems.system import OWN_NAMES, Entrywise, Member, Regressor, State, System
+from lyapcheck.check.kinds.bound_every_n import terms_of
+from lyapcheck.check.letters.words import Word, Words
+from lyapcheck.check.systems.system import OWN_NAMES, Entrywise, Increase, Member, Regressor, State, System
 from lyapcheck.claims.expressions import Expr, diff, exact_value, var
 from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, diagonal
 
@@ -81,6 +83,55 @@ class Function(AnyVector):
         """1/secant: x f(x) is at least this times f(x)²."""
         return var(f"{self.name}_sector")
 
+    @property
+    def kg(self) -> Expr:
+        """‖g(q) − g(q_d)‖ ‖e‖ is at most this times eᵀf, for a function of e."""
+        return var(f"{self.name}_kg")
+
+    @property
+    def load(self) -> Expr:
+        """min(kg |x|, k_i) is at most this times l_i |f(x)|, k_i the most that g_i changes, for a level L."""
+        return var(f"{self.name}_load")
+
+    @property
+    def sum_LU(self) -> Expr:
+        """Σ l_i U(e_i), for a level L."""
+        return var(f"sum_LU{self.name}")
+
+    @property
+    def probe(self) -> AnyVector:
+        """A vector T with Tᵀ L f = sum_T and |Tᵀ(g(q) − g(q_d))| <= load · sum_T, for a level L."""
+        return any_vector(f"T{self.name}")
+
+    @property
+    def sum_T(self) -> Expr:
+        """Tᵀ L f, positive unless e = 0."""
+        return var(f"sum_T{self.name}")
+
+
+@dataclass(frozen=True, eq=False)
+class Increment(AnyVector):
+    """The letter d for what a function of one state gains or loses by another: see ``Goal.increase``."""
+
+    name: str = ""
+    value: AnyVector = field(default_factory=lambda: any_vector("d"))
+    """The function there: f + d, or f − d."""
+
+    @property
+    def reach(self) -> Expr:
+        """At least ‖d‖."""
+        return var(f"{self.name}_reach")
+
+    @property
+    def secant(self) -> Expr:
+        """At least |d_i/y_i|."""
+        return var(f"{self.name}_secant")
+
+    @property
+    def sector(self) -> Expr:
+        """1/secant: y_i d_i is at least this times d_i²."""
+        return var(f"{self.name}_sector")
+
 
 def norm(x: AnyVector) -> Expr:
     """The size of a letter, as forms have it.
@@ -102,6 +153,7 @@ class Goal:
     disturbed: bool = False
     _gains: list[str] = field(default_factory=list)
     _functions: list[Entrywise] = field(default_factory=list)
+    _increases: list[Increase] = field(default_factory=list)
     _states: list[State] = field(default_factory=list)
     _constants: list[str] = field(default_factory=list)
     _regressors: list[Regressor] = field(default_factory=list)
@@ -147,6 +199,11 @@ class Goal:
         return any_matrix("D") - any_matrix("dD")
 
     @property
+    def C_desired(self) -> AnyMatrix:
+        """C(q, q̇_d), for a goal that moves."""
+        return any_matrix("D")
+
+    @property
     def velocity(self) -> AnyVector:
         """q̇_d."""
         return any_vector("dqd")
@@ -186,12 +243,51 @@ class Goal:
         self._sizes += [(name, size)] if size != "n" else []
         return any_vector(name)
 
-    def entrywise(self, name: str, of: AnyVector, bounded: bool = True) -> Function:
-        """Any odd C¹ function by entries, positive for x > 0, of bounded slope, with an endless integral."""
-        self._functions += [
-            Entrywise(one, self._state_of(name, of), bounded, None) for one in self._free(name)
-        ]
+    def entrywise(
+        self, name: str, of: AnyVector, bounded: bool = True, level: AnyMatrix | None = None
+    ) -> Function:
+        """Any odd C¹ function by entries, positive for x > 0, of bounded slope, with an endless integral.
+
+        Args:
+            name: the letter.
+            of: the state, or a gain times a state.
+            bounded: False for functions that may have no bound.
+            level: the gain beside it in the torque, for ``load``, ``sum_LU``, ``probe`` and ``sum_T``.
+        """
+        gain, state = self._argument(name, of)
+        own = self._level(name, state, level)
+        self._functions += [Entrywise(one, state, bounded, None, gain, own) for one in self._free(name)]
         return Function(("vec", name), name)
+
+    def increase(self, name: str, function: Function, to: AnyVector) -> Increment:
+        """d for a strictly increasing f at another argument: f(A x ± K y) = f(A x) ± d, ``d.value``.
+
+        Args:
+            name: the letter.
+            function: f(A x).
+            to: A x + K y, or A x − K y, with a gain K and another state y.
+
+        Raises:
+            ValueError: ``to`` is something else.
+        """
+        base = next((f for f in self._functions if f.name == function.name), None)
+        parts = self._words(to) if base is not None else {}
+        start = () if base is None else ((("diag", base.gain),) * bool(base.gain) + (("vec", base.of),))
+        sign = parts.pop(start, 0)
+        change = next(iter(parts), ())
+        plain = len(change) == 2 and change[0][1] in self._gains and change[1][1] in self._moving
+        if base is None or sign != 1 or len(parts) != 1 or not plain or abs(parts[change]) != 1:
+            raise ValueError(
+                f"{name}: an increase is of a function of this goal, by a gain times another state: "
+                "for f = f(K @ e) write increase(name, f, K @ e - D @ w)"
+            )
+        if base.of == change[1][1]:
+            raise ValueError(f"{name}: the function is of {base.of} itself; give it both gains as one")
+        back, base_letter = parts[change] < 0, any_vector(base.name)
+        made = [Increase(one, base.name, change[1][1], change[0][1], back) for one in self._free(name)]
+        self._increases += made
+        own = any_vector(name)
+        return Increment(own.tree, name, base_letter - own if back else base_letter + own)
 
     def function(
         self,
@@ -205,12 +301,14 @@ class Goal:
         low: object,
         start: object = 1,
         gamma: object | None = None,
+        steep: object | None = None,
+        level: AnyMatrix | None = None,
     ) -> Function:
         """One such function of x, with its potential and numbers that show it to be one.
 
         Args:
             name: the letter.
-            of: the state.
+            of: the state, or a gain times a state. The numbers are of f(x) without that gain.
             value: f, an expression in x; so is ``potential``, U.
             potential: U' = f, U(0) = 0.
             rho: at least |f'|.
@@ -218,12 +316,18 @@ class Goal:
             low: at most f(x) for x >= ``start``.
             start: a number.
             gamma: at least |f|; none for one that is not bounded.
+            steep: at most f(x)/x for 0 <= x <= ``start``, for ``load`` and ``kg`` of one arm.
+            level: as in :meth:`entrywise`.
         """
         numbers = [exact_value(number) for number in (rho, secant, low, start)]
         most = None if gamma is None else exact_value(gamma)
-        member = Member(value.tree, diff(value, "x").tree, potential.tree, most, *numbers)
-        state, bounded = self._state_of(name, of), gamma is not None
-        self._functions += [Entrywise(one, state, bounded, member) for one in self._free(name)]
+        slope = None if steep is None else exact_value(steep)
+        member = Member(value.tree, diff(value, "x").tree, potential.tree, most, *numbers, slope)
+        gain, state = self._argument(name, of)
+        own = self._level(name, state, level)
+        self._functions += [
+            Entrywise(one, state, gamma is not None, member, gain, own) for one in self._free(name)
+        ]
         return Function(("vec", name), name)
 
     def under(self, torque: AnyVector) -> System:
@@ -242,6 +346,7 @@ class Goal:
             self.disturbed,
             tuple(self._regressors),
             tuple(self._sizes),
+            tuple(self._increases),
         )
 
     def _free(self, names: str) -> list[str]:
@@ -256,6 +361,8 @@ class Goal:
             if "_" in name:
                 raise ValueError(f"{name}: sizes and bounds have an underscore; take a name without one")
             functions = [f"{kind}{f.name}" for f in self._functions for kind in ("", "d", "U")]
+            functions += [f"T{f.name}" for f in self._functions if f.level]
+            functions += [one.name for one in self._increases]
             own = [*self._gains, *self._constants, *(state.name for state in self._states), *functions]
             own += [name for one in self._regressors for name in (one.name, one.columns) if name != "n"]
             own += dict(self._sizes).values()
@@ -264,20 +371,49 @@ class Goal:
                 raise ValueError(f"{name} is taken; take a name that is none of {taken}")
         return names.split()
 
-    def _state_of(self, name: str, of: AnyVector) -> str:
-        """The name of the one state that a function is of.
+    @property
+    def _moving(self) -> list[str]:
+        return ["e", "w", *(state.name for state in self._states)]
+
+    def _words(self, of: object) -> dict[Word, int]:
+        """What a combination is made of, with whole numbers before it; nothing if it is none."""
+        if not isinstance(of, AnyVector):
+            return {}
+        numbers = {word: terms_of(factor) for word, factor in Words((), {}, {}).expand(of.tree).items()}
+        plain = all(len(terms) == 1 and not terms[0][1] and terms[0][0].q == 1 for terms in numbers.values())
+        return {word: int(terms[0][0].p) for word, terms in numbers.items()} if plain else {}
+
+    def _argument(self, name: str, of: object) -> tuple[str, str]:
+        """The gain and the state that a function is of; no gain for the state alone.
 
         Raises:
             ValueError: it is of a combination, or of what is no state.
         """
-        states = ["e", "w", *(state.name for state in self._states)]
-        if isinstance(of, AnyVector) and of.tree[0] == "vec" and of.tree[1] in states:
-            return str(of.tree[1])
+        parts = self._words(of)
+        word = next(iter(parts), ())
+        if len(parts) == 1 and parts[word] == 1 and word[-1][1] in self._moving:
+            if len(word) == 1:
+                return "", word[0][1]
+            if len(word) == 2 and word[0][1] in self._gains:
+                return word[0][1], word[1][1]
         shown = expression_text(of.tree) if isinstance(of, AnyVector) else repr(of)
         raise ValueError(
-            f"{name}: a function by entries is of one state ({', '.join(states)}), not of {shown}; "
-            "give a combination a state of its own, as in goal.state(name, its derivative)"
+            f"{name}: a function by entries is of one state ({', '.join(self._moving)}) or a gain times one, "
+            f"not of {shown}; write f = f(K @ e), then goal.increase(name, f, K @ e - D @ w), or give a "
+            "combination a state of its own, as in goal.state(name, its derivative)"
         )
+
+    def _level(self, name: str, state: str, level: AnyMatrix | None) -> str:
+        """The name of the gain that gravity is compared with.
+
+        Raises:
+            ValueError: it is no gain, or the function is not of e.
+        """
+        if level is None:
+            return ""
+        if level.tree[0] != "diag" or level.tree[1] not in self._gains or state != "e":
+            raise ValueError(f"{name}: a level is a gain of this goal, beside a function of e; give it one")
+        return str(level.tree[1])
 
 
 def constant_goal(friction: str = "any", disturbed: bool = False) -> Goal:

@@ -38,7 +38,7 @@ def member_of(argument: Argument) -> int:
         raise NotPrinted("a loop that is not (11)")
     if system.friction != "positive":
         raise NotPrinted("arms without friction")
-    if [f.of for f in system.functions] != ["e", "w"]:
+    if [(f.of, f.gain) for f in system.functions] != [("e", ""), ("w", "")] or system.increases:
         raise NotPrinted("a loop without a function of q̃ and one of q̇")
     if not _same(("dot", TEST, system.torque), ("dot", TEST, _torque(system))):
         raise NotPrinted("a torque that is neither (6) nor (21)")

@@ -137,8 +137,14 @@ class DrawnBounds:
         A number that bounds a norm is raised to it; one that a number is at least is lowered to that.
         """
         raised = {name for _, size in self.norms for name in variables(size)}
+        alone = {size[1] for _, size in self.least if size[0] == "var"} & names
+        for number, size in self.least:
+            if size[0] == "var" and size[1] in alone:
+                value = exact(self.entries.number(number), point)
+                least = max(Fraction(int(value.p), int(value.q)), Fraction(0)) * NEARLY
+                point = point | {size[1]: min(point[size[1]], least)}
         for letters, size in self.norms:
-            free = sorted(variables(size) & names)
+            free = sorted(variables(size) & names - alone) or sorted(variables(size) & names)
             if not free:
                 continue
             square, upper = self.squared(letters, point), _value(size, point)

@@ -177,7 +177,15 @@ class Loop:
         vectors = {"e": e, "w": w, "dqd": still, "ddqd": still, "g": arm.g(q), "gd": at_goal}
         vectors |= {"dg": arm.g(q) - at_goal, "d": still}
         vectors |= {state.name: own for state, own in zip(system.states, more, strict=True)}
-        vectors |= {f.name: self.functions[f.name](vectors[f.of]) for f in system.functions}
+        gain = {"": np.ones(n)} | {name: self.constants["vec", name] for name in system.gains}
+        inner = {f.name: gain[f.gain] * vectors[f.of] for f in system.functions}
+        vectors |= {name: self.functions[name](x) for name, x in inner.items()}
+        for one in system.increases:
+            sign = -1 if one.back else 1
+            there = self.functions[one.function](
+                inner[one.function] + sign * gain[one.gain] * vectors[one.of]
+            )
+            vectors[one.name] = sign * (there - vectors[one.function])
         nothing = np.zeros((n, n))
         matrices = {"M": arm.M(q), "C": arm.C(q, w), "D": nothing, "dD": nothing}
         matrices |= {"dM": arm.M(q) - arm.M(self.goal)}
@@ -211,6 +219,14 @@ def _loops(argument, random):
         for f in system.functions:
             function, secant, slope, reach = _function(f, random)
             functions[f.name] = function
+            gain = gains.get(f.gain, np.ones(arm.n))
+            for one in (one for one in system.increases if one.function == f.name):
+                own = slope * gains[one.gain].max()
+                sizes_of = {"secant": own, "sector": 1 / own, "reach": 2 * sqrt(arm.n) * reach}
+                constants |= {f"{one.name}_{end}": number for end, number in sizes_of.items()}
+            if f.of == "e":
+                constants |= _compared(f, function, gain, gains, arm)
+            secant, slope = secant * gain.max(), slope * gain.max()
             bounds = {"secant": secant, "slope": slope, "sector": 1 / secant, "reach": sqrt(arm.n) * reach}
             constants |= {f"{f.name}_{end}": number for end, number in bounds.items()}
         constants |= {name: _size(random, 1e-3, 1e3) for name in system.constants}
@@ -225,6 +241,20 @@ def _loops(argument, random):
             count += 1
         if count == ARMS:
             return
+
+
+def _compared(f, function, gain, gains, arm):
+    """f_kg and f_load of an arm, on a grid, from above."""
+    x = np.geomspace(1e-4, 1e3, 400)
+    values = [np.maximum(function(a * x), 1e-300) for a in gain]
+    most = 2 * np.array([sum(arm.p), arm.p[1]])[: arm.n]
+    kg = arm.constants["kg"]
+    whole = max((np.minimum(kg * x, np.linalg.norm(most)) / own).max() for own in values)
+    result = {f"{f.name}_kg": 1.05 * whole}
+    if f.level:
+        beside = zip(most, gains[f.level], values, strict=True)
+        result[f"{f.name}_load"] = 1.05 * max((np.minimum(kg * x, k) / (l * own)).max() for k, l, own in beside)
+    return result
 
 
 def _sized(system, n, random):

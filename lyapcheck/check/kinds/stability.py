@@ -18,7 +18,7 @@ from lyapcheck.check.systems import obligations as parts
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.forms import EPS0
 from lyapcheck.check.systems.obligations import never_met, obligations
-from lyapcheck.check.systems.system import Entrywise
+from lyapcheck.check.systems.system import Entrywise, Increase
 from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import Accepted, all_proved, rule, verify
 
@@ -90,20 +90,25 @@ class Stable(Total):
 
 
 BOUNDS = {
-    "slope": "≥ |{0}'|",
-    "secant": "≥ |{0}(x)/x|",
-    "reach": "≥ ‖{0}({1})‖",
-    "share": "≥ ‖{0}({1})‖/(1 + ‖{1}‖)",
-    "sector": "≤ 1/{0}_secant",
+    "slope": "≥ |{slope}|",
+    "secant": "≥ |{at_x}/x|",
+    "reach": "≥ ‖{at_state}‖",
+    "share": "≥ ‖{at_state}‖/(1 + ‖{of}‖)",
+    "sector": "≤ 1/{name}_secant",
+    "kg": "with ‖g(q) − g(p)‖ ‖x‖ ≤ {name}_kg x·{at_x}, x = q − p",
+    "load": "with min(kg |x|, k_i) ≤ {name}_load {level}_i |{at_x}| for every joint i, k_i ≥ |g_i(q) − g_i(p)|",
 }
-"""What the constants of a function bound, by the ends of their names."""
+INCREASED = {"secant": "≥ |{0}/{1}| by entries", "reach": "≥ ‖{0}‖", "sector": "≤ 1/{0}_secant"}
+"""What the constants of a function bound, by the ends of their names; those of gravity wherever they occur."""
 
 
 def loop_text(argument: Argument) -> str:
     """Under which torque, and for what."""
     system = argument.system
     about = [f"d{state.name}/dt = {expression_text(state.rate)}" for state in system.states]
-    about += [_function_text(f) for f in system.functions]
+    grow = {one.function for one in system.increases}
+    about += [_function_text(f, f.name in grow) for f in system.functions]
+    about += [_increase_text(one, argument) for one in system.increases]
     under = "; ".join([expression_text(system.torque), *about])
     where = " and ".join(relation_text(one) for one in argument.where)
     return f"under τ = {under}, for {', '.join(_over(argument))}{f' with {where}' if where else ''}"
@@ -133,7 +138,16 @@ def _over(argument: Argument) -> Iterator[str]:
         yield f"all {', '.join(system.constants)} > 0"
     used = set().union(*(variables(relation.gap) for relation in argument.where))
     for f in system.functions:
-        known = {f"{f.name}_{end}": says.format(f.name, f.of) for end, says in BOUNDS.items()}
+        at_x, at_state = (f"{f.name}({f'{f.gain} ' * bool(f.gain)}{of})" for of in ("x", f.of))
+        slope = f"d/dx {at_x}" if f.gain else f"{f.name}'"
+        shown = {"name": f.name, "of": f.of, "level": f.level, "at_x": at_x, "at_state": at_state}
+        known = {f"{f.name}_{end}": says.format(slope=slope, **shown) for end, says in BOUNDS.items()}
+        everywhere = {f"{f.name}_kg", f"{f.name}_load"} & argument.constants
+        bounds = [f"{name} {says}" for name, says in known.items() if name in used | everywhere]
+        if bounds:
+            yield f"all {', '.join(bounds)}"
+    for one in system.increases:
+        known = {f"{one.name}_{end}": says.format(one.name, one.of) for end, says in INCREASED.items()}
         bounds = [f"{name} {says}" for name, says in known.items() if name in used]
         if bounds:
             yield f"all {', '.join(bounds)}"
@@ -144,12 +158,24 @@ def _over(argument: Argument) -> Iterator[str]:
         yield "every q_d(t) with bounded dq_d/dt" + (" and d²q_d/dt²" if "ad" in argument.constants else "")
 
 
-def _function_text(f: Entrywise) -> str:
-    by = f"{f.name} = {f.name}({f.of}) by entries"
+def _function_text(f: Entrywise, increases: bool) -> str:
+    by = f"{f.name} = {f.name}({_argument_text(f)}) by entries"
     if f.member is not None:
         return f"{by}, {f.name}(x) = {expression_text(f.member.value)}"
-    bounded = "bounded, " if f.bounded else ""
+    bounded = ("bounded, " if f.bounded else "") + ("increasing with a positive slope, " if increases else "")
     return f"{by}, {bounded}odd and C¹, positive for x > 0, of bounded slope, its integral without end"
+
+
+def _argument_text(f: Entrywise) -> str:
+    return f"{f.gain} {f.of}" if f.gain else f.of
+
+
+def _increase_text(one: Increase, argument: Argument) -> str:
+    """d = f(A x) − f(A x − K y)."""
+    [f] = [f for f in argument.system.functions if f.name == one.function]
+    start, change = _argument_text(f), f"{one.gain} {one.of}"
+    low, high = (f"{start} − {change}", start) if one.back else (start, f"{start} + {change}")
+    return f"{one.name} = {f.name}({high}) − {f.name}({low}) by entries"
 
 
 DIFFERENCES = {
@@ -217,8 +243,12 @@ def _meanings(argument: Argument) -> Iterator[str]:
         kind, name = size.split("_", 1)
         yield f"norm_{name} = ‖{name}‖" if kind == "norm" else f"{size} the sum of the entries of {name}"
     for f in system.functions:
-        if used & {f"U{f.name}", f"sum_U{f.name}"}:
-            yield f"U{f.name} = ∫{f.name}(x) dx from 0 to {f.of} by entries"
+        if used & {f"U{f.name}", f"sum_U{f.name}", f"sum_LU{f.name}"}:
+            inner = f"{f.gain} x" if f.gain else "x"
+            yield f"U{f.name} = ∫{f.name}({inner}) dx from 0 to {f.of} by entries"
+        if used & {f"sum_LU{f.name}", f"sum_T{f.name}"}:
+            yield f"sum_LU{f.name} = {f.level}·U{f.name}"
+            yield f"sum_T{f.name} = T{f.name}·{f.level} {f.name}, T{f.name} a vector of the joint that gravity loads least"
     for name in system.diagonal:
         if used & {f"{name}_min", f"{name}_max"}:
             yield f"{name}_min and {name}_max the least and the greatest entry of {name}"

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from operator import mul
 
 from lyapcheck.check.expressions.expression import Tree, substitute, variables
 from lyapcheck.check.expressions.text import diagonal_text, number_text
@@ -93,17 +94,29 @@ class StableArm(Total):
             squares = sum((x * x for x in values), Fraction(0))
             fits = {"min": value <= min(values), "max": value >= max(values)}
             return fits.get(end, value * value >= squares)
+        count = len(self.arm.mass)
         for f in self.argument.system.functions:
             if stem == f.name and f.member is not None:
-                gamma, count = f.member.gamma or Fraction(0), len(self.arm.mass)
-                gap = f.member.secant - value  # share >= L√nγ/(L + √nγ), or L
+                gamma, most = f.member.gamma or Fraction(0), max(rows[f.gain]) if f.gain else 1
+                secant = f.member.secant * most
+                gap = secant - value  # share >= L√nγ/(L + √nγ), or L
                 return {
                     "reach": f.bounded and value**2 >= count * gamma**2,
-                    "slope": value >= f.member.rho,
-                    "secant": value >= f.member.secant,
-                    "sector": value * f.member.secant <= 1,
-                    "share": gap <= 0
-                    or (f.bounded and count * (gamma * gap) ** 2 <= (value * f.member.secant) ** 2),
+                    "slope": value >= f.member.rho * most,
+                    "secant": value >= secant,
+                    "sector": value * secant <= 1,
+                    "share": gap <= 0 or (f.bounded and count * (gamma * gap) ** 2 <= (value * secant) ** 2),
+                    "kg": f.member.steep is not None,
+                    "load": f.member.steep is not None,
+                }[end]
+        for one in self.argument.system.increases:
+            [f] = [f for f in self.argument.system.functions if f.name == one.function]
+            if stem == one.name and f.member is not None:
+                gamma, slope = f.member.gamma or Fraction(0), f.member.rho * max(rows[one.gain])
+                return {
+                    "reach": f.bounded and value**2 >= 4 * count * gamma**2,
+                    "secant": value >= slope,
+                    "sector": value * slope <= 1,
                 }[end]
         known = {"mu", "beta", "R", "eps0", "kc", "kg", "km", "kc2", "vd", "ad"}
         return name in {*known, *self.argument.system.constants}
@@ -144,10 +157,33 @@ class StableArm(Total):
         for name, found in (("km", slopes_of_mass), ("kc2", slopes_of_symbols)):
             if name in numbers:
                 yield name, GravityBelow(len(mass), found(mass), (), numbers[name])
+        yield from self._compared()
         by: dict[str, Tree] = {name: ("num", str(value)) for name, value in numbers.items()}
         for k, one in enumerate(self.argument.where, 1):
             here = Relation(substitute(one.left, by), one.operator, substitute(one.right, by))
             yield f"condition {k}", Constant(here)
+
+
+    def _compared(self) -> Iterator[tuple[str, Statement]]:
+        """That gravity is as small beside functions as numbers say: f(a_i x) >= min(steep a_i x, low)."""
+        numbers, gains, n = dict(self.numbers), dict(self.gains), len(self.arm.mass)
+        torque = tuple(slope(self.arm.potential, i, n) for i in range(n))
+        for f in self.argument.system.functions:
+            if f.member is None or f.member.steep is None:
+                continue
+            steep = [f.member.steep * a for a in (gains[f.gain] if f.gain else (1,) * n)]
+            for end, level in (("kg", (Fraction(1),) * n), ("load", gains.get(f.level, ()))):
+                name = f"{f.name}_{end}"
+                if name not in numbers:
+                    continue
+                least = numbers[name] * min(map(mul, level, steep))
+                yield f"{name}, slopes", GravityBelow(n, hessian(self.arm.potential, n), (), least)
+                highs = [numbers[name] * one * f.member.low / 2 for one in level]
+                if end == "kg":
+                    yield f"{name}, size", GravityBelow(n, torque, (), highs[0])
+                else:
+                    for i, high in enumerate(highs):
+                        yield f"{name}, joint {i + 1}", GravityBelow(n, torque[i : i + 1], (), high)
 
 
 def hessian(energy: Monomials, n: int) -> tuple[Monomials, ...]:

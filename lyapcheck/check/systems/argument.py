@@ -168,6 +168,9 @@ class Argument:
         result = {f"norm_{name}": (name, True) for name in system.moving}
         for f in system.functions:
             result |= {f"norm_{f.name}": (f.of, False), f"sum_U{f.name}": (f.of, True)}
+            if f.level:
+                result |= {f"sum_LU{f.name}": (f.of, True), f"sum_T{f.name}": (f.of, False)}
+        result |= {f"norm_{one.name}": (one.of, False) for one in system.increases}
         return result | {f"norm_{change.letter}": (change.state, True) for change in self.changes}
 
     @property
@@ -255,8 +258,7 @@ class Argument:
             for form in (self.lower, self.upper, self.rate):
                 assert form is not None
                 fits = len(form.sizes) == len(every) and not form.linear
-                own = {size for f in system.functions for size in (f"norm_{f.name}", f"sum_U{f.name}")}
-                fits = fits and not own & {*form.sizes}
+                fits = fits and {*form.sizes} <= {f"norm_{x}" for x in (*system.moving, *self.changed)}
                 require(fits, "form", ", ".join(form.sizes), "must be quadratic in the norms of all states")
                 require(
                     all(SHARE not in variables(tree) for tree in form.coefficients), "form", SHARE, "varies"
@@ -286,7 +288,7 @@ class Argument:
             for state, against in step.against:
                 require(state in still, "rest", state, "must stand still before the step that uses it")
                 require_sort(against, "vector")
-                system.require_letters(against, system.known, "the vector at rest")
+                system.require_letters(against, system.known | system.probes, "the vector at rest")
 
     def _stands(self, name: str, zero: Collection[str], still: Collection[str]) -> bool:
         """Whether a state stands still: its motion is 0, or A x + what stands still is, of one that does.

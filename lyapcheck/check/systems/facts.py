@@ -7,10 +7,30 @@ energy of gravity U_g(q) − U_g(q_d) + g(q_d)ᵀe is eᵀP with ‖P‖ <= ½kg
 |f(x)| <= f_secant |x|, |f'| <= f_slope, ‖f(x)‖ <= f_reach if it is bounded, and x f(x) >= f_sector f(x)² with
 f_sector = 1/f_secant; of e, ‖f(e)‖ <= f_share (1 + ‖e‖), as f_secant does and smaller numbers may;
 sum_Uf is Σ U(x_i), which is above the norm of the vector, as no U(x_i) is negative.
+
+Of a function of e, f_kg is a number with ‖dg‖ ‖e‖ <= f_kg eᵀf(e) for all e and q_d. So ‖dg‖ <= f_kg ‖f(e)‖, and
+along the ray to e the energy of gravity changes by |uᵀdg| <= ‖dg‖ <= f_kg uᵀf, the slope of f_kg Σ U: it is at
+most f_kg sum_Uf. There is one if f(x) >= min(steep x, low) for x >= 0, as |u_i| <= 1 gives
+eᵀf(e) >= ‖e‖ min(steep ‖e‖, low), and ‖dg‖ <= min(kg ‖e‖, k) with k >= ‖g(q) − g(p)‖: the larger of kg/steep and
+k/low. P is along e, so that ‖e‖ ‖P‖ is the size of the energy of gravity.
+
+With a level L, f_load is a number with min(kg x, k_i) <= f_load l_i f(x) for x >= 0 and each joint i, where
+|g_i(q) − g_i(p)| <= k_i. Then
+
+- the energy of gravity is at most f_load sum_LUf, sum_LUf = Σ l_i U(e_i). For a larger c, W = c Σ l_i U(e_i) ± it
+  grows without end: joint by joint, its slope c l_i f is above k_i far away, or k_i = 0 and U grows. It has a
+  least value, where c L f = ±dg. No e ≠ 0 is such: |dg_i| = c l_i |f| exceeds min(kg |e_i|, k_i), and k_i it does
+  not, hence |dg_i| > kg |e_i| where e_i ≠ 0, against ‖dg‖ <= kg ‖e‖. So W >= 0, for every such c.
+- there is a vector Tf, ‖Tf‖ <= 1, with Tfᵀ L f = sum_Tf, positive for e ≠ 0, and |Tfᵀ dg| <= f_load sum_Tf. If
+  |dg_i| <= f_load l_i |f(e_i)| for some i with e_i ≠ 0, the unit vector of i with the sign of e_i. Otherwise
+  f_load l_i |f| >= kg |e_i| for all i as above, so ‖dg‖ <= f_load ‖L f‖, and Tf is along L f.
+
+An increase d of a function by y has |d| <= d_secant |y|, y d >= d_sector d² and ‖d‖ <= d_reach, if f is bounded.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from itertools import chain
@@ -46,6 +66,8 @@ Least = tuple[Tree, Tree]
 ONE: Tree = ("num", "1")
 BOUNDS = ("reach", "slope", "secant", "sector", "share")
 """The constants of a function."""
+COMPARED = re.compile(".*_(kg|load)").fullmatch
+"""Constants that compare gravity with a function; a bound of which none is asked does without."""
 P: Tree = ("vec", "P")
 """The energy of gravity is eᵀP."""
 
@@ -98,15 +120,36 @@ def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]
     yield (DISTURBANCE,), constant("delta")
     yield (DG,), product(constant("kg"), size("e"))
     yield (P,), product(("num", "1/2"), constant("kg"), size("e"))
+    for one in system.increases:
+        own: Tree = ("vec", one.name)
+        yield (own,), size(one.name)
+        yield (own,), product(constant(f"{one.name}_secant"), size(one.of))
+        if any(f.bounded for f in system.functions if f.name == one.function):
+            yield (own,), constant(f"{one.name}_reach")
+    for f in system.functions:
+        if f.of == "e":
+            yield (DG,), product(constant(f"{f.name}_kg"), size(f.name))
+            yield (E, P), product(constant(f"{f.name}_kg"), constant(f"sum_U{f.name}"))
+        if f.level:
+            load, probe = constant(f"{f.name}_load"), ("vec", f"T{f.name}")
+            yield (E, P), product(load, constant(f"sum_LU{f.name}"))
+            yield (probe,), ONE
+            yield (probe, DG), product(load, constant(f"sum_T{f.name}"))
 
 
 def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[Least]:
-    """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx and kᵀU."""
-    sized = {*system.moving, *changed, *(f.name for f in system.functions)}
+    """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx, kᵀU, and with a level L TᵀLf."""
+    sized = {*system.moving, *changed, *(f.name for f in (*system.functions, *system.increases))}
     for word in sorted(chain.from_iterable(words.seen.values())):
         result = _least_of(system, word, sized)
         if result is not None:
             yield _number(word), result
+        names, plain = sorted(name for _, name in word), all(kind in ("vec", "diag") for kind, _ in word)
+        for f in system.functions:
+            if plain and f.level and names == sorted((f.level, f"U{f.name}")):
+                yield _number(word), constant(f"sum_LU{f.name}")
+            if plain and f.level and names == sorted((f.level, f"T{f.name}", f.name)):
+                yield _number(word), constant(f"sum_T{f.name}")
 
 
 def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None:
@@ -122,9 +165,10 @@ def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None
     rest = [name for name in names if name not in system.diagonal]
     if len(rest) == 2 and rest[0] == rest[1] and rest[0] in sized:
         return product(*gains, size(rest[0]), size(rest[0]))
+    for own in (*system.functions, *system.increases):
+        if rest == sorted((own.name, own.of)):
+            return product(*gains, constant(f"{own.name}_sector"), size(own.name), size(own.name))
     for f in system.functions:
-        if rest == sorted((f.name, f.of)):
-            return product(*gains, constant(f"{f.name}_sector"), size(f.name), size(f.name))
         if rest == [f"U{f.name}"] and gains:
             return product(*gains, constant(f"sum_U{f.name}"))
     return None
@@ -168,7 +212,11 @@ def at_most(
     seen = {letter for word in chain.from_iterable(words.seen.values()) for letter in word}
     used = {("mat", name) if kind == "transposed" else (kind, name) for kind, name in seen}
     used |= {("var", name) for name in variables(number) if name not in words.seen}
-    known = [(own, bound) for own, bound in norms(system, changed, local) if set(own) <= used]
+    known = [
+        (own, bound)
+        for own, bound in norms(system, changed, local)
+        if set(own) <= used and {*filter(COMPARED, variables(bound))} <= variables(right)
+    ]
     inertia = M in used or bool(given)
     return BoundEveryN(
         left,
@@ -188,6 +236,9 @@ def constants_of(system: System) -> dict[str, Variable]:
         positive += [f"{f.name}_{bound}" for bound in BOUNDS]
     upper = ["kc", "kg", "km", "kc2", "vd", "ad", "delta"]
     upper += [f"{name}_{end}" for name in system.diagonal for end in ("max", "norm")]
+    upper += [f"{f.name}_kg" for f in system.functions if f.of == "e"]
+    upper += [f"{f.name}_load" for f in system.functions if f.level]
+    positive += [f"{d.name}_{bound}" for d in system.increases for bound in ("secant", "sector", "reach")]
     (positive if system.friction == "positive" else upper).append("B_min")
     result = {name: Variable(name, Fraction(0)) for name in positive}
     return result | {name: Variable(name, Fraction(0), strict=False) for name in upper}
@@ -206,7 +257,7 @@ def facts(member: Member) -> Iterator[tuple[str, Statement]]:
     everywhere, so f is differentiable, and as a quotient, product or smooth function its slope is continuous.
     """
     f, slope = member.value, member.slope
-    for name in ("gamma", "rho", "secant", "low"):
+    for name in ("gamma", "rho", "secant", "low", "steep"):
         number = getattr(member, name)
         require(number is None or number > 0, name, number, "must be positive")
     yield "f(−x) = −f(x)", Identity(substitute(f, {"x": ("neg", X)}), ("neg", f))
@@ -223,3 +274,12 @@ def facts(member: Member) -> Iterator[tuple[str, Statement]]:
     yield f"|f(x)| ≤ {member.secant}|x|", NormBound(f, 1, ("num", str(member.secant)), 1)
     low: Tree = ("num", str(member.low))
     yield f"{member.low} ≤ f(x) for x ≥ {member.start}", ForAll(Relation(low, "<=", f), member.start)
+    if member.steep is not None:
+        line: Tree = ("mul", ("num", str(member.steep)), X)
+        name = f"{member.steep}x ≤ f(x) for 0 ≤ x ≤ {member.start}"
+        yield name, ForAll(Relation(line, "<=", f), Fraction(0), member.start)
+
+
+def increasing(member: Member) -> ForAll:
+    """f increases strictly."""
+    return ForAll(Relation(ZERO, "<", member.slope))

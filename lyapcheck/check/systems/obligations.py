@@ -17,12 +17,24 @@ from lyapcheck.check.systems.facts import (
     constant,
     constants_of,
     facts,
+    increasing,
     product,
     size,
     written_out,
 )
 from lyapcheck.check.systems.forms import ZERO, Form, is_positive
-from lyapcheck.check.systems.system import DG, DISTURBANCE, NOTHING, E, M, System, W, minus, replaced
+from lyapcheck.check.systems.system import (
+    DG,
+    DISTURBANCE,
+    NOTHING,
+    E,
+    Entrywise,
+    M,
+    System,
+    W,
+    minus,
+    replaced,
+)
 
 Named = Iterator[tuple[str, Statement]]
 TEST: Tree = ("vec", "x")
@@ -79,6 +91,8 @@ def functions(argument: Argument) -> Named:
         if f.member is not None:
             for name, fact in facts(f.member):
                 yield f"{f.name}: {name}", fact
+            if any(one.function == f.name for one in argument.system.increases):
+                yield f"{f.name}: 0 < f'", increasing(f.member)
 
 
 def above(argument: Argument) -> Named:
@@ -174,10 +188,10 @@ def _orders(system: System) -> Iterator[Relation]:
         yield Relation(least, "<=", greatest)
         yield Relation(least, "<=", norm)
         yield Relation(greatest, "<=", norm)
-    for f in system.functions:
+    for f in (*system.functions, *system.increases):
         secant, sector = constant(f"{f.name}_secant"), constant(f"{f.name}_sector")
         yield Relation(product(secant, sector), "<=", ("num", "1"))
-        if f.member is not None:
+        if isinstance(f, Entrywise) and f.member is not None and not f.gain:
             slope, reach, share = (constant(f"{f.name}_{end}") for end in ("slope", "reach", "share"))
             lowest = f.member.low / (1 + abs(f.member.start))  # of f(x)/(1 + x)
             yield Relation(("num", str(lowest)), "<=", share)

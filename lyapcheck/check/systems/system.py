@@ -42,7 +42,8 @@ FRICTION = ("none", "any", "positive")
 class Member:
     """One function of the class, in x: its value, slope and potential, and numbers that show it to be one.
 
-    |f| <= gamma, where it is bounded; |f'| <= rho; |f(x)| <= secant |x|; f(x) >= low for x >= start.
+    |f| <= gamma, where it is bounded; |f'| <= rho; |f(x)| <= secant |x|; f(x) >= low for x >= start;
+    f(x) >= steep x for 0 <= x <= start, where gravity is compared with it.
     """
 
     value: Tree
@@ -53,19 +54,38 @@ class Member:
     secant: Fraction
     low: Fraction
     start: Fraction
+    steep: Fraction | None = field(default=None, metadata={"left_out": True})
 
 
 @dataclass(frozen=True)
 class Entrywise:
     """f(x_i) for each entry of a state: f odd, C¹, positive right of 0, with bounded slope, U → ∞.
 
-    Without a ``member`` the conclusion is for every such function, bounded ones alone if ``bounded``.
+    Without a ``member`` the conclusion is for every such function, bounded ones alone if ``bounded``. With a
+    ``gain`` A it is f(a_i x_i), a function of the class for each joint, and all bounds and U are of that.
+    ``level`` names the gain L beside f in the torque, where gravity is compared with L f joint by joint.
     """
 
     name: str
     of: str
     bounded: bool
     member: Member | None
+    gain: str = field(default="", metadata={"left_out": True})
+    level: str = field(default="", metadata={"left_out": True})
+
+
+@dataclass(frozen=True)
+class Increase:
+    """d = f(A x + K y) − f(A x) by entries, or f(A x) − f(A x − K y) if ``back``; A x is what f is of.
+
+    f increases strictly; so d_i has the sign of y_i, and is 0 where that is.
+    """
+
+    name: str
+    function: str
+    of: str
+    gain: str
+    back: bool
 
 
 @dataclass(frozen=True)
@@ -104,6 +124,7 @@ class System:
         disturbed: whether an unknown torque d, ‖d‖ <= delta, acts beside τ.
         regressors: matrices of which nothing more is known.
         sizes: of gains and states that are not of size n, each with the name of its size.
+        increases: of functions, from one argument to another.
     """
 
     torque: Tree
@@ -116,12 +137,14 @@ class System:
     disturbed: bool = False
     regressors: tuple[Regressor, ...] = field(default=(), metadata={"left_out": True})
     sizes: tuple[tuple[str, str], ...] = field(default=(), metadata={"left_out": True})
+    increases: tuple[Increase, ...] = field(default=(), metadata={"left_out": True})
 
     def require_well_formed(self) -> None:
         """Refuse names given twice, letters that nothing is known of, and functions of what is no state."""
         names = [*self.gains, *self.constants, *(state.name for state in self.states)]
         names += [f"{prefix}{f.name}" for f in self.functions for prefix in ("", "d", "U")]
-        names += [one.name for one in self.regressors]
+        names += [one.name for one in (*self.regressors, *self.increases)]
+        names += [name for _, name in self.probes]
         of_own = dict(self.sizes)
         own = {*of_own.values(), *(one.columns for one in self.regressors)} - {"n"}
         names += sorted(own)
@@ -134,6 +157,14 @@ class System:
             require(f.of in self.moving, "function", f.name, f"is of {f.of!r}, which is no state")
             fits = f.member is None or f.bounded == (f.member.gamma is not None)
             require(fits, "function", f.name, "is said to be bounded, or not, against its numbers")
+            require(not f.level or f.of == "e", "level", f.level, "is for a function of e")
+            self._require_gains(f.name, f.of, [name for name in (f.gain, f.level) if name])
+        for one in self.increases:
+            require(one.of in self.moving, "increase", one.name, f"is by {one.of!r}, which is no state")
+            base = next((f.of for f in self.functions if f.name == one.function), one.of)
+            require(base != one.of, "increase", one.name, "must be of a function of another state")
+            require(self.size(base) == self.size(one.of), "increase", one.name, "is of two sizes")
+            self._require_gains(one.name, one.of, [one.gain])
         sized = {*self.gains, *(state.name for state in self.states)}
         fits = len(of_own) == len(self.sizes) and of_own.keys() <= sized and "n" not in of_own.values()
         require(fits, "sizes", ", ".join(of_own), "must be of gains and states, once each, and not n")
@@ -141,6 +172,12 @@ class System:
             require_sort(tree, "vector")
             self.require_letters(tree, self.known, "the torque and the states")
             require(self.shape(tree) == (size,), "size", size, "must be that of the torque or the rate")
+
+    def _require_gains(self, name: str, of: str, gains: Collection[str]) -> None:
+        """Refuse a gain that the system lacks, or of another size than the state that it multiplies."""
+        for gain in gains:
+            fits = gain in self.gains and self.size(gain) == self.size(of)
+            require(fits, "function", name, f"has {gain!r}, which is no gain of its size")
 
     def require_letters(self, tree: Tree, known: Collection[Tree], where: str) -> None:
         """Refuse a letter that is not known."""
@@ -150,6 +187,7 @@ class System:
     def size(self, name: str) -> str:
         """That of a vector: of a function, a potential or a changed letter that of its state."""
         owner = {name: f.of for f in self.functions for name in (f.name, f"d{f.name}", f"U{f.name}")}
+        owner |= {one.name: one.of for one in self.increases}
         name = name.removeprefix("y_")
         return dict(self.sizes).get(owner.get(name, name), "n")
 
@@ -185,12 +223,17 @@ class System:
     @property
     def known(self) -> frozenset[Tree]:
         """The letters that a controller may have."""
-        vectors = {*self.moving, *self.diagonal, *(f.name for f in self.functions)}
+        vectors = {*self.moving, *self.diagonal, *(f.name for f in (*self.functions, *self.increases))}
         vectors |= {"g", "dg", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
         matrices = {"M", "C", "D", "dM", "dD"} if self.desired else {"M", "C"}
         matrices |= {one.name for one in self.regressors}
         result = {("vec", name) for name in vectors} | {("mat", name) for name in matrices} | {S}
         return frozenset(result | {("var", name) for name in self.constants})
+
+    @property
+    def probes(self) -> frozenset[Tree]:
+        """A vector for each function with a level, to multiply M ẇ with at rest; see ``facts``."""
+        return frozenset({("vec", f"T{f.name}") for f in self.functions if f.level})
 
     @property
     def energies(self) -> frozenset[Tree]:
@@ -265,6 +308,7 @@ class System:
         """An expression where some states are 0: functions of them are, C with w, differences with e."""
         gone = {("vec", name) for name in states}
         gone |= {("vec", n) for f in self.functions if f.of in states for n in (f.name, f"U{f.name}")}
+        gone |= {("vec", one.name) for one in self.increases if one.of in states}
         gone |= ({C} if "w" in states else set()) | ({DG, DM, DD} if "e" in states else set())
         return replaced(tree, dict.fromkeys(gone, NOTHING))
 
