@@ -1,15 +1,30 @@
 """PID control with a bounded integral action, τ = (K + K_i) q̃ − K_v q̇ + K_i ∫ α f(q̃) dt: global, unlike PID.
 
-Let z be the integral less K_i⁻¹ g(q_d), so that τ = (K + K_i) q̃ − K_v q̇ + K_i z + g(q_d) and z = 0 at rest. As f is
-bounded, the cubic term α f(q̃)ᵀCᵀq̇ is at most α k_c √n γ ‖q̇‖², for all q̃: the proof of ``pid.py`` needs no
-region. The torque of gravity is at most f_kg ‖f(q̃)‖, as f does not vanish far away.
-Kelly (1998) has this controller; his text was not at hand, and the proof is written here anew.
+Let z be the integral less K_i⁻¹ g(q_d), so that τ = (K + K_i) q̃ − K_v q̇ + K_i z + g(q_d) and z = 0 at rest.
+As f is bounded, the cubic term α f(q̃)ᵀCᵀq̇ is at most α k_c √n γ ‖q̇‖² for all q̃. So the proof of ``pid.py``
+needs no region here. Gravity changes by at most f_kg ‖f(q̃)‖, as f does not vanish far away.
+The idea is that of the nonlinear PID of Kelly (1998). That text was not at hand; the proof and its conditions
+are written here anew. Of the later saturated PID in the reference, title page and abstract were seen.
 """
 
-from lyapcheck.claims import Proof, any_vector, at_arm, constant_goal, cosh, lasalle, log, norm, rate_at_most, tanh, var
+from lyapcheck.claims import (
+    Proof,
+    any_vector,
+    at_arm,
+    constant_goal,
+    cosh,
+    lasalle,
+    log,
+    norm,
+    rate_at_most,
+    tanh,
+    var,
+)
 from lyapcheck.robots import load
 
-proof = Proof("nonlinear_pid", "PID control with a bounded integral action", reference="kelly1998global")
+proof = Proof(
+    "nonlinear_pid", "PID control with a bounded integral action", reference="santibanez2008saturated"
+)
 x = var("x")
 
 
@@ -65,5 +80,5 @@ proof.add(
 
 proof.section("What would be too much")
 proof.add("turned", "the same with the integral turned", rate_at_most(regulator(any_function, integral=-1)))
-proof.add("linear", "the same with the linear integral of PID: ‖q̃‖ has no bound", regulator(any_function, bounded=False))
+proof.add("linear", "the same with the integral of q̃ itself", regulator(any_function, bounded=False))
 proof.add("soft", "the same for any K and K_v: a soft arm falls", regulator(any_function, conditions=1))

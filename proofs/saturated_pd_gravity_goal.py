@@ -1,9 +1,10 @@
-"""Saturated PD control with gravity compensated at the goal, τ = L f(A q̃) − K k(q̇) + g(q_d), without friction.
+"""Saturated PD control with gravity compensated at the goal, τ = L f(A q̃) − K k(q̇) + g(q_d), no friction.
 
-The torque is bounded by L, K and g(q_d). With the energy Σ l_i ∫ f(a_i x) dx + U_g(q) − U_g(q_d) + g(q_d)ᵀq̃
-the arm rests at the goal alone if l_i f(a_i x) is above min(k_g x, 2k'_i) for every joint i, 2k'_i the most that
-the torque of gravity changes: stiffer than gravity near the goal, stronger than it far away. The number f_load
-is the largest share min(k_g x, 2k'_i)/(l_i f(a_i x)) that gravity has, and must be below 1.
+The torque is bounded by L, K and g(q_d). V is the energy, with Σ l_i ∫ f(a_i x) dx.
+The goal is the only state of rest if l_i f(a_i x) is above min(k_g x, 2k'_i) for every joint i, where 2k'_i
+is the most that its torque of gravity changes: stiffer than gravity near the goal, stronger far away. Here
+f_load is the largest share min(k_g x, 2k'_i)/(l_i f(a_i x)) that gravity has. It must be below 1.
+Saturated versions of ``tomei.py`` are published. Those texts were not at hand; the proof is written anew.
 """
 
 from lyapcheck.claims import (
@@ -24,7 +25,7 @@ from lyapcheck.robots import load
 proof = Proof(
     "saturated_pd_gravity_goal",
     "Saturated PD control with gravity at the goal",
-    reference="kelly2005control",
+    reference="tomei1991adaptive",
 )
 x = var("x")
 
@@ -44,7 +45,7 @@ def tanh_of(goal, A, L):
 def regulator(functions, friction="none", firm=True, damping=1):
     """The loop, V and the theorem."""
     goal = constant_goal(friction)
-    e, w, M = goal.e, goal.w, goal.M
+    w, M = goal.w, goal.M
     L, A, K = goal.gains("L A K")
     f, k = functions(goal, A, L)
     loop = goal.under(L @ f - damping * K @ k + goal.gravity_at_goal)
@@ -62,8 +63,8 @@ def regulator(functions, friction="none", firm=True, damping=1):
 
 
 loop, V, theorem, power = regulator(any_function)
-proof.add("rate", "dV/dt = −q̇ᵀK k(q̇): the energy of gravity leaves no trace", along(loop, V, power, gravity=True))
-proof.add_theorem("P", "with f_load < 1 the goal is globally asymptotically stable, without friction", theorem)
+proof.add("rate", "dV/dt = −q̇ᵀK k(q̇)", along(loop, V, power, gravity=True))
+proof.add_theorem("P", "f_load < 1 makes the goal globally asymptotically stable, without friction", theorem)
 proof.add("P.tanh", "so with tanh for both", regulator(tanh_of)[2])
 proof.add(
     "P.pelican",
@@ -72,7 +73,7 @@ proof.add(
 )
 
 proof.section("What would be too much")
-proof.add("firm", "the same argument for all positive gains: a soft arm falls", regulator(any_function, firm=False)[2])
+proof.add("firm", "the same for all positive gains: a soft arm falls", regulator(any_function, firm=False)[2])
 proof.add(
     "weak",
     "the Pelican arm with a saturation below its gravity: the condition fails",

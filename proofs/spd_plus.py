@@ -1,8 +1,9 @@
-"""PD+ control with one saturation, τ = L f(A q̃ − D w) + M q̈_d + C(q,q̇_d) q̇_d + g(q) + B q̇_d, w = q̇ − q̇_d.
+"""PD+ control with one saturation, τ = L f(A q̃ − K w) + M q̈_d + C(q,q̇_d) q̇_d + g(q) + B q̇_d, w = q̇ − q̇_d.
 
-The torque has a bound, as C(q,q̇_d) and not C(q,q̇) is in it, and that asks for friction: λmin(B) > k_c v_d. With
-f(A q̃ − D w) = h − d, h = f(A q̃), each d_i has the sign of w_i, so the derivative term dissipates although it
-shares its saturation with the proportional term. V = ½yᵀMy + Σ l_i ∫ f(a_i x) dx, y = w − ε₀h, has a strict rate.
+The torque is bounded, as C(q,q̇_d) and not C(q,q̇) is in it. That asks for friction: λmin(B) > k_c v_d. With
+f(A q̃ − K w) = h − c, h = f(A q̃), each c_i has the sign of w_i. So the derivative term dissipates although it
+shares its saturation with the proportional term. V = ½yᵀMy + Σ l_i ∫ f(a_i x) dx with y = w − ε₀h.
+Bounded versions of PD+ are published. Those texts were not at hand; the proof is written here anew.
 """
 
 from lyapcheck.claims import (
@@ -22,7 +23,7 @@ from lyapcheck.claims import (
 )
 from lyapcheck.robots import load
 
-proof = Proof("spd_plus", "PD+ control with one saturation", reference="aguinaga2009global")
+proof = Proof("spd_plus", "PD+ control with one saturation", reference="paden1988globally")
 x = var("x")
 
 

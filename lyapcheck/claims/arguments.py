@@ -186,7 +186,7 @@ def _require_names(loop: System, used: Iterable[str], changed: Iterable[str]) ->
     Raises:
         ValueError: with the nearest ones that it has.
     """
-    letters_of = [*loop.moving, *(f.name for f in (*loop.functions, *loop.increases))]
+    letters_of = [*loop.moving, *(f.name for f in loop.by_entries)]
     letters_of += [f"y_{state}" for state in changed]
     known = {*constants_of(loop), "s", *(f"norm_{name}" for name in letters_of)}
     known |= {f"sum_U{f.name}" for f in loop.functions}

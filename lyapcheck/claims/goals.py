@@ -319,10 +319,11 @@ class Goal:
             steep: at most f(x)/x for 0 <= x <= ``start``, for ``load`` and ``kg`` of one arm.
             level: as in :meth:`entrywise`.
         """
-        numbers = [exact_value(number) for number in (rho, secant, low, start)]
+        slopes = exact_value(rho), exact_value(secant)
+        far = exact_value(low), exact_value(start)
         most = None if gamma is None else exact_value(gamma)
         slope = None if steep is None else exact_value(steep)
-        member = Member(value.tree, diff(value, "x").tree, potential.tree, most, *numbers, slope)
+        member = Member(value.tree, diff(value, "x").tree, potential.tree, most, *slopes, *far, slope)
         gain, state = self._argument(name, of)
         own = self._level(name, state, level)
         self._functions += [

@@ -156,7 +156,7 @@ class DrawnBounds:
             if not free:
                 continue
             upper, value = _value(size, point), exact(self.entries.number(number), point)
-            if upper is not None and rational(upper) > value:
+            if upper and rational(upper) > value:
                 share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / upper * NEARLY
                 point = point | {free[-1]: share * point[free[-1]]}
         return point

@@ -253,7 +253,9 @@ def _compared(f, function, gain, gains, arm):
     result = {f"{f.name}_kg": 1.05 * whole}
     if f.level:
         beside = zip(most, gains[f.level], values, strict=True)
-        result[f"{f.name}_load"] = 1.05 * max((np.minimum(kg * x, k) / (l * own)).max() for k, l, own in beside)
+        result[f"{f.name}_load"] = 1.05 * max(
+            (np.minimum(kg * x, k) / (l * own)).max() for k, l, own in beside
+        )
     return result
 
 

@@ -96,10 +96,10 @@ BOUNDS = {
     "share": "≥ ‖{at_state}‖/(1 + ‖{of}‖)",
     "sector": "≤ 1/{name}_secant",
     "kg": "with ‖g(q) − g(p)‖ ‖x‖ ≤ {name}_kg x·{at_x}, x = q − p",
-    "load": "with min(kg |x|, k_i) ≤ {name}_load {level}_i |{at_x}| for every joint i, k_i ≥ |g_i(q) − g_i(p)|",
+    "load": "with min(kg |x|, k_i) ≤ {name}_load {level}_i |{at_x}|, k_i ≥ |g_i(q) − g_i(p)|, for each joint",
 }
 INCREASED = {"secant": "≥ |{0}/{1}| by entries", "reach": "≥ ‖{0}‖", "sector": "≤ 1/{0}_secant"}
-"""What the constants of a function bound, by the ends of their names; those of gravity wherever they occur."""
+"""What the constants of a function bound, by the ends of their names."""
 
 
 def loop_text(argument: Argument) -> str:
@@ -146,8 +146,8 @@ def _over(argument: Argument) -> Iterator[str]:
         bounds = [f"{name} {says}" for name, says in known.items() if name in used | everywhere]
         if bounds:
             yield f"all {', '.join(bounds)}"
-    for one in system.increases:
-        known = {f"{one.name}_{end}": says.format(one.name, one.of) for end, says in INCREASED.items()}
+    for d in system.increases:
+        known = {f"{d.name}_{end}": says.format(d.name, d.of) for end, says in INCREASED.items()}
         bounds = [f"{name} {says}" for name, says in known.items() if name in used]
         if bounds:
             yield f"all {', '.join(bounds)}"
@@ -248,7 +248,8 @@ def _meanings(argument: Argument) -> Iterator[str]:
             yield f"U{f.name} = ∫{f.name}({inner}) dx from 0 to {f.of} by entries"
         if used & {f"sum_LU{f.name}", f"sum_T{f.name}"}:
             yield f"sum_LU{f.name} = {f.level}·U{f.name}"
-            yield f"sum_T{f.name} = T{f.name}·{f.level} {f.name}, T{f.name} a vector of the joint that gravity loads least"
+            yield f"T{f.name} a vector with |T{f.name}·dg| ≤ {f.name}_load sum_T{f.name}"
+            yield f"sum_T{f.name} = T{f.name}·{f.level} {f.name}, positive unless e = 0"
     for name in system.diagonal:
         if used & {f"{name}_min", f"{name}_max"}:
             yield f"{name}_min and {name}_max the least and the greatest entry of {name}"

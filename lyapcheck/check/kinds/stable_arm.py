@@ -163,7 +163,6 @@ class StableArm(Total):
             here = Relation(substitute(one.left, by), one.operator, substitute(one.right, by))
             yield f"condition {k}", Constant(here)
 
-
     def _compared(self) -> Iterator[tuple[str, Statement]]:
         """That gravity is as small beside functions as numbers say: f(a_i x) >= min(steep a_i x, low)."""
         numbers, gains, n = dict(self.numbers), dict(self.gains), len(self.arm.mass)

@@ -8,24 +8,26 @@ energy of gravity U_g(q) − U_g(q_d) + g(q_d)ᵀe is eᵀP with ‖P‖ <= ½kg
 f_sector = 1/f_secant; of e, ‖f(e)‖ <= f_share (1 + ‖e‖), as f_secant does and smaller numbers may;
 sum_Uf is Σ U(x_i), which is above the norm of the vector, as no U(x_i) is negative.
 
-Of a function of e, f_kg is a number with ‖dg‖ ‖e‖ <= f_kg eᵀf(e) for all e and q_d. So ‖dg‖ <= f_kg ‖f(e)‖, and
-along the ray to e the energy of gravity changes by |uᵀdg| <= ‖dg‖ <= f_kg uᵀf, the slope of f_kg Σ U: it is at
-most f_kg sum_Uf. There is one if f(x) >= min(steep x, low) for x >= 0, as |u_i| <= 1 gives
-eᵀf(e) >= ‖e‖ min(steep ‖e‖, low), and ‖dg‖ <= min(kg ‖e‖, k) with k >= ‖g(q) − g(p)‖: the larger of kg/steep and
-k/low. P is along e, so that ‖e‖ ‖P‖ is the size of the energy of gravity.
+Of a function of e, f_kg is a number with ‖dg‖ ‖e‖ <= f_kg eᵀf(e) for all e and q_d. So ‖dg‖ <= f_kg ‖f(e)‖.
+Along the ray to e, u = e/‖e‖, the energy of gravity changes by |uᵀdg| <= ‖dg‖ <= f_kg uᵀf, the slope of
+f_kg Σ U: it is at most f_kg sum_Uf. Where f(x) >= min(steep x, low) for x >= 0, |u_i| <= 1 gives
+eᵀf(e) >= ‖e‖ min(steep ‖e‖, low); and ‖dg‖ <= min(kg ‖e‖, k) with k >= ‖g(q) − g(p)‖. So the larger of
+kg/steep and k/low is such a number. P is along e, so that ‖e‖ ‖P‖ is the size of the energy of gravity.
 
 With a level L, f_load is a number with min(kg x, k_i) <= f_load l_i f(x) for x >= 0 and each joint i, where
 |g_i(q) − g_i(p)| <= k_i. Then
 
-- the energy of gravity is at most f_load sum_LUf, sum_LUf = Σ l_i U(e_i). For a larger c, W = c Σ l_i U(e_i) ± it
-  grows without end: joint by joint, its slope c l_i f is above k_i far away, or k_i = 0 and U grows. It has a
-  least value, where c L f = ±dg. No e ≠ 0 is such: |dg_i| = c l_i |f| exceeds min(kg |e_i|, k_i), and k_i it does
-  not, hence |dg_i| > kg |e_i| where e_i ≠ 0, against ‖dg‖ <= kg ‖e‖. So W >= 0, for every such c.
-- there is a vector Tf, ‖Tf‖ <= 1, with Tfᵀ L f = sum_Tf, positive for e ≠ 0, and |Tfᵀ dg| <= f_load sum_Tf. If
-  |dg_i| <= f_load l_i |f(e_i)| for some i with e_i ≠ 0, the unit vector of i with the sign of e_i. Otherwise
-  f_load l_i |f| >= kg |e_i| for all i as above, so ‖dg‖ <= f_load ‖L f‖, and Tf is along L f.
+- the energy of gravity is at most f_load sum_LUf, sum_LUf = Σ l_i U(e_i). If kg = 0, it is 0. Otherwise take
+  c > f_load. W = c Σ l_i U(e_i) plus or minus this energy, which is at most Σ k_i |e_i|, grows without end:
+  far away its slope c l_i f is above k_i by a constant, or k_i = 0 and U grows. So W has a least value, where
+  c L f = ±dg. Suppose e ≠ 0 there. Where e_i ≠ 0, |dg_i| = c l_i |f| exceeds min(kg |e_i|, k_i), but not k_i;
+  so it exceeds kg |e_i|, and elsewhere both are 0: against ‖dg‖ <= kg ‖e‖. Hence e = 0, and W >= 0 for all c;
+- there is a vector Tf, ‖Tf‖ <= 1, with Tfᵀ L f = sum_Tf, positive for e ≠ 0, and |Tfᵀ dg| <= f_load sum_Tf.
+  If |dg_i| <= f_load l_i |f(e_i)| for some i with e_i ≠ 0, it is the unit vector of i with the sign of e_i.
+  Otherwise f_load l_i |f| >= kg |e_i| for all i as above, so ‖dg‖ <= f_load ‖L f‖, and Tf is along L f.
+  This is of the number Tfᵀ dg alone, not of ‖Tf‖ ‖dg‖, nor of Tfᵀ A dg.
 
-An increase d of a function by y has |d| <= d_secant |y|, y d >= d_sector d² and ‖d‖ <= d_reach, if f is bounded.
+An increase d of f by y has |d| <= d_secant |y|, y d >= d_sector d² and, if f is bounded, ‖d‖ <= d_reach.
 """
 
 from __future__ import annotations
@@ -68,6 +70,8 @@ BOUNDS = ("reach", "slope", "secant", "sector", "share")
 """The constants of a function."""
 COMPARED = re.compile(".*_(kg|load)").fullmatch
 """Constants that compare gravity with a function; a bound of which none is asked does without."""
+OPPOSITE: Tree = ("vec", "opposite_dg")
+"""−dg, so that an upper bound of Tfᵀ dg is a lower one."""
 P: Tree = ("vec", "P")
 """The energy of gravity is eᵀP."""
 
@@ -131,15 +135,15 @@ def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]
             yield (DG,), product(constant(f"{f.name}_kg"), size(f.name))
             yield (E, P), product(constant(f"{f.name}_kg"), constant(f"sum_U{f.name}"))
         if f.level:
-            load, probe = constant(f"{f.name}_load"), ("vec", f"T{f.name}")
-            yield (E, P), product(load, constant(f"sum_LU{f.name}"))
+            probe: Tree = ("vec", f"T{f.name}")
+            yield (E, P), product(constant(f"{f.name}_load"), constant(f"sum_LU{f.name}"))
             yield (probe,), ONE
-            yield (probe, DG), product(load, constant(f"sum_T{f.name}"))
+    yield (OPPOSITE,), product(constant("kg"), size("e"))
 
 
 def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[Least]:
-    """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx, kᵀU, and with a level L TᵀLf."""
-    sized = {*system.moving, *changed, *(f.name for f in (*system.functions, *system.increases))}
+    """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx, kᵀU, and TᵀLf by a level."""
+    sized = {*system.moving, *changed, *(f.name for f in system.by_entries)}
     for word in sorted(chain.from_iterable(words.seen.values())):
         result = _least_of(system, word, sized)
         if result is not None:
@@ -150,6 +154,8 @@ def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[Leas
                 yield _number(word), constant(f"sum_LU{f.name}")
             if plain and f.level and names == sorted((f.level, f"T{f.name}", f.name)):
                 yield _number(word), constant(f"sum_T{f.name}")
+            if plain and f.level and names == sorted((f"T{f.name}", OPPOSITE[1])):
+                yield _number(word), ("neg", product(constant(f"{f.name}_load"), constant(f"sum_T{f.name}")))
 
 
 def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None:
@@ -165,7 +171,7 @@ def _least_of(system: System, word: Word, sized: Collection[str]) -> Tree | None
     rest = [name for name in names if name not in system.diagonal]
     if len(rest) == 2 and rest[0] == rest[1] and rest[0] in sized:
         return product(*gains, size(rest[0]), size(rest[0]))
-    for own in (*system.functions, *system.increases):
+    for own in system.by_entries:
         if rest == sorted((own.name, own.of)):
             return product(*gains, constant(f"{own.name}_sector"), size(own.name), size(own.name))
     for f in system.functions:

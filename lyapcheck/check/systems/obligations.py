@@ -12,6 +12,7 @@ from lyapcheck.check.letters.words import Words
 from lyapcheck.check.statement import Relation, Statement
 from lyapcheck.check.systems.argument import Argument, Cascade
 from lyapcheck.check.systems.facts import (
+    OPPOSITE,
     P,
     at_most,
     constant,
@@ -120,6 +121,8 @@ def at_rest(argument: Argument) -> Named:
             for state, x in step.against
         ]
         name, total = f"rest {k}" if k > 1 else "rest", parts[0] if len(parts) == 1 else ("add", *parts)
+        if system.probes:
+            total = replaced(total, {DG: minus(OPPOSITE)})
         yield name, at_most(system, ("neg", total), ("neg", step.form.tree))
         yield from _definite(argument, name, step.form)
 
@@ -188,7 +191,7 @@ def _orders(system: System) -> Iterator[Relation]:
         yield Relation(least, "<=", greatest)
         yield Relation(least, "<=", norm)
         yield Relation(greatest, "<=", norm)
-    for f in (*system.functions, *system.increases):
+    for f in system.by_entries:
         secant, sector = constant(f"{f.name}_secant"), constant(f"{f.name}_sector")
         yield Relation(product(secant, sector), "<=", ("num", "1"))
         if isinstance(f, Entrywise) and f.member is not None and not f.gain:

@@ -143,7 +143,7 @@ class System:
         """Refuse names given twice, letters that nothing is known of, and functions of what is no state."""
         names = [*self.gains, *self.constants, *(state.name for state in self.states)]
         names += [f"{prefix}{f.name}" for f in self.functions for prefix in ("", "d", "U")]
-        names += [one.name for one in (*self.regressors, *self.increases)]
+        names += [one.name for one in self.regressors] + [one.name for one in self.increases]
         names += [name for _, name in self.probes]
         of_own = dict(self.sizes)
         own = {*of_own.values(), *(one.columns for one in self.regressors)} - {"n"}
@@ -216,6 +216,11 @@ class System:
         return ("e", "w", *(state.name for state in self.states))
 
     @property
+    def by_entries(self) -> tuple[Entrywise | Increase, ...]:
+        """Functions of states, and increases by states."""
+        return (*self.functions, *self.increases)
+
+    @property
     def diagonal(self) -> tuple[str, ...]:
         """The names of the diagonal positive matrices."""
         return self.gains if self.friction == "none" else (*self.gains, "B")
@@ -223,7 +228,7 @@ class System:
     @property
     def known(self) -> frozenset[Tree]:
         """The letters that a controller may have."""
-        vectors = {*self.moving, *self.diagonal, *(f.name for f in (*self.functions, *self.increases))}
+        vectors = {*self.moving, *self.diagonal, *(f.name for f in self.by_entries)}
         vectors |= {"g", "dg", "dqd", "ddqd"} if self.desired else {"gd", "dg"}
         matrices = {"M", "C", "D", "dM", "dD"} if self.desired else {"M", "C"}
         matrices |= {one.name for one in self.regressors}

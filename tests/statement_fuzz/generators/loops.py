@@ -36,10 +36,13 @@ SCRIPTS = (
     "kelly_gravity",
     "kelly_santibanez",
     "kelly_tanh",
+    "nonlinear_pid",
     "pd_plus",
     "pid",
+    "saturated_pd_gravity_goal",
     "slotine_li",
     "slotine_li_adaptive",
+    "spd_plus",
     "takegaki_arimoto",
     "tomei",
 )
