@@ -412,9 +412,10 @@ class Goal:
         """
         if level is None:
             return ""
-        if level.tree[0] != "diag" or level.tree[1] not in self._gains or state != "e":
+        named = level.tree[1] if isinstance(level, AnyMatrix) and level.tree[0] == "diag" else None
+        if named not in self._gains or state != "e":
             raise ValueError(f"{name}: a level is a gain of this goal, beside a function of e; give it one")
-        return str(level.tree[1])
+        return str(named)
 
 
 def constant_goal(friction: str = "any", disturbed: bool = False) -> Goal:
