@@ -86,6 +86,7 @@ class Notes:
         route: the way round what is broken.
         findings: notes on claims that may fail; one whose claims hold is not shown.
         equations: LaTeX of the numbered formulas.
+        titles: of claims, in a few letters, for the graph.
         known: what was known before the paper, and what is new: a sentence, then paragraphs.
         own: by proof the claims about an arm and gains, for reports on others than the paper's.
     """
@@ -95,6 +96,7 @@ class Notes:
     route: tuple[Box, ...]
     findings: tuple[Note, ...]
     equations: Mapping[str, str]
+    titles: Mapping[str, str]
     known: tuple[str, ...]
     own: Mapping[str, tuple[str, ...]]
 
@@ -116,6 +118,7 @@ def published_notes() -> Notes:
         route=route,
         findings=tuple(findings),
         equations=result["equations"],
+        titles=result["titles"],
         known=(result["known"]["short"], *result["known"]["text"]),
         own={proof: tuple(ids) for proof, ids in result["own"].items()},
     )

@@ -37,6 +37,7 @@ from lyapcheck.report.document import evidence
 from lyapcheck.report.findings import findings, own_findings, span_words, witness_words
 from lyapcheck.report.jobs import done
 from lyapcheck.report.model import ClaimRow, EpsilonRow, RunRow, anchor, applies, published_notes
+from lyapcheck.report.page import LETTERS, graph, layout, tied
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Grade, Verdict
 
@@ -320,3 +321,37 @@ def test_gains_that_break_19_alone_are_told_of_the_proof_where_there_is_one(brok
     result = gate_result(1, Fraction(9, 10)) if broken == "19" else gate_result(99)
     (finding,) = own_findings([result], [epsilon_row(m=1, certified=certified)], [])
     assert ("--condition global" in finding.text) == (broken == "19" and certified is not None)
+
+
+def test_claims_stand_right_of_what_they_use():
+    names = {"a": [], "b": ["a"], "c": ["a", "b"], "d": ["x"], "e": []}
+    rows = [claim_row(name, uses=uses) for name, uses in names.items()]
+    chosen = tied(rows)
+    places = layout(chosen)
+    assert sorted(places) == ["a", "b", "c"]
+    assert places["a"][0] < places["b"][0] < places["c"][0]
+    assert len(set(places.values())) == 3
+
+
+def test_every_box_of_the_graph_has_a_title_that_fits(report):
+    titles = report.notes.titles
+    assert {row.id for row in tied(report.claims)} <= set(titles)
+    assert max(map(len, titles.values())) <= LETTERS
+
+
+def test_the_graph_of_claims_shows_verdict_and_grade() -> None:
+    second: dict[str, Any] = {"grade": Grade.ENCLOSURE, "uses": ["a"], "comment": "<b>"}
+    rows = [
+        claim_row("a", comment="<b>"),
+        claim_row("b", **second),
+        claim_row("c", "refuted", witness={"shown by": "it"}, broken=["a"], **second),
+    ]
+    drawn = graph(rows, {"a": "short"})
+    boxes = ElementTree.fromstring(drawn).findall("a")
+    assert [(box.get("href"), box.get("class")) for box in boxes] == [
+        ("#a", "box proved exact"), ("#b", "box proved enclosure"), ("#c", "box refuted enclosure")
+    ]  # fmt: skip
+    said = [[text.text for text in box.findall("text")] for box in boxes]
+    assert said == [["✓ a", "short"], ["✓ b"], ["✗ c"]]
+    assert drawn.count("edge broken") == 1
+    assert "<b>" not in drawn

@@ -118,3 +118,19 @@ def test_nothing_is_lost_without_a_script(page, folder, report):
     page.open(folder / "index.html")
     text = page.send("DOM.getOuterHTML", nodeId=page.send("DOM.getDocument")["root"]["nodeId"])["outerHTML"]
     assert all(f'id="{row.id}"' in text for row in report.claims)
+
+
+def test_the_graph_shows_what_a_claim_rests_on_and_what_falls_with_one(page):
+    def lit(claim):
+        page.run(
+            f"document.querySelector('.box[data-claim=\"{claim}\"]').dispatchEvent(new Event('pointerenter'))"
+        )
+        return set(page.run("[...document.querySelectorAll('.box.on')].map(box => box.dataset.claim)"))
+
+    falls = lit("16")  # refuted
+    assert "P" in falls
+    assert not {"16.6", "15"} & falls
+    rests = lit("15")  # proved
+    assert "15" in rests
+    assert len(rests) > 1
+    assert "P" not in rests

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache, partial
 from importlib import resources
 from itertools import groupby
@@ -54,6 +55,7 @@ def render(report: Report) -> str:
         shown=partial(_shown, report),
         groups=groups,
         used_by=used_by,
+        graph=graph(first, report.notes.titles),
         falls=falls(first),
         placed=partial(_placed, report),
         behind_epsilon=[
@@ -176,6 +178,38 @@ def _placed(report: Report, place: str) -> list[Markup | str]:
     return [element("a", part, href=known[part]) if part in known else part for part in parts]
 
 
+# --- The claims and what they rest on, as a picture whose boxes are links.
+
+
+WIDE, HIGH = 138, 34
+ACROSS, DOWN = 184, 42
+MARGIN = 8
+LETTERS = 22
+"""The longest title that fits a box."""
+
+
+def graph(rows: Sequence[ClaimRow], titles: Mapping[str, str]) -> Markup:
+    """Each claim that uses another or is used, right of all it uses; a thick line is a link that breaks.
+
+    Args:
+        rows: the claims of one proof for one m.
+        titles: of claims, in at most ``LETTERS`` letters.
+    """
+    chosen = tied(rows)
+    at = {name: (MARGIN + x * ACROSS, MARGIN + (y + 0.5) * DOWN) for name, (x, y) in layout(chosen).items()}
+    width, height = (max((end[k] for end in at.values()), default=0.0) + MARGIN for k in (0, 1))
+    return markup(
+        "graph.html",
+        rows=chosen,
+        at=at,
+        titles=titles,
+        width=width + WIDE,
+        height=height + HIGH,
+        wide=WIDE,
+        high=HIGH,
+    )
+
+
 def falls(rows: Sequence[ClaimRow]) -> list[tuple[ClaimRow, list[ClaimRow]]]:
     """The refuted claims that others rest on, each with all that falls with it, directly or not."""
     result = [
@@ -184,3 +218,34 @@ def falls(rows: Sequence[ClaimRow]) -> list[tuple[ClaimRow, list[ClaimRow]]]:
         if row.verdict is Verdict.REFUTED
     ]
     return [(row, fallen) for row, fallen in result if fallen]
+
+
+def tied(rows: Sequence[ClaimRow]) -> list[ClaimRow]:
+    """The claims that use another one of the list, or are used by one."""
+    known = {row.id for row in rows}
+    used = {name for row in rows for name in row.uses if name in known}
+    result = [row for row in rows if row.id in used or set(row.uses) & known]
+    return [replace(row, uses=tuple(name for name in row.uses if name in known)) for row in result]
+
+
+def layout(rows: Sequence[ClaimRow]) -> dict[str, tuple[float, float]]:
+    """Columns by the longest way to a claim that uses nothing, rows near the claims that are used."""
+    uses = {row.id: row.uses for row in rows}
+
+    def depth(name: str) -> int:
+        return 1 + max(map(depth, uses[name]), default=-1)
+
+    columns: dict[int, list[str]] = {}
+    for name in uses:
+        columns.setdefault(depth(name), []).append(name)
+    tallest = max(map(len, columns.values()), default=0)
+    places: dict[str, tuple[float, float]] = {}
+    for column in sorted(columns):
+        heights = {
+            name: sum(places[used][1] for used in uses[name]) / max(len(uses[name]), 1)
+            for name in columns[column]
+        }
+        step = tallest / len(heights)
+        for k, name in enumerate(sorted(heights, key=lambda name: heights[name])):
+            places[name] = float(column), (k + 0.5) * step - 0.5
+    return places

@@ -13,4 +13,26 @@
   };
   addEventListener("hashchange", reveal);
   if (location.hash) reveal();
+
+  // The graph shows what a claim rests on while it is pointed at; of a refuted one, what falls with it.
+  for (const graph of all(".claim-graph")) {
+    const edges = all(".edge", graph), boxes = all(".box", graph);
+    const light = (name) => {
+      const on = new Set([name]);
+      const falls = boxes.some((box) => box.dataset.claim === name && box.classList.contains("refuted"));
+      const [to, from] = falls ? ["from", "to"] : ["to", "from"];
+      for (let size = 0; size !== on.size;) {
+        size = on.size;
+        edges.forEach((edge) => on.has(edge.dataset[to]) && on.add(edge.dataset[from]));
+      }
+      graph.classList.toggle("lit", Boolean(name));
+      graph.classList.toggle("falls", falls);
+      edges.forEach((edge) => edge.classList.toggle("on", on.has(edge.dataset[to])));
+      boxes.forEach((box) => box.classList.toggle("on", on.has(box.dataset.claim)));
+    };
+    for (const box of boxes) {
+      for (const event of ["pointerenter", "focus"]) box.addEventListener(event, () => light(box.dataset.claim));
+      for (const event of ["pointerleave", "blur"]) box.addEventListener(event, () => light(""));
+    }
+  }
 })();
