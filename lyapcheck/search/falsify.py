@@ -20,20 +20,18 @@ from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.sample import (
+from lyapcheck.search.worst_states import (
     States,
+    fast_states,
     fastest_directions,
+    finite_states,
     quadratic,
+    require_one_rate,
     sample,
     slow_sample,
+    slow_states,
     spread,
     worst_rates,
-)
-from lyapcheck.search.worst_states import (
-    fast_states,
-    finite_states,
-    require_one_rate,
-    slow_states,
 )
 
 SAMPLES = 20_000

@@ -19,21 +19,25 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import SEED, Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.convex import solved
+from lyapcheck.lyapunov import graph
+from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.search.certified import MAX_BOXES, certify
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
-from lyapcheck.search.sample import States, fast
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.worst_states import SOFTEST, resisting_program
+from lyapcheck.search.worst_states import Program, States, fast, ranges_of_state
 
 SAMPLES = 20_000
 KEPT = 12
 TURNS = 12
+SOFTEST = 1e-12
+"""N·m, of K_p Λ⁻¹ − ¼ L K_v: what is no larger resists at every state."""
 MARGIN = 0.02
 """P(λ) ⪰ MARGIN·B is asked for: what lies between the sampled states needs some room."""
 SHARES = tuple(Fraction(n, 100) for n in (60, 80, 90, 95, 100))
@@ -141,6 +145,20 @@ def _rounded(weights: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
     """ε₀ and Λ from ε₀Λ, as short decimals from below; the smallest entry of Λ is 1."""
     eps0 = Fraction(int(min(weights) * 10**6), 10**6)
     return eps0, tuple(max(Fraction(1), Fraction(int(x / eps0 * 1000), 1000)) for x in weights)
+
+
+def resisting_program(controlled: ControlledArm) -> Program:
+    """Max over (q, e, v) of 1 − vᵀP(λ)v/vᵀBv; its parameters are λ."""
+    n, B = controlled.n, ca.DM(controlled.viscous)
+    q, e, v, weights = (ca.SX.sym(name, n) for name in ("q", "e", "v", "weights"))
+    gains = ca.DM(controlled.kp), ca.DM(controlled.kv)
+    at = at_symbols(controlled.fixed, q, e, v, *gains, controlled.family.casadi, kink=1e-24)
+    F = graph.matrix(at.fast(ca.vertsplit(weights)))
+    x = B * v - F.T @ v
+    largest = float(controlled.family.constants().L.upper) / 4 * gains[1]
+    compliance = 1 / ca.fmax(gains[0] / weights - largest, SOFTEST)
+    top = ca.bilin(F, v, v) + at.near / 4 * ca.dot(compliance, x * x)
+    return Program(ca.vertcat(q, e, v), top / ca.dot(v, B * v), ranges_of_state(n, 2.0), parameters=weights)
 
 
 class _Proposal:

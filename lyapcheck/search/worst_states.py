@@ -1,30 +1,202 @@
-"""Worst-case states by CasADi and IPOPT from many starts.
+"""States at which dV/dt is large: many sampled ones, and where CasADi and IPOPT climb from the best of them.
 
-Programs, all smooth, all started from the best of many sampled states:
+    dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀²
 
-    fast     max over (q, e, v) of the 1/ε₀ that the state w = t v, t → ∞, refutes: a generalised eigenvalue
-    level    the same at e = 0, where ‖e‖ has a kink and an optimiser that comes from outside stays behind
-    finite   max over (q, e, w) of the 1/ε₀ at which dV/dt = 0 at the state itself
-    slow     the same over (q, e, u) with w = ‖h(e)‖u, which reaches states near the origin and weak gains
-    resisting  max over (q, e, v) of 1 − vᵀP(λ)v/vᵀBv, for weights λ = ε₀Λ; see `lyapcheck.search.weights`
+so the smallest ε₀ at which a given state has dV/dt = 0 is a root, not a search.
 
 Soundness: none; what is found is a candidate for `lyapcheck.check.loop.states`.
+
+References: ``reyes2019family`` (15).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.lyapunov import graph
+from lyapcheck.lyapunov.along import AtState
 from lyapcheck.lyapunov.graph import at_symbols, lyapunov_graph
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.sample import States, fastest_directions, quadratic
+
+_STEPS = 6
+"""Fixed-point steps towards the worst w."""
+MANY = 10_000
+"""States from which a compiled loop is used where there is a compiler."""
+_LARGE_ERROR = 0.3
+"""rad; for m >= 2 h' has its peak beyond, and hardly anything happens below."""
+
+
+@dataclass(frozen=True)
+class States:
+    """Many states: q, e in rad and w in rad/s, each of shape (count, n)."""
+
+    q: Array
+    e: Array
+    w: Array
+
+    def take(self, chosen: NDArray[Any]) -> States:
+        """The states at the given indices."""
+        return States(self.q[chosen], self.e[chosen], self.w[chosen])
+
+    def scaled(self, factors: Sequence[float]) -> States:
+        """The same states with every rate multiplied, by one factor after the other."""
+        q, e = (np.tile(part, (len(factors), 1)) for part in (self.q, self.e))
+        return States(q, e, np.vstack([self.w * factor for factor in factors]))
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """a₀, a₁, a₂ of dV/dt = −a₀ + a₁ ε₀ + a₂ ε₀² at each state, W."""
+
+    a0: Array
+    a1: Array
+    a2: Array
+
+    def at(self, eps0: float) -> Array:
+        """dV/dt for one ε₀."""
+        return -self.a0 + eps0 * (self.a1 + eps0 * self.a2)
+
+    def reciprocal(self) -> Array:
+        """The largest 1/ε₀ with dV/dt >= 0; 0 where no ε₀ > 0 has it."""
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            b1, b2 = self.a1 / self.a0, self.a2 / self.a0
+            root = (b1 + np.sqrt(b1 * b1 + 4 * b2)) / 2
+        return np.where(np.isfinite(root) & (root > 0), root, 0.0)
+
+
+def quadratic(controlled: ControlledArm, states: States) -> Quadratic:
+    """The coefficients of dV/dt in ε₀ at each state."""
+    return Quadratic(*controlled.lyapunov.coefficients(states.q, states.e, states.w, MANY))
+
+
+def fastest_directions(controlled: ControlledArm, q: Array, e: Array) -> tuple[Array, Array]:
+    """The 1/ε₀ that fast states refute at each (q, e), and the directions of w that do so.
+
+        1/ε₀ = λmax(B^(−½) sym F B^(−½)),   a₁ = wᵀ F w + …
+
+    with B replaced by B + K_v for the linear function; directions are of unit length.
+    """
+    symmetric = _symmetric(controlled.lyapunov.at_columns(q, e, np.zeros_like(e)))
+    scale = 1 / np.sqrt(controlled.fast_damping)
+    values, vectors = np.linalg.eigh(symmetric * scale[:, None] * scale)
+    directions = vectors[:, :, -1] * scale
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return np.asarray(values[:, -1]), directions
+
+
+def sample(controlled: ControlledArm, count: int, seed: int) -> States:
+    """Random states: q on the torus, ‖w‖ log-uniform, half of the w in the fastest direction.
+
+    In every other pair of states |e_i| is uniform up to 2.5 rad, where h and h' do all they do; in the rest
+    it is log-uniform from 0.001 to 10 rad.
+
+    Args:
+        count: how many states.
+        seed: of the random numbers; the same seed gives the same states.
+    """
+    random = np.random.default_rng(seed)
+    shape = (count, controlled.n)
+    order = np.arange(count)[:, None]
+    q = random.uniform(-np.pi, np.pi, shape)
+    e = np.where(order % 4 < 2, random.uniform(0, 2.5, shape), 10 ** random.uniform(-3, 1, shape))
+    e *= random.choice([-1.0, 1.0], shape)
+    directions = fastest_directions(controlled, q, e)[1] * random.choice([-1.0, 1.0], (count, 1))
+    free = random.normal(size=shape)
+    free /= np.linalg.norm(free, axis=1, keepdims=True)
+    chosen = np.where(order % 2 == 0, directions, free)
+    return States(q, e, chosen * 10 ** random.uniform(-2, 5, (count, 1)))
+
+
+def slow_sample(controlled: ControlledArm, count: int, seed: int) -> States:
+    """Random states whose w is the worst for their (q, e), as far as fixed-point steps find it.
+
+    They start with ‖w‖ between a hundredth and a hundred times ‖h(e)‖; see `worst_rates`.
+    """
+    random = np.random.default_rng((seed, 1))
+    states = sample(controlled, count, seed)
+    w = random.normal(size=states.w.shape)
+    length = np.linalg.norm(controlled.family.h(states.e), axis=1, keepdims=True)
+    w *= length * 10 ** random.uniform(-2, 2, (count, 1)) / np.linalg.norm(w, axis=1, keepdims=True)
+    result = States(states.q, states.e, w)
+    for _ in range(_STEPS):
+        result = worst_rates(controlled, result)
+    return result
+
+
+def worst_rates(controlled: ControlledArm, states: States) -> States:
+    """The states with w moved to where dV/dt is largest at the ε₀ refuted now, if that refutes a smaller one.
+
+    With D = diag(h(w_i)/w_i) held, −dV/dt is wᵀYw − 2 bᵀw and a number, Y = B + K_v D − ε₀ sym F and b = ½ (ε
+    (B + K_v D) h + ε₀² ∂a₂/∂w), largest at Y⁻¹b wherever Y ≻ 0. Where no ε₀ is refuted yet, it is twice the
+    4 k_p/(b + k_v) at which one joint fails near the origin.
+    """
+    now = quadratic(controlled, states).reciprocal()
+    slowest = np.max((controlled.viscous + controlled.kv) / controlled.kp) / 8
+    eps0 = 1 / np.maximum(now, slowest)
+    at = controlled.lyapunov.at_columns(states.q, states.e, states.w)
+    damping = controlled.viscous + controlled.kv * controlled.family.secant(states.w)
+    Y = damping[:, :, None] * np.eye(controlled.n) - eps0[:, None, None] * _symmetric(at)
+    near = (eps0 * at.near)[:, None] * damping * _rows(at.h, len(now))
+    middle = (near + (eps0 * eps0)[:, None] * _rows(at.slope(), len(now))) / 2
+    safe = np.abs(np.linalg.det(Y)) > 1e-12
+    Y = np.where(safe[:, None, None], Y, np.eye(controlled.n))
+    moved = States(states.q, states.e, np.linalg.solve(Y, middle[:, :, None])[:, :, 0])
+    better = safe & (quadratic(controlled, moved).reciprocal() > now)
+    return States(states.q, states.e, np.where(better[:, None], moved.w, states.w))
+
+
+def spread(states: States, merit: Array, count: int) -> Array:
+    """Indices of ``count`` promising states from different corners of the state space.
+
+    A corner is a pattern of large positive, small and large negative e_i and of the signs of sin q and cos q,
+    and its mirror image counts as the same. The best state of every corner comes before the second best of
+    any, so that many good states in one valley do not hide another valley.
+    """
+    # A number for the corner that each state lies in
+    size = np.where(np.abs(states.e) > _LARGE_ERROR, np.sign(states.e), 0).astype(int)
+    errors = size @ 3 ** np.arange(size.shape[1])
+    turned = states.q[:, 1:]
+    mirror = np.where(errors < 0, -1, 1)[:, None]
+    quarters = (mirror * np.sin(turned) > 0) + 2 * (np.cos(turned) > 0)
+    corners = np.asarray(np.abs(errors) * 4 ** turned.shape[1] + quarters @ 4 ** np.arange(turned.shape[1]))
+    order = np.argsort(-merit, kind="stable")
+    grouped = order[np.argsort(corners[order], kind="stable")]
+    _, first, members = np.unique(corners[grouped], return_index=True, return_counts=True)
+    rank = np.arange(len(grouped)) - np.repeat(first, members)
+    return np.asarray(grouped[np.lexsort((-merit[grouped], rank))][:count])
+
+
+def fast(at: AtState, scales: Array | None = None) -> Array:
+    """F of each state, (count, n, n); with Λh(e) in place of h(e) if a diagonal of Λ is given."""
+    count = np.size(at.near)
+    return np.stack([_rows(row, count) for row in at.fast(None if scales is None else list(scales))], axis=1)
+
+
+def _symmetric(at: AtState) -> Array:
+    rows = fast(at)
+    return (rows + np.swapaxes(rows, 1, 2)) / 2
+
+
+def _rows(columns: Sequence[Any], count: int) -> Array:
+    """Columns, some of them perhaps numbers, as rows of states."""
+    return np.stack([np.broadcast_to(x, count) for x in columns], axis=1)
+
+
+# --- Programs, all smooth, all started from the best of many sampled states.
+#
+#    fast     max over (q, e, v) of the 1/ε₀ that the state w = t v, t → ∞, refutes: a generalised eigenvalue
+#    level    the same at e = 0, where ‖e‖ has a kink and an optimiser that comes from outside stays behind
+#    finite   max over (q, e, w) of the 1/ε₀ at which dV/dt = 0 at the state itself
+#    slow     the same over (q, e, u) with w = ‖h(e)‖u, which reaches states near the origin and weak gains
+
 
 _OPTIONS: dict[str, Any] = {
     "print_time": False,
@@ -35,8 +207,6 @@ _LONGEST_ERROR = 30.0
 """Largest |e_i| searched, rad: beyond it 1/(1 + ‖e‖) is small."""
 SAME = 1e-6
 """How far two ways to dV/dt may differ, as a share of its terms."""
-SOFTEST = 1e-12
-"""N·m, of K_p Λ⁻¹ − ¼ L K_v: what is no larger resists at every state."""
 _FASTEST = 1e4
 """Largest |w_i| of the finite program, rad/s: beyond it the fast program is as good."""
 
@@ -112,7 +282,7 @@ def require_one_rate(controlled: ControlledArm, states: States) -> None:
 
 def fast_states(controlled: ControlledArm, starts: States, level: bool = False) -> States:
     """Where the fast program ends from each start, or the level one, with e held at 0; w has unit length."""
-    x, n, bound = expressions(controlled), controlled.n, _bound(controlled.n, 2.0)
+    x, n, bound = expressions(controlled), controlled.n, ranges_of_state(controlled.n, 2.0)
     damping = ca.dot(x.w, ca.DM(controlled.fast_damping) * x.w)
     if level:
         bound[n : 2 * n], starts = 0.0, States(starts.q, np.zeros_like(starts.e), starts.w)
@@ -124,7 +294,7 @@ def fast_states(controlled: ControlledArm, starts: States, level: bool = False) 
 def finite_states(controlled: ControlledArm, starts: States) -> States:
     """Where the finite program ends from each start."""
     x = expressions(controlled)
-    bound = _bound(controlled.n, _FASTEST)
+    bound = ranges_of_state(controlled.n, _FASTEST)
     first = quadratic(controlled, starts).reciprocal()
     return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), controlled.n))
 
@@ -143,26 +313,12 @@ def slow_states(controlled: ControlledArm, starts: States, radius: float) -> Sta
     w = ca.sqrt(ca.sumsqr(controlled.family.casadi(e).h) + 1e-300) * u
     inner = ca.substitute([x.a0, x.a1, x.a2], [x.e, x.w], [e, w])
     program = _reciprocal_program(
-        replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), _bound(n, _FASTEST)
+        replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), ranges_of_state(n, _FASTEST)
     )
     first = quadratic(controlled, starts).reciprocal()
     result = program.climb(_with(States(starts.q, starts.e / unit, starts.w / lengths), first))
     ends = result[:, n : 2 * n] * unit
     return States(result[:, :n], ends, result[:, 2 * n : 3 * n] * _length(controlled.family.h(ends))[:, None])
-
-
-def resisting_program(controlled: ControlledArm) -> Program:
-    """The resisting program over (q, e, v); its parameters are λ."""
-    n, B = controlled.n, ca.DM(controlled.viscous)
-    q, e, v, weights = (ca.SX.sym(name, n) for name in ("q", "e", "v", "weights"))
-    gains = ca.DM(controlled.kp), ca.DM(controlled.kv)
-    at = at_symbols(controlled.fixed, q, e, v, *gains, controlled.family.casadi, kink=1e-24)
-    F = graph.matrix(at.fast(ca.vertsplit(weights)))
-    x = B * v - F.T @ v
-    largest = float(controlled.family.constants().L.upper) / 4 * gains[1]
-    compliance = 1 / ca.fmax(gains[0] / weights - largest, SOFTEST)
-    top = ca.bilin(F, v, v) + at.near / 4 * ca.dot(compliance, x * x)
-    return Program(ca.vertcat(q, e, v), top / ca.dot(v, B * v), _bound(n, 2.0), parameters=weights)
 
 
 def _reciprocal_program(x: Expressions, bound: Array) -> Program:
@@ -180,7 +336,8 @@ def _length(rows: Array) -> Array:
     return np.asarray(np.maximum(np.linalg.norm(rows, axis=1), 1e-150))
 
 
-def _bound(n: int, rate: float) -> Array:
+def ranges_of_state(n: int, rate: float) -> Array:
+    """How far each angle, error and rate may go."""
     return np.repeat([2 * np.pi, _LONGEST_ERROR, rate], n)
 
 

@@ -21,7 +21,7 @@ from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, unphysical
 from lyapcheck.search.link_bounds import ErrorBoxes, link_bounds, linked_proof
-from lyapcheck.search.sample import quadratic, sample
+from lyapcheck.search.worst_states import quadratic, sample
 from tests.helpers.shares import but
 
 F = Fraction

@@ -19,8 +19,7 @@ from lyapcheck.robots import load
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.weights import Effort, weighted_epsilon
-from lyapcheck.search.worst_states import resisting_program
+from lyapcheck.search.weights import Effort, resisting_program, weighted_epsilon
 from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 

@@ -11,8 +11,15 @@ from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.falsify import falsify
-from lyapcheck.search.sample import States, fastest_directions, quadratic, sample, size, spread
-from lyapcheck.search.worst_states import fast_states, finite_states
+from lyapcheck.search.worst_states import (
+    States,
+    fast_states,
+    fastest_directions,
+    finite_states,
+    quadratic,
+    sample,
+    spread,
+)
 from tests.helpers.shares import one_in
 
 F = Fraction
@@ -47,7 +54,8 @@ def test_quadratic_in_eps0_agrees_with_the_balls(controlled):
     states = sample(controlled, 40, 1)
     for eps0 in (0.0, 0.3, 2.0):
         result = quadratic(controlled, states).at(eps0)
-        scale = size(controlled, 1.0, states)
+        h, near = controlled.family.h(states.e), 1 / (1 + np.linalg.norm(states.e, axis=1))
+        scale = near * np.sum(h * h, axis=1) + np.sum(states.w * states.w, axis=1)
         for k in range(40):
             proved = rate(controlled.arm, controlled.controller, F(eps0), exact_state(states, k))
             assert abs(float(proved.mid()) - result[k]) <= 1e-11 * (abs(result[k]) + scale[k])
