@@ -1,6 +1,6 @@
-"""Identities, proved by normal forms over ℚ and refuted by a point where both sides differ.
+"""What computing decides: identities by normal forms over ℚ, or a point against them, and relations of numbers.
 
-References: ``geddes1992algorithms``, chapter 3.
+References: ``geddes1992algorithms``, chapter 3; ``reyes2019family``, Section 4.
 """
 
 from __future__ import annotations
@@ -8,11 +8,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from itertools import islice
+from itertools import islice, product
 from random import Random
 
-from lyapcheck.check.expressions.expression import Unsupported
+from flint import ctx
+
+from lyapcheck.check.expressions.domain import holds
+from lyapcheck.check.expressions.expression import Unsupported, ball, variables
 from lyapcheck.check.expressions.normal_form import is_zero
+from lyapcheck.check.kinds.constant import (
+    Agrees,
+    Constant,
+    Corners,
+    ExactNumbers,
+    OutsideRounding,
+    PrintedInputs,
+    SeparateBalls,
+    at_corner,
+    at_printed,
+    exact_truth,
+    over_all,
+    printed_range,
+)
 from lyapcheck.check.kinds.every_n import (
     EntriesWitness,
     EveryN,
@@ -34,11 +51,13 @@ from lyapcheck.check.kinds.identity import (
 )
 from lyapcheck.check.letters.entries import exact
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
+from lyapcheck.check.statement import Proof, Relation
 from lyapcheck.claims.procedures.search import (
     BITS,
     Point,
+    Sides,
     first_refutation,
     point_of,
     witness_data,
@@ -46,6 +65,7 @@ from lyapcheck.claims.procedures.search import (
 )
 from lyapcheck.claims.search_result import (
     SearchResult,
+    between,
     broken,
     entries,
     failing,
@@ -210,3 +230,94 @@ def _difference(statement: EveryN, n: int, point: Point) -> SearchResult | None:
         return None
     data = failing({"n": n, **dict(sorted(point.items()))}, [str(left)] * 2, "=", [str(right)] * 2)
     return broken(EntriesWitness(n, point_of(point)), f"{EVERY_N}: entries at which the sides differ", data)
+
+
+# --- Relations between numbers, in balls of growing precision or exactly; numbers as texts print them.
+
+
+NUMBERS = "relation between numbers"
+PRECISIONS = (128, 512, 2048)
+
+
+@procedure(Constant)
+def find_constant(statement: Constant) -> SearchResult:
+    """Decide a relation between numbers."""
+    return find_relation(statement.relation, NUMBERS)
+
+
+def find_relation(relation: Relation, method: str) -> SearchResult:
+    """Compare both sides exactly, or in balls of growing precision."""
+    exact = exact_truth(relation)
+    if exact is not None:
+        return _found(relation, exact, ExactNumbers(), f"{method}: exact arithmetic", PRECISIONS[0])
+    for bits in PRECISIONS:
+        with ctx.workprec(bits):
+            truth = holds(relation.comparison, {})
+        if truth is not None:
+            return _found(relation, truth, SeparateBalls(bits), f"{method}: balls of {bits} bits", bits)
+    return still_open(
+        f"both sides agree to {PRECISIONS[-1]} bits; if they are equal, state it as an identity", method
+    )
+
+
+def _found(relation: Relation, truth: bool, proof: Proof, method: str, bits: int) -> SearchResult:
+    if truth:
+        return shown(proof, method)
+    with ctx.workprec(bits):
+        left, right = (Enclosure.from_arb(ball(side)) for side in (relation.left, relation.right))
+    return broken(proof, method, witness_data((relation.comparison, {}, Sides(left, right))))
+
+
+# --- Printed numbers: whether a result that a text prints agrees with the numbers it prints beside it.
+#
+# A number printed as 0.5934 stands for some real in [0.59335, 0.59345]. The printed result agrees if some
+# choice of inputs within their half units gives a result within its half unit; it disagrees if none does.
+
+
+PRINTED = "arithmetic on printed numbers"
+PRINTED_BITS = 128
+
+
+@procedure(Agrees)
+def find_agrees(statement: Agrees) -> SearchResult:
+    """Compare the formula at the printed inputs, over all their roundings and at the corners of these."""
+    target, exact = printed_range(statement.printed), at_printed(statement, PRINTED_BITS)
+    computed = {"computed": between(exact, 8), "printed": statement.printed}
+    if target.lower <= exact.lower and exact.upper <= target.upper:
+        return shown(PrintedInputs(PRINTED_BITS), f"{PRINTED}: the printed inputs give it", **computed)
+    whole = over_all(statement, PRINTED_BITS)
+    if whole.upper < target.lower or whole.lower > target.upper:
+        method = f"{PRINTED}: no inputs within their rounding give it"
+        return broken(OutsideRounding(PRINTED_BITS), method, _sides_printed(statement, exact, target))
+    # A corner of the roundings with a result below the printed one, and one above
+    all_ends = list(product((0, 1), repeat=len(statement.inputs)))
+    values = [(ends, at_corner(statement, ends, PRINTED_BITS)) for ends in all_ends]
+    below = next((ends for ends, value in values if value.upper <= target.upper), None)
+    above = next((ends for ends, value in values if value.lower >= target.lower), None)
+    corners = None if below is None or above is None else Corners(below, above, PRINTED_BITS)
+    if corners is not None:
+        return shown(corners, f"{PRINTED}: within the rounding of the inputs", **computed)
+    return still_open(
+        "the rounding of the inputs leaves it open; use more digits of the inputs", PRINTED, **computed
+    )
+
+
+def _sides_printed(statement: Agrees, exact: Enclosure, target: Enclosure) -> dict[str, object]:
+    sides = failing(dict(statement.inputs), exact, "=", target)
+    return sides | {"printed": statement.printed} | _needed(statement, target)
+
+
+def _needed(statement: Agrees, target: Enclosure) -> dict[str, object]:
+    """The value of one input that would give the printed result, when the result is proportional to it."""
+    name = statement.solve_for
+    if name is None:
+        return {}
+    kind, *factors = statement.formula
+    rest = [factor for factor in factors if factor != ("var", name)]
+    if kind != "mul" or len(rest) != len(factors) - 1 or any(name in variables(factor) for factor in rest):
+        return {}
+    at_one = ("mul", ("num", "1"), *rest)
+    others = {key: ball_of(Fraction(text)) for key, text in statement.inputs if key != name}
+    with ctx.workprec(PRINTED_BITS):
+        value = Enclosure.from_arb(target.to_arb() / ball(at_one, others))
+    return {f"{name} that gives it": between(value, 6)}

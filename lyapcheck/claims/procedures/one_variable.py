@@ -31,7 +31,7 @@ from lyapcheck.check.kinds.for_all import (
 )
 from lyapcheck.check.kinds.norm_bound import EqualEntries, NormBound, OneEntry, Supremum
 from lyapcheck.check.statement import Piece, Proof, Relation
-from lyapcheck.claims.procedures.constants import find_relation
+from lyapcheck.claims.procedures.identity import find_relation
 from lyapcheck.claims.procedures.search import (
     Point,
     doubtful,

@@ -27,7 +27,7 @@ from lyapcheck.check.kinds.sampled import GOAL, SampledStable
 from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 from lyapcheck.check.loop.closed_loop import certifies
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.claims.procedures.constants import find_constant
+from lyapcheck.claims.procedures.identity import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above
 from lyapcheck.claims.search_result import (
     SearchResult,
