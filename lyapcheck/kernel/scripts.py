@@ -36,10 +36,18 @@ from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms, property_script
 from lyapcheck.kernel.gate import facts, gate_refutation_script, gate_script, sampled_script
-from lyapcheck.kernel.loops import on_one_arm
 from lyapcheck.kernel.signs import for_small, implication
 from lyapcheck.kernel.statements import proposition
-from lyapcheck.kernel.terms import NotPrinted, bound, exact, exact_list, expression, identifier, rational
+from lyapcheck.kernel.terms import (
+    NotPrinted,
+    bound,
+    exact,
+    exact_list,
+    expression,
+    identifier,
+    on_one_arm,
+    rational,
+)
 from lyapcheck.kernel.words import every_n_script
 
 THEOREMS = {

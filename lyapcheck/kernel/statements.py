@@ -42,7 +42,6 @@ from lyapcheck.check.kinds.stability import (
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Proof, Relation, Statement
 from lyapcheck.kernel.gate import gate_proposition, gate_refuted, sampled_proposition
-from lyapcheck.kernel.loops import member_of, member_of_energy, on_one_arm
 from lyapcheck.kernel.terms import (
     NotPrinted,
     any_arm,
@@ -53,6 +52,9 @@ from lyapcheck.kernel.terms import (
     exact_list,
     expression,
     identifier,
+    member_of,
+    member_of_energy,
+    on_one_arm,
     quantified,
     rational,
     relation,

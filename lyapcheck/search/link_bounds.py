@@ -28,7 +28,9 @@ from lyapcheck.search.boxes import (
     Interval,
     Nodes,
     halve,
+    norm,
     of_sides,
+    unit_vector,
 )
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 
@@ -204,12 +206,14 @@ class FormAt:
     def __init__(self, of: ErrorBoxes, boxes: Array) -> None:
         low, high = boxes[:, 0], boxes[:, 1]
         n, b, root = of.n, of.b, np.sqrt(of.b)
-        near, far = np.linalg.norm(low, axis=1), np.linalg.norm(high, axis=1)
+        sides = [Interval(low[:, k], high[:, k]) for k in range(n)]
+        near, far = norm(sides).lo, norm(sides).hi
         self.eps = eps = (float(of.loop.eps0) / (1 + near))[:, None]
         h, dh = of.of_error(Interval(low, high))
-        unit = _units(low, high)
-        scaled = unit[0] / (1 + far[:, None]), unit[1] / (1 + near[:, None])
-        products = [h.lo[:, :, None] * scaled[0][:, None, :], h.hi[:, :, None] * scaled[1][:, None, :]]
+        unit = unit_vector(sides)
+        least = np.stack([x.lo / (1 + far) for x in unit], axis=1)
+        most = np.stack([x.hi / (1 + near) for x in unit], axis=1)
+        products = [h.lo[:, :, None] * least[:, None, :], h.hi[:, :, None] * most[:, None, :]]
         diagonal = np.eye(n)
         lower = -products[1] + dh.lo[:, :, None] * diagonal
         upper = -products[0] + dh.hi[:, :, None] * diagonal
@@ -269,11 +273,3 @@ class FormAt:
             wanted -= wanted.mean(axis=1, keepdims=True) - sizes.mean(axis=1, keepdims=True)
             sizes = 0.5 * (sizes + wanted)
         return shown, best
-
-
-def _units(low: Array, high: Array) -> tuple[Array, Array]:
-    """The range of e/‖e‖ over boxes of e ≥ 0."""
-    near, far = low**2, high**2
-    rest = np.sum(far, axis=1, keepdims=True) - far, np.sum(near, axis=1, keepdims=True) - near
-    ends = [np.sqrt(x / np.maximum(x + y, 1e-300)) for x, y in zip((near, far), rest, strict=True)]
-    return ends[0], ends[1]

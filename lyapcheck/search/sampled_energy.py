@@ -6,6 +6,7 @@ References: ``lyapcheck.check.loop.sampled_energy``.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any
@@ -76,6 +77,7 @@ def _least(statement: SampledFromRest, wanted: Array) -> Array:
     return result
 
 
+@dataclass
 class _Program:
     """The convex program for one λ: what couples joints is shared out, what is left is definite.
 
@@ -88,36 +90,28 @@ class _Program:
         weight: K_v + B, the unit of w².
     """
 
-    def __init__(
-        self,
-        statement: SampledFromRest,
-        arm: ArmBounds,
-        least: Array,
-        speed: float,
-        reach: float,
-        weight: Array,
-    ) -> None:
+    statement: SampledFromRest
+    arm: ArmBounds
+    least: Array
+    speed: float
+    reach: float
+    weight: Array
+
+    def __post_init__(self) -> None:
         import cvxpy as cp
 
-        self.statement, self.least, self.speed, self.reach, self.weight = (
-            statement,
-            least,
-            speed,
-            reach,
-            weight,
-        )
-        self.n, self.d, self.T = n, d, T = len(least), statement.delay, float(statement.period)
-        self.kp, self.kv = (np.array(row, dtype=float) for row in (statement.kp, statement.kv))
+        self.n, self.d, self.T = n, d, T = len(self.least), self.statement.delay, float(self.statement.period)
+        self.kp, self.kv = (np.array(row, dtype=float) for row in (self.statement.kp, self.statement.kv))
         self.mass, self.slope, self.symbols = (
-            np.array(x, dtype=float) for x in (arm.mass, arm.slope, arm.symbols)
+            np.array(x, dtype=float) for x in (self.arm.mass, self.arm.slope, self.arm.symbols)
         )
-        self.turning = np.array(arm.turning(_fraction(speed)), dtype=float)
+        self.turning = np.array(self.arm.turning(_fraction(self.speed)), dtype=float)
         self.scale = np.sqrt(np.diag(self.mass))
         self.c, self.margin = cp.Variable(), cp.Variable()
         self.eps, self.slow, self.stiff, self.moved, self.mean = (cp.Variable(n) for _ in range(5))
         self.kept, self.late = cp.Variable((n, d + 1)), cp.Variable((n, max(d, 1)))
         self.pays: dict[str, list[Any]] = {letter: [0.0] * n for letter in "whyr"}
-        self.unit = {"w": weight, "h": self.kp, "y": least / T, "r": weight / T**2}
+        self.unit = {"w": self.weight, "h": self.kp, "y": self.least / T, "r": self.weight / T**2}
         self.shares: dict[tuple[str, int, int], tuple[Any, Any, float]] = {}
         rows = [(self.mass[i] * self.scale[i] / self.scale).sum() for i in range(n)]
         self.rules: list[Any] = [
@@ -125,7 +119,7 @@ class _Program:
             *(self.slow >= 0, self.slow <= self.eps, self.moved >= 0, self.mean >= 0),
             *(self.kept >= 0, self.late >= 0, self.stiff >= 0.5 * self.kp, self.stiff <= STIFFEST * self.kp),
             *(cp.square(self.eps[i]) * rows[i] <= 0.999 * SHARE * self.stiff[i] for i in range(n)),
-            *(cp.sum(self.kept[i]) <= 0.999999 * self.c * (reach - 1) for i in range(n)),
+            *(cp.sum(self.kept[i]) <= 0.999999 * self.c * (self.reach - 1) for i in range(n)),
         ]
         for i, j in product(range(n), repeat=2):
             self._couple(i, j)

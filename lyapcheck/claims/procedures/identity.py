@@ -1,4 +1,4 @@
-"""What computing decides: identities by normal forms over ℚ, or a point against them, and relations of numbers.
+"""What computing decides: identities, by normal forms over ℚ or a point against them; relations of numbers.
 
 References: ``geddes1992algorithms``, chapter 3; ``reyes2019family``, Section 4.
 """
