@@ -34,6 +34,9 @@ REFUSED = {
     "flexible_joints": dict.fromkeys(("soft", "undamped", "still"), "undecided"),
     "computed_torque": dict.fromkeys(("any a", "turned", "twice"), "undecided"),
     "textbook": dict.fromkeys(("forwards", "wide", "open", "undamped", "small ball", "at 0"), "undecided"),
+    "pendulum": dict.fromkeys(
+        ("pushed", "undamped", "bottom", "upright", "global", "energy", "swing down", "soft"), "undecided"
+    ),
     "adaptive_pd": dict.fromkeys(("any a", "turned", "learned", "asymptotic"), "undecided"),
     "slotine_li_adaptive": dict.fromkeys(
         ("printed", "turned", "unbounded", "learned", "exponential"), "undecided"
@@ -46,6 +49,7 @@ REASONS = {
     ("kelly_gravity", "corner"): "V is not C¹",
     ("kelly_tanh", "exponential"): "must be quadratic in the norms of all states",
     ("tomei", "soft.pelican"): " < 10 is refuted",
+    ("pendulum", "global"): "have no single rest that attracts all",
     ("feedforward", "soft.pelican"): " < 10 is refuted",
     ("saturated_pd_gravity_goal", "weak"): " < 1 is refuted",
     ("bounded_filter", "order"): "rest = w: must stand still before the step that uses it",
@@ -170,6 +174,12 @@ FAULTS = {
         ("x**2 / 2 - x * y + y**2", "x**2 / 2 + x * y + y**2"),
         ("x**2 / 2 - x * y + y**2", "x**2 / 2 - 2 * x * y + y**2"),
         ("within=4", "within=2"),
+    ],
+    "pendulum": [
+        ('damped = system({"θ": w, "w": -sin(θ) - w})', 'damped = system({"θ": w, "w": -sin(θ) + w})'),
+        ("V = E + w * sin(θ) / 2", "V = E - w * sin(θ) / 2"),
+        ("V = E + w * sin(θ) / 2", "V = E + 2 * w * sin(θ)"),
+        ("Fraction(1, 2) >= V, within=3", "Fraction(5, 2) >= V, within=5"),
     ],
     "adaptive_pd": [
         ("(w - ε * e)", "(w + ε * e)"),

@@ -28,7 +28,10 @@ class Made:
     truth: str | None = None
 
 
-MODULES = (*("one_variable", "relations", "identities", "vectors", "arms", "controlled", "loops", "altered"),)
+MODULES = (
+    *("one_variable", "relations", "identities", "vectors", "arms", "controlled"),
+    *("loops", "flows", "altered"),
+)
 GENERATORS = {}
 
 

@@ -68,10 +68,15 @@ def theorems():
 @generates("Stable", 0.6)
 def changed(random):
     """A theorem with one to three changes."""
-    argument = random.choice(theorems()).argument
+    argument = changed_theorem(random.choice(theorems()).argument, random)
+    return Made(Stable(argument), "a shipped theorem, changed")
+
+
+def changed_theorem(argument, random):
+    """With one to three changes."""
     for _ in range(random.choice((1, 1, 1, 2, 2, 3))):
         argument = random.choices((_expression, _condition, _kind), (88, 6, 6))[0](argument, random)
-    return Made(Stable(argument), "a shipped theorem, changed")
+    return argument
 
 
 def _expression(argument, random):
