@@ -14,7 +14,9 @@ from lyapcheck._types import Progress
 from lyapcheck.answers.check import ORDER, ClaimResult, cut, one_line
 from lyapcheck.answers.check.run import paper_case_data, run_proof
 from lyapcheck.check.kinds.all_of import AllOf
+from lyapcheck.check.kinds.flow import Flow
 from lyapcheck.check.statement import Statement
+from lyapcheck.check.verify import RULES
 from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
 from lyapcheck.claims.script import SHIPPED, ask, check_ids, find_script
 from lyapcheck.claims.search_result import procedure_of
@@ -376,5 +378,10 @@ def _procedures(statement: Statement) -> list[str]:
     kind = type(statement)
     procedure = procedure_of(kind)
     searched = "" if procedure is procedure_of(Statement) else inspect.getdoc(procedure) or ""
-    described = (inspect.getdoc(inspect.getmodule(kind)) or "").split("References:")[0]
-    return ["\n\n".join(filter(None, (described.strip(), searched))).replace("``", "")]
+    by = (judge for (known, _), judge in RULES.items() if known is kind)
+    modules = dict.fromkeys(map(inspect.getmodule, (kind, *by)))
+    described = ((inspect.getdoc(module) or "").split("References:")[0].strip() for module in modules)
+    own = "\n\n".join(filter(None, (*described, searched))).replace("``", "")
+    parts = statement.obligations() if isinstance(statement, Flow) else ()
+    kinds = {type(part): part for _, part in parts}
+    return [own, *(text for part in kinds.values() for text in _procedures(part))]

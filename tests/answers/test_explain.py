@@ -115,6 +115,14 @@ def test_lists_of_how_it_is_decided_stay_lists():
     assert last.text.startswith("Try the vectors that are worst")
 
 
+def test_a_flow_is_explained_with_its_obligations_and_sums_of_squares_with_their_rule():
+    flow, identity, implication = explain("P", "textbook.py").procedures
+    assert "every part p is 0 wherever dV/dt" in " ".join(flow.split()).replace("Every", "every")
+    assert identity.startswith("Identities")
+    assert "both hypotheses, they are an equation" in " ".join(implication.split())
+    assert "then for sums of squares" in implication
+
+
 def test_what_cannot_be_decided_says_why():
     result = explain("18.gains")
     assert (result.parts, result.procedures) == ((), ())

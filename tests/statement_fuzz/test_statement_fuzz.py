@@ -62,6 +62,14 @@ def test_certificates_and_theorems_with_something_changed_have_no_faults(kind):
     assert {one.verdict for one in result} >= {"proved", "refuted" if kind == "Planted" else FALSE_REFUSED}
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("kind", "count"), [("Flow", 40), ("Squares", 60), ("Steps", 20), ("OfAPart", 20)])
+def test_systems_squares_steps_and_parts_have_no_faults(kind, count):
+    result = [judge(draw(13, k, kind), k) for k in range(count)]
+    assert [one.text() for one in result if one.fault] == []
+    assert kind not in ("Flow", "Squares") or "proved" in {one.verdict for one in result}
+
+
 def test_statements_are_neither_all_plain_nor_all_hopeless(few):
     assert {"proved", "refuted", "undecided"} <= {verdict for _, verdict in few.verdicts}
     assert {kind for kind, _ in few.verdicts} >= {"ForAll", "Constant", "Implies", "Identity", "EveryN"}

@@ -103,7 +103,7 @@ def pendulum(random):
     )
     truth = TRUE if fits and b > 0 else FALSE
     if random.random() < 0.4:
-        cross = min(a, b, 1) / 4 if b > 0 else Fraction(1, 8)
+        cross = Fraction(min(a, b, 1)) / 4 if b > 0 else Fraction(1, 8)
         E += cross * W * sin(T)
         truth = None if truth == TRUE else truth
     return Made(converges_to(s, E, parts, grows=Fraction(1, 8), less=8), "a pendulum", truth)
