@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from lyapcheck.check.kinds.chain import ChainAbove
-    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
     from lyapcheck.check.kinds.decreasing import Decreasing
+    from lyapcheck.check.kinds.link_bounds import ChainDecreasing
     from lyapcheck.check.kinds.resting import Resting
     from lyapcheck.check.kinds.sampled import SampledStable
     from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
@@ -52,8 +52,8 @@ def decreasing(
         coupling: the diagonal of Λ, where one is printed.
         nominal: the question is about the nominal numbers of the arm alone.
     """
-    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
     from lyapcheck.check.kinds.decreasing import Decreasing
+    from lyapcheck.check.kinds.link_bounds import ChainDecreasing
 
     arm = arm.fixed() if nominal else arm
     viscous = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)

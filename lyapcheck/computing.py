@@ -78,7 +78,7 @@ def run_within(command: Sequence[str], seconds: float | None, cwd: Path) -> subp
 @contextmanager
 def shared_between(jobs: int) -> Iterator[None]:
     """Let the checker share large judgements between some processes inside; verdicts are the same."""
-    from lyapcheck.check.loop.proof import SHARE
+    from lyapcheck.check.loop.schur import SHARE
 
     def all_parts(judge: Callable[..., bool], *about: object) -> bool:
         if jobs <= 1:

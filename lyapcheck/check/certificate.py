@@ -252,17 +252,14 @@ def _rules(certificate: Certificate) -> Iterator[tuple[str, str]]:
             yield name_of(type(value)), _place(type(value))
         if is_dataclass(value):
             waiting += _values(value)
-        elif isinstance(value, tuple) and not _is_expression(value):
+        elif isinstance(value, tuple) and not (
+            value and isinstance(value[0], str) and not any(map(is_dataclass, value))
+        ):  # an expression, or a pair of texts, has no proofs or statements in it
             waiting += value
 
 
 def _place(cls: type) -> str:
     return f"{cls.__module__}:{cls.__name__}"
-
-
-def _is_expression(value: tuple[Any, ...]) -> bool:
-    """Whether a tuple is an expression, or a pair of texts: no proofs or statements in it."""
-    return value != () and isinstance(value[0], str) and not any(map(is_dataclass, value))
 
 
 def _values(value: Any) -> list[Any]:

@@ -35,6 +35,7 @@ LAST_READ_BY = {
     "falling levels": "0.1.0",
     "falling levels in phases": "0.1.0",
     "forms of the motion": "0.1.0",
+    "larger K_v": "0.2.0",
     "products of rates": "0.1.0",
     "slower and nearer": "0.1.0",
 }

@@ -11,9 +11,7 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lyapcheck._types import Array
 from lyapcheck.check.kinds.coriolis import (
     CoriolisAtRest,
     CoriolisBelow,
@@ -24,22 +22,19 @@ from lyapcheck.check.kinds.coriolis import (
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
-    LargerKv,
     PositiveAndDecreasing,
     StateWitness,
 )
 from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
 from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
-from lyapcheck.check.loop.field import PI_ABOVE, BrokenTree, Side, nodes
-from lyapcheck.check.loop.proof import MORE_HALVINGS
+from lyapcheck.check.loop.field import PI_ABOVE, Side
+from lyapcheck.check.loop.schur import MORE_HALVINGS
 from lyapcheck.check.numbers.harmonics import angles_in
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.search.boxes import cover
 from lyapcheck.search.sampled import arm_of_terms
-from lyapcheck.search.schur import SchurProblem
 
 FUEL = 30
 """How often a box of angles may be halved until M(q) ≻ 0 shows."""
@@ -49,7 +44,6 @@ SLACK = 2.0**-20
 """How much wider than the certificate's the box is, so that it reaches far enough after outward rounding."""
 PIECES = range(2, 7)
 """The members of ``formal/Turns.v``."""
-MOST_BOXES = 1_000_000
 STEPS = 25
 """Of a grid of angles, along each."""
 LITERAL = 4000
@@ -74,8 +68,6 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
         return _applied("falsified_by_state", parts)
     if certifies(loop.tail, loop.eps0):
         return by_norms(loop)
-    if isinstance(proof, LargerKv):  # P is larger for a smaller K_v, so that the tree serves as it is
-        proof = proof.proof
     if not isinstance(proof, PositiveAndDecreasing) or not isinstance(proof.rate, BoxTree):
         rule = proof.rate.rule if isinstance(proof, PositiveAndDecreasing) else proof.rule
         raise NotPrinted(f"a proof by {rule}")
@@ -93,32 +85,9 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
         "hI": _range("h", loop.m),
         "dhI": _range("dh", loop.m),
         "more": f"{MORE_HALVINGS}%nat",
-        "tree": _text(_finer(loop, proof.rate.tree)),
+        "tree": _text(proof.rate.tree),
     }
     return _applied("certified_by_boxes", parts)
-
-
-def _finer(loop: ClosedLoop, tree: str) -> str:
-    """A tree whose boxes ranges alone show, as Coq's do: leaves that take slopes are cut further.
-
-    It is only proposed; a text that is no tree, or one with too many boxes, is left as it is.
-    """
-    known: dict[bytes, int] = {}
-    try:
-        for box, side in nodes(loop.start, tree):
-            if side is not None:
-                known[np.array(box).T.tobytes()] = side
-    except BrokenTree:
-        return tree
-    problem = SchurProblem(loop)
-
-    def sides(boxes: Array) -> NDArray[np.intp]:
-        result = problem.by_estimate(boxes)
-        for k, box in enumerate(boxes):
-            result[k] = known.get(box.tobytes(), result[k])
-        return result
-
-    return cover(np.array(loop.start).T[None], problem.by_ranges, sides, MOST_BOXES).tree or tree
 
 
 def by_norms(loop: ClosedLoop, moving: bool = False) -> str:

@@ -35,11 +35,6 @@ class Interval:
     # NumPy must leave ``array * interval`` to this class instead of looping over the array.
     __array_ufunc__ = None
 
-    @classmethod
-    def around(cls, middle: Array, radius: Array) -> Interval:
-        """What is no further from a middle than a radius."""
-        return cls(middle - radius, middle + radius)
-
     def __add__(self, other: Interval | Array | float) -> Interval:
         low, high = _ends(other)
         return Interval(self.lo + low, self.hi + high)

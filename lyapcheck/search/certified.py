@@ -23,7 +23,6 @@ from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
-from lyapcheck.check.loop.proof import MOST_CENTRED
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS
@@ -53,7 +52,7 @@ def certify(
 
 
 HOPED = Fraction(9900, 10_000), Fraction(9992, 10_000)
-"""Shares of the falsified ε₀ that are tried first, in turn; where boxes are few, the last one at once."""
+"""Shares of the falsified ε₀ that are tried first, in turn."""
 SHARES = tuple(Fraction(n, 100) for n in (50, 80, 90, 95, 98))
 """Those that are tried one after the other where not even the first of these is proved."""
 SHARES_OF_LINKS = tuple(Fraction(n, 1000) for n in (300, 600, 750, 850, 900, 930, 950, 970, 985))
@@ -125,10 +124,8 @@ def certified_epsilon(
     search = _Search(controlled, ceiling, progress, by_boxes)
     began, seconds = computing_time(), math.inf if seconds is None else seconds
     # no more than half of everything for what may be too much
-    first, *more = HOPED[1:] if controlled.n <= MOST_CENTRED else HOPED
-    result = search.climb([first], max_boxes // 2, began + seconds / 2)
-    otherwise = SHARES if more else (*SHARES, HOPED[0])
-    result += search.climb(more if result else otherwise, max_boxes, began + seconds)
+    result = search.climb(HOPED[:1], max_boxes // 2, began + seconds / 2)
+    result += search.climb(HOPED[1:] if result else SHARES, max_boxes, began + seconds)
     return search.accepted(result, jobs)
 
 

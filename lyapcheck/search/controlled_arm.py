@@ -25,7 +25,7 @@ from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.plant import RobotModel
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
+    from lyapcheck.check.kinds.link_bounds import ChainDecreasing
     from lyapcheck.check.statement import Proof, Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.lyapunov.numeric import LyapunovNumeric

@@ -131,7 +131,7 @@ def chain_epsilon(gains: GainSet, chain: Chain, viscous: tuple[Ends, ...]) -> tu
         viscous: the range of each diagonal entry of B, N·m·s/rad.
     """
     from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
-    from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing, ChainNorms
+    from lyapcheck.check.kinds.link_bounds import ChainDecreasing, ChainNorms
     from lyapcheck.constants.storage import storage_proof
     from lyapcheck.control.judgement import judged_statement, proves
 

@@ -14,11 +14,11 @@ import pytest
 from lyapcheck.check import kinds
 from lyapcheck.check.covers import ROWS, require_covered
 from lyapcheck.check.kinds.all_of import AllOf
-from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.gate_accepted import GateAccepted, GateParts
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
 from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, MassAbove, MassBelow, PostureWitness
+from lyapcheck.check.kinds.link_bounds import ChainDecreasing
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.kinds.sampled import SampledStable, ShortPeriod
 from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest

@@ -9,7 +9,6 @@ import pytest
 from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.answers.epsilon.kept import certificates
 from lyapcheck.check.certificate import digest_of, judge, parse, read
-from lyapcheck.check.kinds.decreasing import Decreasing, LargerKv, PositiveAndDecreasing
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.output.digits import at_least
@@ -81,25 +80,3 @@ def test_what_is_certified_has_its_certificate_however_few_the_boxes(tmp_path):
     text = str(result)
     assert f"{at_least(F(row['scalar']), 7)}*" in text
     assert "without a certificate" in text
-
-
-def test_what_is_proved_holds_for_every_smaller_kv_and_no_larger_one(pair):
-    """K_v brakes alone: for less of it, of more than nothing, in each joint; a joint with more is refused."""
-    certified = pair[0]
-    stated, proof = certified.statement, certified.proof
-    assert isinstance(stated, Decreasing)
-    assert isinstance(proof, PositiveAndDecreasing)
-
-    def judged(kv, larger=stated.kv):
-        other = replace(certified, statement=replace(stated, kv=kv), proof=LargerKv(larger, proof))
-        return judge(reread(other)).verdict
-
-    first, second = stated.kv
-    assert judged((first, second)) == judged((first / 1000, second / 3)) == "proved"
-    for worse in ((first * F(1001, 1000), second), (first / 2, second * 2), (F(0), second), (-first, second)):
-        with pytest.raises(Refused, match="kv"):
-            judged(worse)
-    with pytest.raises(Refused, match="must be as many"):
-        judged((first, second), (first,))
-    with pytest.raises(Refused):
-        judged(stated.kv, (first * 10**9, second))

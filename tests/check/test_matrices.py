@@ -8,7 +8,7 @@ from flint import arb, fmpq, fmpq_mat
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS
+from lyapcheck.check.loop.field import BALLS, SPANS
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 
 numbers = st.fractions(min_value=-4, max_value=4, max_denominator=6)

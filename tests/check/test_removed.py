@@ -1,5 +1,7 @@
 """Certificates of kinds and rules that were removed are refused with the version that reads them."""
 
+import re
+
 import pytest
 
 from lyapcheck.check.certificate import judged
@@ -14,7 +16,8 @@ REMOVED = sorted((ARENA / "bad").glob("removed.*.json"))
 
 @pytest.mark.parametrize("path", REMOVED, ids=[path.stem for path in REMOVED])
 def test_what_an_older_version_wrote_is_refused_with_that_version(path):
-    assert "was removed after lyapcheck 0.1.0; lyapcheck 0.1.0 reads it" in judged(path.read_bytes()).reason
+    reason = judged(path.read_bytes()).reason
+    assert re.search(r"was removed after lyapcheck (0\.[12]\.0); lyapcheck \1 reads it", reason)
 
 
 @pytest.mark.parametrize("base", [Statement, Proof])

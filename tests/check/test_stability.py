@@ -12,11 +12,9 @@ from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Span
 from lyapcheck.check.loop.closed_loop import ClosedLoop
-from lyapcheck.check.loop.field import BrokenTree, halves, leaves
-from lyapcheck.check.loop.proof import proves, proves_part
-from lyapcheck.check.loop.schur import Evaluator
+from lyapcheck.check.loop.field import BALLS, SPANS, BrokenTree, Span, halves, leaves
+from lyapcheck.check.loop.schur import Evaluator, proves, proves_part
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, mirrored
@@ -250,16 +248,16 @@ def test_a_script_without_a_guard_may_share_boxes_between_processes(tmp_path):
     script.write_text(
         "from fractions import Fraction\n"
         "from lyapcheck import load_robot, paper_gain_file, read_gain_file\n"
-        "from lyapcheck.check.loop import proof\n"
+        "from lyapcheck.check.loop import schur\n"
         "from lyapcheck.computing import shared_between\n"
         "from lyapcheck.search.certified import certify\n"
         "from lyapcheck.search.controlled_arm import ControlledArm\n"
         "from lyapcheck.search.schur import SchurProblem\n"
         "gains = read_gain_file(paper_gain_file('table2_shoulder_elbow')).gains[0]\n"
         "loop = ControlledArm(gains, load_robot('reyes-kelly2')).loop(Fraction(7, 10))\n"
-        "proof.WORTH_SHARING = 0\n"
+        "schur.WORTH_SHARING = 0\n"
         "with shared_between(2):\n"
-        "    print(proof.proves(loop, certify(SchurProblem(loop), 10_000).tree))\n"
+        "    print(schur.proves(loop, certify(SchurProblem(loop), 10_000).tree))\n"
     )
     run = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
     assert (run.stdout, run.stderr) == ("True\n", "")

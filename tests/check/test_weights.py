@@ -9,7 +9,7 @@ import pytest
 
 from lyapcheck.answers.epsilon.compute import epsilon
 from lyapcheck.check.kinds.decreasing import BoxTree, statement_of
-from lyapcheck.check.loop.arithmetic import BALLS
+from lyapcheck.check.loop.field import BALLS
 from lyapcheck.check.loop.schur import Evaluator
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.refusal import Refused

@@ -9,7 +9,7 @@ import pytest
 
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.field import leaves
-from lyapcheck.check.loop.proof import proves
+from lyapcheck.check.loop.schur import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.constants.constant import Torus
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
@@ -63,7 +63,7 @@ def test_a_wrong_sign_of_coriolis_would_be_noticed():
         ]
         changed = problem("reyes-kelly2", 0, F(1, 4))
         changed.torus = Torus(signed, 2, sheared=False)
-        entry = _Boxes(changed, np.stack([point, point])[None], slopes=False).P()[1][0]
+        entry = _Boxes(changed, np.stack([point, point])[None]).P()[1][0]
         assert bool(entry.lo[0] - 1e-12 <= exact[1, 0] <= entry.hi[0] + 1e-12) is agrees
 
 
@@ -189,7 +189,7 @@ def test_no_share_takes_what_a_smaller_one_needs(monkeypatch):
     monkeypatch.setattr(certified, "certify", dear)
     monkeypatch.setattr(DecreaseProof, "accepted", lambda self, jobs: self)
     result = certified_epsilon(controlled("reyes-kelly2", 0), ceiling, 1000)
-    assert tried == pytest.approx([0.9992, 0.5, 0.8, 0.65], rel=1e-6)
+    assert tried == pytest.approx([0.99, 0.5, 0.8, 0.65], rel=1e-6)
     assert result.eps0 == F(65, 100)
     assert result.looked_at < 1000
 

@@ -9,8 +9,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers import assumed_line
-from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
+from lyapcheck.check.kinds.link_bounds import ChainDecreasing
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import at_least, at_most, decimals

@@ -230,8 +230,8 @@ class Prover:
 
     def _same_eps0(self, gains: GainSet, model: RobotModel, stated: Statement) -> Statement | None:
         """The question with the ε₀ and the weights of a statement."""
-        from lyapcheck.check.kinds.chain_decreasing import ChainDecreasing
         from lyapcheck.check.kinds.decreasing import Decreasing
+        from lyapcheck.check.kinds.link_bounds import ChainDecreasing
 
         if not isinstance(stated, Decreasing | ChainDecreasing):
             return None

@@ -245,7 +245,7 @@ def _of_mass(arm: ArmBounds, constant: ConstantResult, q: tuple[Fraction, ...]) 
     if low:
         return _Bound(
             lambda value: MassAbove(mass, (), value),
-            lambda value: _boxes(inertia.above(value, BOXES)),
+            lambda value: _boxes(inertia.above([value] * inertia.n, BOXES)),
             constant.enclosure.lower,
             None,
             witness,

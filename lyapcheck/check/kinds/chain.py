@@ -12,15 +12,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, product
 
-from flint import arb, fmpq_mat
+from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture, vector, written_out
 from lyapcheck.check.loop import storage
-from lyapcheck.check.loop.chain import Posture, RigidLink, lever_bound, pulls
-from lyapcheck.check.loop.storage import Shown, coriolis_power, hinges, rate_of_mass
+from lyapcheck.check.loop.chain import Posture, RigidLink, lever_bound, pulls, turning
+from lyapcheck.check.loop.storage import Shown, rate_of_mass
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.numbers.vectors import ZERO, Algebra
+from lyapcheck.check.numbers.vectors import ZERO, Algebra, transposed
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Proof, Total
 from lyapcheck.check.verify import Accepted, rule
@@ -181,27 +181,31 @@ def by_own_moments(statement: ChainAbove, proof: OwnMoments) -> Accepted:
 @rule(ChainAbove, StorageForms)
 def by_energy_from_below(statement: ChainAbove, proof: StorageForms) -> Accepted:
     """Soundness: −xᵀMx < κ‖x‖² for x ≠ 0 with κ = −low, see `lyapcheck.check.loop.storage`."""
-    stages = storage.energy(statement.links, -1)
-    _require_shown(stages, _forms(proof, statement, 2), -statement.low)
-    return Accepted("proved", "enclosure")
+    return _by_forms(storage.energy(statement.links, -1), proof, -statement.low, 2)
 
 
 @rule(ChainBelow, StorageForms)
 def by_energy_from_above(statement: ChainBelow, proof: StorageForms) -> Accepted:
     """Soundness: 0 ≤ xᵀMx < κ‖x‖² for x ≠ 0 with κ = high: M is symmetric and a sum of energies."""
-    stages = storage.energy(statement.links, 1)
-    _require_shown(stages, _forms(proof, statement, 2), statement.high)
-    return Accepted("proved", "enclosure")
+    return _by_forms(storage.energy(statement.links, 1), proof, statement.high, 2)
 
 
 @rule(ChainGravityBelow, StorageForms)
 def by_power_of_gravity(statement: ChainGravityBelow, proof: StorageForms) -> Accepted:
     """Soundness: 2zᵀg ≤ κ‖z‖² + s_1(X_1 w_0) ≤ κ(‖z‖² + 1), κ = high; z along g, ‖z‖ = 1."""
     stages = storage.weight(statement.links, [i - 1 for i in statement.joints])
-    forms = _forms(proof, statement, 3)
-    _require_shown(stages, forms, statement.high)
-    stored = storage.stored_at_base(stages, forms, statement.fall)
+    result = _by_forms(stages, proof, statement.high, 3)
+    at_base = storage.invariant_form(proof.forms[0], 3)
+    stored = storage.stored_at_base(stages, [at_base], statement.fall)
     require(stored <= statement.high, "form at the base", stored, f"is above {statement.high}")
+    return result
+
+
+def _by_forms(
+    stages: Sequence[storage.Stage], proof: StorageForms, kappa: Fraction, vectors: int
+) -> Accepted:
+    shown = Shown((kappa,) * len(stages), (proof.forms,)).holds([stages], vectors)
+    require(shown, "forms", "", "do not show the bound at every joint")
     return Accepted("proved", "enclosure")
 
 
@@ -220,18 +224,6 @@ def by_no_torque(statement: ChainGravityBelow, proof: NoTorque) -> Accepted:
     none = all(pulls(statement.links, statement.fall, i - 1, ()) for i in statement.joints)
     require(none, "g", "", "does not vanish at these joints")
     return Accepted("proved", "exact")
-
-
-def _forms(proof: StorageForms, statement: OfChain, vectors: int) -> list[fmpq_mat]:
-    count = vectors * (3 * vectors + 1) // 2
-    sizes = len(proof.forms) == len(statement.links) and all(len(row) == count for row in proof.forms)
-    require(sizes, "forms", len(proof.forms), f"must be {count} coefficients for each joint")
-    return [storage.invariant_form(row, vectors) for row in proof.forms]
-
-
-def _require_shown(stages: Sequence[storage.Stage], forms: Sequence[fmpq_mat], kappa: Fraction) -> None:
-    prices = [kappa] * len(stages)
-    require(storage.shows(stages, forms, prices), "forms", "", "do not show the bound at every joint")
 
 
 def _link_text(link: RigidLink) -> str:
@@ -271,15 +263,16 @@ class ChainCoriolisBelow(OfLinks, Bound):
         return f"{bound} for all x, y, {self.over}; C by Christoffel symbols"
 
     def excess(self, at: PostureWitness) -> arb:
-        """‖C(q, x)x‖² − (high ‖x‖²)²."""
+        """‖C(q, x)x‖² − (high ‖x‖²)², with C(q, x)x = Ṁx − ½ (∂/∂q)(xᵀMx) and Ṁ along q̇ = x."""
         n = len(self.links)
         require_posture(at, n, ())
         require(len(at.x) == n and not at.y, "x", len(at.x), f"must have {n} entries, and y none")
-        q, x = ([to_arb(value) for value in part] for part in (at.q, at.x))
-        turns = [angle.sin() for angle in q], [angle.cos() for angle in q]
-        chain, of = hinges(self.links), Algebra(to_arb)
-        units = ([Fraction(int(i == k)) for k in range(n)] for i in range(n))
-        torques = [coriolis_power(of, chain, *turns, unit, x) for unit in units]
+        x = [to_arb(value) for value in at.x]
+        q = [to_arb(value) for value in at.q]
+        slopes = (turning(self.links, q, k).mass() for k in range(n))
+        moved = [[dot([entry[1] for entry in row], x) for row in rows] for rows in slopes]
+        pairs = zip(transposed(moved), moved, strict=True)
+        torques = [dot(column, x) - dot(x, own) / 2 for column, own in pairs]
         return dot(torques, torques) - to_arb(self.high**2) * dot(x, x) ** 2
 
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from itertools import chain, product
 
 from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.identity import Compared, Gap, mixed
+from lyapcheck.check.kinds.identity import Compared, Gap
 from lyapcheck.check.kinds.inertia import (
     BoundedAbove,
     OfArm,
@@ -32,7 +32,7 @@ from lyapcheck.check.kinds.inertia import (
 from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, mixed, slope
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Monomials
 
@@ -72,11 +72,9 @@ class _OfCoriolis(OfArm, Compared):
                 place = f"M{i + 1}{j + 1}"
                 require(self.same(i, j), "mass", place, "must be symmetric to have Christoffel symbols")
         n = self.joints
-        rows = [*self.printed, *chain.from_iterable(self.printed)]
-        require(len(self.printed) in (0, n), "printed", len(self.printed), f"must have no or {n} rows")
-        fits = all(len(row) == n for row in self.printed)
-        fits = fits and all(len(entry) == n + 1 for entry in rows[len(self.printed) :])
-        require(fits, "printed", "", f"must have {n} entries a row, each with {n + 1} polynomials")
+        sizes = [[len(entry) for entry in row] for row in self.printed]
+        rule = f"must be nothing or {n} rows of {n} entries, each with {n + 1} polynomials"
+        require(sizes in ([], [[n + 1] * n] * n), "printed", sizes, rule)
         require_polynomials(chain.from_iterable(chain.from_iterable(self.printed)), n, self.parameters)
 
     def same(self, i: int, j: int) -> bool:
@@ -87,20 +85,18 @@ class _OfCoriolis(OfArm, Compared):
         """Whether c_ijk = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) enter, which need M = Mᵀ."""
         return not self.printed
 
-    @cached_property
-    def _printed(self) -> list[list[list[Uncertain]]]:
-        return [[[by_parameters(c, self.joints) for c in entry] for entry in row] for row in self.printed]
-
     def symbol(self, i: int, j: int, k: int) -> Uncertain:
         """What w_k multiplies in C_ij; what has no rate for k = n."""
-        return self._printed[i][j][k] if self.printed else _christoffel(self.inertia, i, j, k)
+        if self.printed:
+            return by_parameters(self.printed[i][j][k], self.joints)
+        return _christoffel(self.inertia, i, j, k)
 
     def lost(self, i: int, j: int) -> Lost:
         """∂M_ij/∂q_k − c_ijk − c_jik for each rate, and what has none."""
         if not self.printed:
             return _lost_by_symbols(self.inertia, i, j)
         n, at, entry = self.joints, self.symbol, self.inertia.mass[i][j]
-        result = [((k,), _less(_slope(entry, k), at(i, j, k), at(j, i, k))) for k in range(n)]
+        result = [((k,), _less(slope(entry, k), at(i, j, k), at(j, i, k))) for k in range(n)]
         return [*result, ((), _less({}, at(i, j, n), at(j, i, n)))]
 
     @property
@@ -193,16 +189,11 @@ class CoriolisTorque(_OfCoriolis):
 def _lost_by_symbols(inertia: Inertia, i: int, j: int) -> Lost:
     """For the Christoffel symbols; several statements ask for the same, and it can take seconds."""
     c, entry = partial(_christoffel, inertia), inertia.mass[i][j]
-    return [((k,), _less(_slope(entry, k), c(i, j, k), c(j, i, k))) for k in range(inertia.n)]
+    return [((k,), _less(slope(entry, k), c(i, j, k), c(j, i, k))) for k in range(inertia.n)]
 
 
 def _christoffel(inertia: Inertia, i: int, j: int, k: int) -> Uncertain:
     return inertia.symbols.get((i, max(j, k), min(j, k)), {})
-
-
-def _slope(entry: Uncertain, k: int) -> Uncertain:
-    result = {power: derivative(part, k) for power, part in entry.items()}
-    return {power: part for power, part in result.items() if part}
 
 
 def _less(entry: Uncertain, first: Uncertain, second: Uncertain) -> Uncertain:

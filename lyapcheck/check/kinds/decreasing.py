@@ -5,7 +5,7 @@ References: ``reyes2019family`` (11), (12), (15).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Self
 
@@ -16,19 +16,21 @@ from lyapcheck.check.expressions.text import diagonal_text, expression_text, num
 from lyapcheck.check.judgement import TORQUE
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.inertia import (
+    DECREASING,
     Mass,
     MassAbove,
     PostureWitness,
+    law_text,
     mass_text,
     require_mass,
     require_one_a_joint,
     require_within,
 )
 from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, at_parameters
-from lyapcheck.check.loop.proof import proves
+from lyapcheck.check.loop.schur import proves
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
-from lyapcheck.check.numbers.members import member, member_text
-from lyapcheck.check.refusal import Refused, require
+from lyapcheck.check.numbers.members import member
+from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, OfTerms, Proof, Relation, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
@@ -100,16 +102,8 @@ class OfLoop(Statement):
             coupling=coupling,
         )
 
-    def gains_text(self, kv: str = ", K_v") -> str:
-        ranges = ((number_text(low), number_text(high)) for low, high in self.viscous)
-        friction = ", ".join(low if low == high else f"{low} … {high}" for low, high in ranges)
-        return (
-            f"B = diag({friction}), h = {member_text(self.family, self.m)}, "
-            f"K_p = {diagonal_text(self.kp)}{kv} = {diagonal_text(self.kv)}"
-        )
-
-    def mass_text(self) -> str:
-        return mass_text(self.mass, self.parameters)
+    def law_text(self, beside: str = ", K_v") -> str:
+        return law_text(self.viscous, self.family, self.m, self.kp, self.kv, beside)
 
 
 @dataclass(frozen=True)
@@ -131,14 +125,9 @@ class Decreasing(OfLoop, Total):
             require_one_a_joint(self, len(self.mass), "coupling")
 
     def text(self) -> str:
-        return (
-            "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
-            f"asymptotically stable by Lyapunov's direct method: for {self.loop_text()}"
-        )
-
-    def loop_text(self) -> str:
         weights = f", Λ = {diagonal_text(self.coupling)}" if self.coupling else ""
-        return f"{self.gains_text()}, ε₀ = {number_text(self.eps0)}{weights} and {self.mass_text()}"
+        loop = f"{self.law_text()}, ε₀ = {number_text(self.eps0)}{weights}"
+        return f"{DECREASING}: for {loop} and {mass_text(self.mass, self.parameters)}"
 
     @property
     def closed_loop(self) -> ClosedLoop:
@@ -167,15 +156,6 @@ class PositiveAndDecreasing(Proof):
 
 
 @dataclass(frozen=True)
-class LargerKv(Proof):
-    """A proof of the same with a K_v that no entry of this one exceeds."""
-
-    rule = "larger K_v"
-    kv: tuple[Fraction, ...]
-    proof: PositiveAndDecreasing
-
-
-@dataclass(frozen=True)
 class StateWitness(Proof):
     """An arm within the ranges and a state of it at which dV/dt > 0."""
 
@@ -197,19 +177,6 @@ def by_both(statement: Decreasing, proof: PositiveAndDecreasing) -> Accepted:
     return Accepted("proved", weakest([positive, "enclosure"]))
 
 
-@rule(Decreasing, LargerKv)
-def by_larger_kv(statement: Decreasing, proof: LargerKv) -> Accepted:
-    """Soundness: V is without K_v, and dV/dt has it in K_v h(w) alone, which is K_v D w with 0 ≼ D ≼ L I.
-
-    A ``RateProof`` holds for every such D: with K_v' ≥ K_v for D' = D K_v/K_v', and K_v' D' = K_v D.
-    """
-    require(len(proof.kv) == len(statement.kv), "kv", len(proof.kv), "must be as many as in the statement")
-    for low, high in zip(statement.kv, proof.kv, strict=True):
-        require(0 < low <= high, "kv", low, f"must be above 0 and at most {high}")
-    grade = require_proved(replace(statement, kv=proof.kv), proof.proof, "the same with a larger K_v")
-    return Accepted("proved", grade)
-
-
 @rule(Decreasing, PostureWitness)
 def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
     """Soundness: M(q) is not positive definite at one posture of one arm within the ranges."""
@@ -221,12 +188,6 @@ def by_posture(statement: Decreasing, proof: PostureWitness) -> Accepted:
 @rule(Decreasing, StateWitness)
 def by_state(statement: Decreasing, proof: StateWitness) -> Accepted:
     """Soundness: dV/dt > 0 in balls, by the plain chain rule, at one state of one arm within the ranges."""
-    require_rising(statement, proof)
-    return Accepted("refuted", "enclosure")
-
-
-def require_rising(statement: Decreasing, proof: StateWitness) -> None:
-    """dV/dt > 0 is shown at a state of an arm within the ranges."""
     require(not statement.coupling, "coupling", statement.coupling, "must be empty: the state is of (13)")
     require_within("viscous", proof.viscous, statement.viscous)
     require_within("parameters", proof.parameters, statement.parameters)
@@ -234,11 +195,11 @@ def require_rising(statement: Decreasing, proof: StateWitness) -> None:
         tuple(at_parameters(entry, 2 * len(statement.mass), proof.parameters) for entry in row)
         for row in statement.mass
     )
-    known = member(statement.family, statement.m)
-    controller = Controller(known, statement.kp, statement.kv)
+    controller = Controller(member(statement.family, statement.m), statement.kp, statement.kv)
     state = State(proof.q, proof.e, proof.w)
-    if not confirms_positive(Arm(mass, proof.viscous), controller, statement.eps0, state):
-        raise Refused("state", "", "does not show dV/dt > 0")
+    rises = confirms_positive(Arm(mass, proof.viscous), controller, statement.eps0, state)
+    require(rises, "state", "", "does not show dV/dt > 0")
+    return Accepted("refuted", "enclosure")
 
 
 def statement_of(loop: ClosedLoop) -> Decreasing:
@@ -279,8 +240,9 @@ class DampingBelow(OfLoop, OfTerms):
     def text(self) -> str:
         return (
             "for all κ > 0 and ε₀ > 0: if M(q) ≻ 0 and dV/dt < 0 at every state but the origin, for "
-            f"{self.gains_text(' and κ K_v with K_v')}, then "
-            f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}; {self.mass_text()}"
+            f"{self.law_text(' and κ K_v with K_v')}, then "
+            f"κ·{number_text(max(self.kv))} < {expression_text(self.bound)}; "
+            f"{mass_text(self.mass, self.parameters)}"
         )
 
 

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from flint import arb
 
-from lyapcheck.check.expressions.text import diagonal_text, list_text, number_text
+from lyapcheck.check.expressions.text import list_text, number_text
 from lyapcheck.check.judgement import LARGEST, TORQUE
 from lyapcheck.check.kinds.decreasing import OfLoop
 from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential
@@ -22,6 +22,7 @@ from lyapcheck.check.kinds.identity import SameHarmonics
 from lyapcheck.check.kinds.inertia import (
     OfArm,
     PostureWitness,
+    law_text,
     polynomial_text,
     potential_text,
     require_one_a_joint,
@@ -31,7 +32,7 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import hyperbolic_constants, precision, to_arb
-from lyapcheck.check.numbers.members import member, member_text
+from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Statement, Total
@@ -158,7 +159,6 @@ class GateAccepted(Total):
 
     def text(self) -> str:
         limits = ", ".join("none" if x is None else number_text(x) for x in self.limits)
-        ranges = [f"{number_text(a)} … {number_text(b)}" for a, b in (*self.viscous, *self.parameters)]
         words = [
             f"|g_i(q)| ≤ k_gi for all q{'' if self.gravity else ', a premise'}",
             *(f"({name}) with these k_gi" for name in self.conditions),
@@ -166,8 +166,8 @@ class GateAccepted(Total):
             *(part.text() for part in self.stability),
         ]
         names = variable_names(self.joints, len(self.parameters))
-        pairs = zip(names[2 * self.joints :], ranges[self.joints :], strict=True)
-        over = [f"{name} in {text}" for name, text in pairs]
+        pairs = zip(names[2 * self.joints :], self.parameters, strict=True)
+        over = [f"{name} in {number_text(a)} … {number_text(b)}" for name, (a, b) in pairs]
         entries = [f"g{i} = {polynomial_text(g, names)}" for i, g in enumerate(self.gravity, 1)]
         if self.gravity:
             over += [written_out(entries, "g(q)", self.gravity, ())]
@@ -176,8 +176,7 @@ class GateAccepted(Total):
             ]
         return (
             f"{'; '.join(words)}: for every arm with k_g = {list_text(self.k_g)}, τmax = ({limits}), "
-            f"B = diag({', '.join(ranges[: self.joints])}), under h = {member_text(self.family, self.m)}, "
-            f"{', '.join([f'K_p = {diagonal_text(self.kp)}', f'K_v = {diagonal_text(self.kv)}', *over])}"
+            f"{', '.join([law_text(self.viscous, self.family, self.m, self.kp, self.kv), *over])}"
         )
 
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 from flint import arb
 
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.identity import Compared, Gap, mixed
+from lyapcheck.check.kinds.identity import Compared, Gap
 from lyapcheck.check.kinds.inertia import (
     BoundedAbove,
     PostureWitness,
@@ -24,11 +24,10 @@ from lyapcheck.check.kinds.inertia import (
     variable_names,
     written_out,
 )
-from lyapcheck.check.loop.arithmetic import Arithmetic
 from lyapcheck.check.loop.chain import RigidLink, lever_bound, pulls
-from lyapcheck.check.loop.field import MOST_BOXES, Field, Value, size_of, value_at
+from lyapcheck.check.loop.field import MOST_BOXES, Arithmetic, Field, Value, size_of, value_at
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, derivative
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, mixed, slope
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof
 from lyapcheck.check.verify import Accepted, rule
@@ -158,8 +157,8 @@ class GravityOfPotential(Compared):
     def gaps(self) -> Iterator[Gap]:
         potential = by_parameters(self.potential, self.joints)
         for i, entry in enumerate(self.gravity):
-            slope = {power: derivative(part, i) for power, part in potential.items()}
-            yield f"g{i + 1}", (), mixed([(1, by_parameters(entry, self.joints)), (-1, slope)])
+            gap = mixed([(1, by_parameters(entry, self.joints)), (-1, slope(potential, i))])
+            yield f"g{i + 1}", (), gap
 
     def text(self) -> str:
         potential = potential_text(self.potential, self.joints, len(self.parameters), "potential")

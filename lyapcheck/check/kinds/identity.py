@@ -6,7 +6,7 @@ References: ``geddes1992algorithms``, chapter 3.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
@@ -22,7 +22,7 @@ from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.inertia import PostureWitness, require_posture
 from lyapcheck.check.loop.field import value_at
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.numbers.harmonics import Uncertain, combination
+from lyapcheck.check.numbers.harmonics import Uncertain
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import Pointwise, domain_of, range_text, require_distinct
 from lyapcheck.check.statement import Ends, Proof, Total, Variable
@@ -150,11 +150,3 @@ def differences(statement: Compared, at: MovingPosture) -> Iterator[tuple[str, a
             rate = prod((at.x[k] for k in rates), start=Fraction(1))
             value += to_arb(rate) * value_at(gap, at.q, at.parameters)
         yield place, value
-
-
-def mixed(parts: Iterable[tuple[int | Fraction, Uncertain]]) -> Uncertain:
-    """Σ factor · polynomial."""
-    rows = [(Fraction(factor), entry) for factor, entry in parts]
-    powers = {power for _, entry in rows for power in entry}
-    sums = {power: combination((f, entry.get(power, {})) for f, entry in rows) for power in powers}
-    return {power: terms for power, terms in sums.items() if terms}

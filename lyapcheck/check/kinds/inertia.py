@@ -14,13 +14,14 @@ from math import prod
 
 from flint import arb
 
-from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.judgement import MAX_ARM
 from lyapcheck.check.loop.chain import RigidLink, makes
 from lyapcheck.check.loop.closed_loop import masses_at_corners
 from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.numbers.balls import to_arb
+from lyapcheck.check.numbers.members import member_text
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
 from lyapcheck.check.verify import Accepted, all_proved, rule
@@ -115,6 +116,28 @@ def potential_text(
     """An energy written out, or its digest."""
     entry = f"{name} = {polynomial_text(energy, variable_names(n, parameters))}"
     return written_out([entry], what, energy, ())
+
+
+DECREASING = (
+    "M(q) ≻ 0, and dV/dt < 0 along (11) at every state but the origin, which is therefore globally "
+    "asymptotically stable by Lyapunov's direct method"
+)
+
+
+def law_text(
+    viscous: Sequence[Ends],
+    family: str,
+    m: int | None,
+    kp: Sequence[Fraction],
+    kv: Sequence[Fraction],
+    beside: str = ", K_v",
+) -> str:
+    """B, h and the gains of a closed loop."""
+    friction = ", ".join(" … ".join(dict.fromkeys(map(number_text, ends))) for ends in viscous)
+    return (
+        f"B = diag({friction}), h = {member_text(family, m)}, "
+        f"K_p = {diagonal_text(kp)}{beside} = {diagonal_text(kv)}"
+    )
 
 
 @dataclass(frozen=True)
@@ -254,7 +277,7 @@ class MassAbove(OfArm, Bounded):
         return f"M(q) = M(q)ᵀ ≻ {number_text(self.low) + '·I' if self.low else '0'} {self.over}"
 
     def shown_by_boxes(self, most: int = MOST_BOXES) -> bool:
-        return self.symmetric.above(self.low, most)
+        return self.symmetric.above([self.low] * self.joints, most)
 
     def excess(self, at: PostureWitness) -> arb:
         """low xᵀx − xᵀMx."""

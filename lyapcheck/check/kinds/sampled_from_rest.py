@@ -11,8 +11,9 @@ from itertools import chain
 
 from flint import arb
 
-from lyapcheck.check.expressions.text import diagonal_text, number_text
+from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.kinds.inertia import (
+    law_text,
     mass_text,
     potential_text,
     require_mass,
@@ -26,7 +27,7 @@ from lyapcheck.check.loop.inertia import inertia_of
 from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, Numbers, SampledEnergy, falls
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import by_parameters
-from lyapcheck.check.numbers.members import member, member_text
+from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import dyadic, root_above
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Ends, Monomials, Proof, Total
@@ -82,12 +83,11 @@ class SampledFromRest(Total):
         )
 
     def text(self) -> str:
-        n, ranges = len(self.mass), ", ".join(f"{number_text(a)} … {number_text(b)}" for a, b in self.viscous)
+        n = len(self.mass)
         return (
             f"at intervals of T = {number_text(self.period)} s, {late_text(self.delay)}, q̇ by backward "
             f"differences: from every start at rest with |e_i| ≤ {number_text(self.within)}° the torque (6) "
-            f"brings every arm to q_d: h = {member_text(self.family, self.m)}, "
-            f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, B = diag({ranges}), "
+            f"brings every arm to q_d: {law_text(self.viscous, self.family, self.m, self.kp, self.kv)}, "
             f"{mass_text(self.mass, self.parameters)}, "
             f"{potential_text(self.potential, n, len(self.parameters))}"
         )
@@ -121,7 +121,7 @@ def by_falling_energy(statement: SampledFromRest, proof: FallingEnergy) -> Accep
     _require_sizes(proof, n, d)
     inertia = inertia_of(statement.mass, statement.parameters)
     require(inertia.symmetric, "M", "", "is not symmetric")
-    require(inertia.above_diagonal(proof.least), "least", "", "is not shown to be M ≽ diag(u)")
+    require(inertia.above(proof.least), "least", "", "is not shown to be M ≽ diag(u)")
     arm = arm_bounds(statement, proof.least)
     for i in range(n):
         row = sum(

@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, arb_mat
 
@@ -26,13 +25,12 @@ from lyapcheck.check.kinds.chain import ChainAbove
 from lyapcheck.check.kinds.inertia import MassAbove, PostureWitness, require_posture
 from lyapcheck.check.kinds.sampled import GOAL, SampledStable
 from lyapcheck.check.kinds.stable_arm import hessian
-from lyapcheck.check.loop.arithmetic import BALLS
-from lyapcheck.check.loop.chain import Posture
-from lyapcheck.check.loop.field import value_at
+from lyapcheck.check.loop.chain import turning
+from lyapcheck.check.loop.field import BALLS, value_at
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.numbers.members import member
-from lyapcheck.check.numbers.vectors import Algebra
+from lyapcheck.check.numbers.vectors import transposed
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Monomials, Proof
 from lyapcheck.check.verify import Accepted, require_proved, rule
@@ -165,14 +163,8 @@ def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepte
 
 
 def _arm_at(statement: SampledStable, proof: GrowingMotion) -> tuple[Rows, Rows]:
-    """M and ∂g/∂q in balls at the goal; refused unless the arm is one of the statement.
-
-    Soundness: in each angle g is of the form a + b cos q_j + c sin q_j, so that its slope is half the
-        difference of its values a quarter of a turn before and behind.
-    """
+    """M and ∂g/∂q in balls at the goal; refused unless the arm is one of the statement."""
     n, unit = statement.n, arb.pi() / 180
-    angles, of = [to_arb(x) * unit for x in proof.goal], Algebra(to_arb)
-    sines, cosines = [x.sin() for x in angles], [x.cos() for x in angles]
     require_posture(PostureWitness(proof.goal, proof.parameters, ()), n, statement.parameters)
     if not statement.links:
 
@@ -186,14 +178,7 @@ def _arm_at(statement: SampledStable, proof: GrowingMotion) -> tuple[Rows, Rows]
             slopes[i * n : (i + 1) * n] for i in range(n)
         ]
     require_proved(ChainAbove(statement.links, Fraction(0)), proof.inertia, "M(q)")
-
-    def torques(k: int, turn: int) -> list[Any]:
-        """g with joint k a quarter of a turn further."""
-        s, c = list(sines), list(cosines)
-        s[k], c[k] = turn * cosines[k], -turn * sines[k]
-        return Posture(statement.links, s, c, of).torques(statement.fall)
-
-    pairs = [zip(torques(k, 1), torques(k, -1), strict=True) for k in range(n)]
-    columns = [[of.value(a - b) / 2 for a, b in pair] for pair in pairs]
-    mass_rows = Posture(statement.links, sines, cosines, of).mass()
-    return mass_rows, [[columns[k][i] for k in range(n)] for i in range(n)]
+    angles = [to_arb(x) * unit for x in proof.goal]
+    turned = [turning(statement.links, angles, k) for k in range(n)]
+    columns = [[torque[1] for torque in posture.torques(statement.fall)] for posture in turned]
+    return [[entry[0] for entry in row] for row in turned[0].mass()], transposed(columns)

@@ -5,7 +5,7 @@ References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from abc import abstractmethod
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -24,8 +24,33 @@ from lyapcheck.check.statement import OfTerms, Point, Proof, Relation
 from lyapcheck.check.verify import Accepted, rule
 
 
+class OfAngles(OfTerms):
+    """A statement about each of some polynomials in sines and cosines, for all angles."""
+
+    @property
+    @abstractmethod
+    def trees(self) -> tuple[Tree, ...]:
+        """The polynomials."""
+
+    @abstractmethod
+    def says(self, k: int, lower: bool) -> Relation:
+        """What is said of one of them, from below or from above; refused if that is nothing."""
+
+    def require_well_formed(self) -> None:
+        require(len(self.trees) > 0, "entries", "", "must be one or more")
+        require_expressions(self.trees)
+
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        return [(tree, {}) for tree in self.trees]
+
+    def over(self) -> str:
+        """The angles by name."""
+        names = sorted(set().union(*map(variables, self.trees)))
+        return f"for all angles {', '.join(names)}" if names else "for all angles"
+
+
 @dataclass(frozen=True)
-class TrigonometricBound(OfTerms):
+class TrigonometricBound(OfAngles):
     """``|f_i(q)| <= bound_i`` for all q, each f_i a polynomial in sines and cosines of q.
 
     A bound of ``None`` asks only that f_i is bounded.
@@ -33,12 +58,15 @@ class TrigonometricBound(OfTerms):
 
     entries: tuple[tuple[Tree, Fraction | None], ...]
 
-    def require_well_formed(self) -> None:
-        require(len(self.entries) > 0, "entries", "", "must be one or more")
-        require_expressions(tree for tree, _ in self.entries)
+    @property
+    def trees(self) -> tuple[Tree, ...]:
+        return tuple(tree for tree, _ in self.entries)
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        return [(tree, {}) for tree, _ in self.entries]
+    def says(self, k: int, lower: bool) -> Relation:
+        tree, bound = self.entries[k]
+        if bound is None:
+            raise Refused("entry", k, "has no bound to break")
+        return within(tree, bound)[1 if lower else 0]
 
     def text(self) -> str:
         parts = [
@@ -47,31 +75,26 @@ class TrigonometricBound(OfTerms):
             else f"|{expression_text(tree)}| ≤ {number_text(bound)}"
             for tree, bound in self.entries
         ]
-        return f"{'; '.join(parts)}, for all {_angles(tree for tree, _ in self.entries)}"
+        return f"{'; '.join(parts)}, {self.over()}"
 
 
 @dataclass(frozen=True)
-class TrigonometricPositive(OfTerms):
+class TrigonometricPositive(OfAngles):
     """``f_i(q) > 0`` for all q, each f_i a polynomial in sines and cosines of q."""
 
     entries: tuple[Tree, ...]
 
-    def require_well_formed(self) -> None:
-        require(len(self.entries) > 0, "entries", "", "must be one or more")
-        require_expressions(self.entries)
+    @property
+    def trees(self) -> tuple[Tree, ...]:
+        return self.entries
 
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        return [(tree, {}) for tree in self.entries]
+    def says(self, k: int, lower: bool) -> Relation:
+        require(lower, "lower", lower, "must be true: the bound is from below")
+        return above_zero(self.entries[k])
 
     def text(self) -> str:
         shown = "; ".join(f"{expression_text(tree)} > 0" for tree in self.entries)
-        return f"{shown}, for all {_angles(self.entries)}"
-
-
-def _angles(trees: Iterable[Tree]) -> str:
-    """The angles by name."""
-    names = sorted(set().union(*map(variables, trees)))
-    return f"angles {', '.join(names)}" if names else "angles"
+        return f"{shown}, {self.over()}"
 
 
 @dataclass(frozen=True)
@@ -119,25 +142,15 @@ def by_positive_mean(statement: TrigonometricPositive, proof: FourierBounds) -> 
     return Accepted("proved", "exact")
 
 
-@rule(TrigonometricBound, EntryWitness)
-def by_entry_out_of_bounds(statement: TrigonometricBound, proof: EntryWitness) -> Accepted:
-    """Soundness: angles at which the entry and its bound lie in disjoint balls."""
-    require(0 <= proof.entry < len(statement.entries), "entry", proof.entry, "does not exist")
-    tree, bound = statement.entries[proof.entry]
-    if bound is None:
-        raise Refused("entry", proof.entry, "has no bound to break")
+@rule(OfAngles, EntryWitness)
+def by_entry(statement: OfAngles, proof: EntryWitness) -> Accepted:
+    """Soundness: angles at which both sides of what is said of an entry lie in disjoint balls."""
+    require(0 <= proof.entry < len(statement.trees), "entry", proof.entry, "does not exist")
+    relation = statement.says(proof.entry, proof.lower)
     statement.require_defined()
-    return _broken(within(tree, bound)[1 if proof.lower else 0], tree, proof)
-
-
-@rule(TrigonometricPositive, EntryWitness)
-def by_entry_not_positive(statement: TrigonometricPositive, proof: EntryWitness) -> Accepted:
-    """Soundness: angles at which the entry is not positive, in balls."""
-    require(0 <= proof.entry < len(statement.entries), "entry", proof.entry, "does not exist")
-    require(proof.lower, "lower", proof.lower, "must be true: the bound is from below")
-    tree = statement.entries[proof.entry]
-    statement.require_defined()
-    return _broken(above_zero(tree), tree, proof)
+    point = coordinates(proof.point, variables(statement.trees[proof.entry]))
+    require_failure(relation.comparison, point, proof.bits)
+    return Accepted("refuted", "enclosure")
 
 
 def within(tree: Tree, bound: Fraction) -> tuple[Relation, Relation]:
@@ -206,8 +219,3 @@ def is_bounded(tree: Tree) -> bool:
     if kind == "div":
         return is_bounded(rest[0]) and rest[1][0] == "num" and Fraction(rest[1][1]) != 0
     return kind == "num" or (kind in ("sin", "cos") and rest[0][0] == "var")
-
-
-def _broken(relation: Relation, tree: Tree, proof: EntryWitness) -> Accepted:
-    require_failure(relation.comparison, coordinates(proof.point, variables(tree)), proof.bits)
-    return Accepted("refuted", "enclosure")

@@ -15,9 +15,9 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, arb, arb_poly, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
-from lyapcheck.check.numbers.polynomials import rational, root_above
+from lyapcheck.check.numbers.polynomials import ball_of, rational, root_above
 from lyapcheck.check.numbers.vectors import (
     ZERO,
     Algebra,
@@ -157,6 +157,19 @@ class Posture:
         return Wrench(of.add(torque, of.cross(self.links[k].origin, force)), force)
 
 
+def turning(links: Sequence[RigidLink], q: Sequence[arb], k: int) -> Posture:
+    """The chain as polynomials in a small turn of joint k: coefficients of its first power are slopes.
+
+    Soundness: sines and cosines are exact up to that power, and no product takes it from others.
+    """
+    turns = [(x.sin(), x.cos(), int(i == k)) for i, x in enumerate(q)]
+    sines, cosines = (
+        [arb_poly([s, c * own]) for s, c, own in turns],
+        [arb_poly([c, -s * own]) for s, c, own in turns],
+    )
+    return Posture(links, sines, cosines, Algebra(lambda x: arb_poly([ball_of(x)])))
+
+
 def own_body(of: Algebra, link: RigidLink) -> Body:
     """The body of one link: ∫ p pᵀ dm = ½ tr(I) − I + m c cᵀ."""
     moment = of.scaled(link.mass, link.com)
@@ -186,7 +199,8 @@ def _rotation(of: Algebra, link: RigidLink, sine: Entry, cosine: Entry) -> Matri
 # --- What links say of polynomials: whether they make a given M(q) or g_i(q), and how large a g_i is at most.
 
 
-Reduce = Callable[[fmpq_mpoly], fmpq_mpoly]
+Same = Callable[[fmpq_mpoly, Monomials], bool]
+"""Whether a polynomial in the sines and then the cosines is the function of these terms."""
 
 
 def makes(links: Sequence[RigidLink], mass: Sequence[Sequence[Monomials]]) -> bool:
@@ -196,25 +210,21 @@ def makes(links: Sequence[RigidLink], mass: Sequence[Sequence[Monomials]]) -> bo
     """
     if len(links) != len(mass) or not all(link.fits for link in links):
         return False
-    n, (ring, reduced) = len(links), _ring(len(links))
-    rows = _posture(links, ring, reduced).mass()
-    return all(
-        reduced(ring.from_dict(_terms(mass[i][j])) - rows[i][j]) == 0 for i in range(n) for j in range(n)
-    )
+    posture, same = _symbolic(links)
+    pairs = zip(posture.mass(), mass, strict=True)
+    return all(same(x, entry) for own, row in pairs for x, entry in zip(own, row, strict=True))
 
 
 def pulls(links: tuple[RigidLink, ...], fall: tuple[Fraction, ...], i: int, torque: Monomials) -> bool:
     """Whether this is g_i(q) for all q, i counted from 0; as polynomials, like `makes`."""
-    ring, reduced, torques = _torques(links, fall)
-    return bool(reduced(ring.from_dict(_terms(torque)) - torques[i]) == 0)
+    torques, same = _torques(links, fall)
+    return same(torques[i], torque)
 
 
 @lru_cache(maxsize=64)
-def _torques(
-    links: tuple[RigidLink, ...], fall: tuple[Fraction, ...]
-) -> tuple[fmpq_mpoly_ctx, Reduce, list[fmpq_mpoly]]:
-    ring, reduced = _ring(len(links))
-    return ring, reduced, _posture(links, ring, reduced).torques(fall)
+def _torques(links: tuple[RigidLink, ...], fall: tuple[Fraction, ...]) -> tuple[list[fmpq_mpoly], Same]:
+    posture, same = _symbolic(links)
+    return posture.torques(fall), same
 
 
 def lever_bound(
@@ -246,8 +256,9 @@ def lever_bound(
     return Fraction(total * root(of.dot(across, across)))
 
 
-def _ring(n: int) -> tuple[fmpq_mpoly_ctx, Reduce]:
-    """Polynomials in the sines and then the cosines, and their normal form without squares of sines."""
+def _symbolic(links: Sequence[RigidLink]) -> tuple[Posture, Same]:
+    """The chain with sines and cosines for generators; normal forms are without squares of sines."""
+    n = len(links)
     ring = fmpq_mpoly_ctx.get([f"{letter}{i}" for letter in "sc" for i in range(n)], Ordering.lex)
     gens = ring.gens()
 
@@ -258,16 +269,11 @@ def _ring(n: int) -> tuple[fmpq_mpoly_ctx, Reduce]:
                 _, polynomial = divmod(polynomial, gens[i] ** 2 + gens[n + i] ** 2 - 1)
         return polynomial
 
-    return ring, reduced
+    def same(polynomial: fmpq_mpoly, entry: Monomials) -> bool:
+        terms: dict[tuple[int, ...], fmpq] = {}
+        for powers, c in entry:
+            terms[powers] = terms.get(powers, fmpq(0)) + rational(c)
+        return bool(reduced(ring.from_dict(terms) - polynomial) == 0)
 
-
-def _posture(links: Sequence[RigidLink], ring: fmpq_mpoly_ctx, reduced: Reduce) -> Posture:
-    n, gens = len(links), ring.gens()
-    return Posture(links, gens[:n], gens[n:], Algebra(lambda x: ring.constant(rational(x)), reduced))
-
-
-def _terms(entry: Monomials) -> dict[tuple[int, ...], fmpq]:
-    result: dict[tuple[int, ...], fmpq] = {}
-    for powers, c in entry:
-        result[powers] = result.get(powers, fmpq(0)) + rational(c)
-    return result
+    of = Algebra(lambda x: ring.constant(rational(x)), reduced)
+    return Posture(links, gens[:n], gens[n:], of), same

@@ -229,10 +229,7 @@ class ClosedLoop:
 
 @dataclass(frozen=True)
 class RateProof(Proof, ABC):
-    """A proof that dV/dt < 0 at every state asked about, but the origin, of an admissible loop with M ≻ 0.
-
-    It must hold for every diagonal D with entries from 0 to L in place of h(w_i)/w_i: see ``LargerKv``.
-    """
+    """A proof that dV/dt < 0 at every state asked about, but the origin, of an admissible loop with M ≻ 0."""
 
     @abstractmethod
     def require_shown(self, loop: ClosedLoop) -> None:

@@ -1,20 +1,146 @@
-"""Polynomials in sines, cosines and parameters over boxes, which are cut until each shows what is claimed."""
+"""Polynomials in sines, cosines and parameters over boxes, in balls or spans.
+
+Boxes are cut until each shows what is claimed.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 from typing import Any
 
 from flint import arb
 
-from lyapcheck.check.loop.arithmetic import BALLS, SPANS, Arithmetic, Ring
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, angles_in, derivative, largest
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.statement import Ends
+
+Value = Any
+"""A ball or a span, as the arithmetic has it."""
+
+# --- What evaluation needs of an arithmetic, beyond sums and products.
+#
+# Spans are intervals with two ends, for boxes so wide that balls are too coarse. A product of balls a ± r and
+# b ± s has the radius |a|s + |b|r + rs, the exact range one of |a|s + |b|r: for wide balls that is much.
+# Spans give the exact range of every operation, at several times the cost.
+
+
+class Span:
+    """All reals between two points.
+
+    Soundness: for x in the first and y in the second span, x ∘ y lies in the result, for every ∘ here; ends
+    are rounded outward by taking the outer end of each ball.
+    """
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, low: arb, high: arb) -> None:
+        self.low = low
+        self.high = high
+
+    @classmethod
+    def of(cls, value: arb) -> Span:
+        return cls(value.lower(), value.upper())
+
+    def __add__(self, other: Span) -> Span:
+        return Span((self.low + other.low).lower(), (self.high + other.high).upper())
+
+    def __sub__(self, other: Span) -> Span:
+        return Span((self.low - other.high).lower(), (self.high - other.low).upper())
+
+    def __mul__(self, other: Span) -> Span:
+        a, b = self.low * other.low, self.low * other.high
+        c, d = self.high * other.low, self.high * other.high
+        return Span(
+            a.lower().min(b.lower()).min(c.lower().min(d.lower())),
+            a.upper().max(b.upper()).max(c.upper().max(d.upper())),
+        )
+
+    def __truediv__(self, other: Span) -> Span:
+        """The quotient by a positive span; everything where the divisor may be 0."""
+        if not other.low > 0:
+            return Span(arb("-inf"), arb("inf"))
+        return self * Span((1 / other.high).lower(), (1 / other.low).upper())
+
+    def square(self) -> Span:
+        """x², which is never negative."""
+        a, b = self.low * self.low, self.high * self.high
+        large = a.upper().max(b.upper())
+        if self.low <= 0 <= self.high:
+            return Span(arb(0), large)
+        return Span(a.lower().min(b.lower()), large)
+
+    def meet(self, other: Span) -> Span:
+        """The values in both, for two enclosures of the same quantity."""
+        return Span(self.low.max(other.low), self.high.min(other.high))
+
+    @property
+    def positive(self) -> bool:
+        """Whether all of it is proved to be above 0; an end that is not a number proves nothing."""
+        return bool(self.low > 0)
+
+
+@dataclass(frozen=True)
+class Ring:
+    """Values under +, − and ×.
+
+    Args:
+        value: the one for a ball.
+        square: x², never below 0 where it encloses.
+    """
+
+    value: Callable[[arb], Value]
+    square: Callable[[Value], Value]
+
+
+@dataclass(frozen=True)
+class Arithmetic(Ring):
+    """Enclosures under +, −, × and ÷, with what those operators cannot say.
+
+    Args:
+        meet: what lies in two enclosures of the same quantity.
+        positive: whether all of an enclosure is proved to be above 0.
+    """
+
+    meet: Callable[[Value, Value], Value]
+    positive: Callable[[Value], bool]
+
+    def positive_definite(self, rows: list[list[Value]]) -> bool:
+        """Whether every symmetric matrix inside is positive definite; ``False`` says nothing.
+
+        Elimination: a symmetric matrix is positive definite exactly when all its pivots are positive.
+
+        Args:
+            rows: the entries on and below the diagonal; they are overwritten.
+        """
+        n = len(rows)
+        for k in range(n):
+            pivot = rows[k][k]
+            if not self.positive(pivot):
+                return False
+            for i in range(k + 1, n):
+                factor = rows[i][k] / pivot
+                for j in range(k + 1, i):
+                    rows[i][j] = rows[i][j] - factor * rows[j][k]
+                rows[i][i] = rows[i][i] - self.square(rows[i][k]) / pivot
+        return True
+
+
+def _square_of(x: arb) -> arb:
+    """The square of a ball, which a product with itself would make too wide."""
+    low, high = x.lower(), x.upper()
+    if low <= 0 <= high:
+        return arb(0).union(low * low).union(high * high)
+    return (low * low).union(high * high)
+
+
+BALLS = Arithmetic(lambda x: x, _square_of, arb.intersection, lambda x: bool(x > 0))
+SPANS = Arithmetic(Span.of, Span.square, Span.meet, lambda x: x.positive)
+
 
 # --- Trees of boxes: a box is cut in the middle of one side, and again, until each part can be judged.
 #
@@ -31,21 +157,16 @@ class BrokenTree(ValueError):
 
 
 def leaves(start: Box, tree: str) -> Iterator[Box]:
-    """The boxes at the dots of a tree; raises ``BrokenTree`` as `nodes` does."""
-    return (box for box, side in nodes(start, tree) if side is None)
-
-
-def nodes(start: Box, tree: str) -> Iterator[tuple[Box, int | None]]:
-    """Every box of a tree with the side that is cut, ``None`` at a dot; ``BrokenTree`` if it is none."""
+    """The boxes at the dots of a tree; ``BrokenTree`` if it is none."""
     stack = [start]
     for mark in tree:
         if not stack:
             raise BrokenTree("the tree ends before its text does")
         box = stack.pop()
-        side = None if mark == "." else _side(mark, len(box))
-        yield box, side
-        if side is not None:
-            left, right = halves(box, side)
+        if mark == ".":
+            yield box
+        else:
+            left, right = halves(box, _side(mark, len(box)))
             stack += (right, left)
     if stack:
         raise BrokenTree("the text ends before its tree does")
@@ -66,12 +187,13 @@ def _side(mark: str, sides: int) -> int:
     return side
 
 
+# --- Polynomials over boxes.
+
+
 PI_ABOVE = 3.1415926535897936
 """A double above π."""
 BITS = 64
 MOST_BOXES = 20_000
-Value = Any
-"""A ball or a span, as the arithmetic has it."""
 Shows = Callable[[list[Value], Arithmetic], bool]
 """Whether enclosures of all polynomials show it."""
 Values = dict[tuple[int, ...], tuple[Value, Value]]
@@ -159,45 +281,30 @@ def ball(side: Side) -> arb:
 class Polynomial:
     """A trigonometric polynomial and its slopes, enclosed over boxes by two forms that both hold.
 
-    Its coefficients are polynomials in the parameters; each power of those is enclosed on its own.
+    Its coefficients are polynomials in the parameters; each power of those is enclosed on its own, by the
+    ranges of its harmonics, cut with the mean value form.
     """
 
     def __init__(self, entry: Uncertain) -> None:
-        self.parts = [(powers, Part(terms)) for powers, terms in entry.items()]
+        self.parts = [(powers, _lifted(terms), _slopes(terms)) for powers, terms in entry.items()]
         self.used = [k for terms in entry.values() for k in terms if any(k)]
 
     def over(
         self, wide: Values, centre: Values, offset: list[Value], parameters: Sequence[Value], of: Arithmetic
     ) -> Value:
-        return self.put_together(lambda part: part.over(wide, centre, offset, of), parameters, of)
-
-    def put_together(self, value_of: Callable[[Part], Value], parameters: Sequence[Value], of: Ring) -> Value:
         total = of.value(arb(0))
-        for powers, part in self.parts:
-            value = value_of(part)
+        for powers, terms, slopes in self.parts:
+            value = _combined(terms, wide, of)
+            if slopes:
+                mean = _combined(terms, centre, of)
+                for i, slope in slopes:
+                    mean = mean + _combined(slope, wide, of) * offset[i]
+                value = of.meet(value, mean)
             for parameter, power in zip(parameters, powers, strict=True):
                 for _ in range(power):
                     value = value * parameter
             total = total + value
         return total
-
-
-class Part:
-    """One power of the parameters: the ranges of its harmonics, cut with the mean value form."""
-
-    def __init__(self, terms: Harmonics) -> None:
-        self.terms = _lifted(terms)
-        joints = {i for k in terms for i, factor in enumerate(k) if factor}
-        self.slopes = [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
-
-    def over(self, wide: Values, centre: Values, offset: list[Value], of: Arithmetic) -> Value:
-        natural = combined(self.terms, wide, of)
-        if not self.slopes:
-            return natural
-        mean = combined(self.terms, centre, of)
-        for i, slope in self.slopes:
-            mean = mean + combined(slope, wide, of) * offset[i]
-        return of.meet(natural, mean)
 
 
 Lifted = list[tuple[tuple[int, ...], arb, arb]]
@@ -207,7 +314,13 @@ def _lifted(terms: Harmonics) -> Lifted:
     return [(k, to_arb(a), to_arb(b)) for k, (a, b) in terms.items()]
 
 
-def combined(terms: Lifted, values: Values, of: Arithmetic) -> Value:
+def _slopes(terms: Harmonics) -> list[tuple[int, Lifted]]:
+    """The derivatives that do not vanish."""
+    joints = {i for k in terms for i, factor in enumerate(k) if factor}
+    return [(i, _lifted(derivative(terms, i))) for i in sorted(joints)]
+
+
+def _combined(terms: Lifted, values: Values, of: Arithmetic) -> Value:
     """Σ a cos + b sin over the harmonics."""
     total = of.value(arb(0))
     for k, a, b in terms:

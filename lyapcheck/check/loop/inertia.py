@@ -12,8 +12,7 @@ from itertools import accumulate, count, takewhile
 
 from flint import arb
 
-from lyapcheck.check.loop.arithmetic import Arithmetic
-from lyapcheck.check.loop.field import MOST_BOXES, Field, Value, size_of, value_at
+from lyapcheck.check.loop.field import MOST_BOXES, Arithmetic, Field, Value, size_of, value_at
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, uncertain_christoffel
 from lyapcheck.check.statement import Ends, Monomials
@@ -38,25 +37,16 @@ class Inertia:
         """The Christoffel symbols c_ijk = c_ikj with k ≤ j that do not vanish."""
         return uncertain_christoffel(self.mass)
 
-    def above(self, low: Fraction, most: int = MOST_BOXES) -> bool:
-        """Whether M(q) − low·I is positive definite throughout, by boxes that are cut until they show it."""
-        return self._lower_half().throughout(lambda m, of: exceeds(rows_of(m), -1, low, of), most)
-
-    def above_diagonal(self, low: Sequence[Fraction], most: int = MOST_BOXES) -> bool:
-        """Whether M(q) − diag(low) is positive definite throughout, by boxes."""
-
-        def shows(m: list[Value], of: Arithmetic) -> bool:
-            rows = rows_of(m)
-            for row, x in zip(rows, low, strict=True):
-                row[-1] = row[-1] - of.value(to_arb(x))
-            return of.positive_definite(rows)
-
-        return self._lower_half().throughout(shows, most)
+    def above(self, low: Sequence[Fraction], most: int = MOST_BOXES) -> bool:
+        """Whether M(q) − diag(low) is positive definite throughout, by boxes cut until they show it."""
+        less = [-x for x in low]
+        return self._lower_half().throughout(lambda m, of: exceeds(rows_of(m), less, of), most)
 
     def below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
         """Whether high·I − M(q) and high·I + M(q) are positive definite throughout: then ‖M(q)‖ < high."""
+        more = [high] * self.n
         return self._lower_half().throughout(
-            lambda m, of: all(exceeds(rows_of(signed), 1, high, of) for signed in (m, _negative(m, of))), most
+            lambda m, of: all(exceeds(rows_of(signed), more, of) for signed in (m, _negative(m, of))), most
         )
 
     def coriolis_below(self, high: Fraction, most: int = MOST_BOXES) -> bool:
@@ -71,7 +61,7 @@ class Inertia:
 
         def shows(values: list[Value], of: Arithmetic) -> bool:
             c = dict(zip(places, values, strict=True))
-            return any(exceeds(rows, 1, high * high, of) for rows in self._unfolded(c, of))
+            return any(exceeds(rows, [high * high] * self.n, of) for rows in self._unfolded(c, of))
 
         return field.throughout(shows, most)
 
@@ -143,9 +133,8 @@ def rows_of(entries: Sequence[Value]) -> list[list[Value]]:
     return [list(entries[start : start + 1 + k]) for k, start in enumerate(starts)]
 
 
-def exceeds(rows: list[list[Value]], sign: int, shift: Fraction, of: Arithmetic) -> bool:
-    """Whether A ± shift·I is positive definite, A by its entries on and below the diagonal."""
-    amount = of.value(to_arb(sign * shift))
-    for i, row in enumerate(rows):
-        row[i] = row[i] + amount
+def exceeds(rows: list[list[Value]], shift: Sequence[Fraction], of: Arithmetic) -> bool:
+    """Whether A + diag(shift) is positive definite, A by its entries on and below the diagonal."""
+    for row, x in zip(rows, shift, strict=True):
+        row[-1] = row[-1] + of.value(to_arb(x))
     return of.positive_definite(rows)

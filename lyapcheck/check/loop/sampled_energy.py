@@ -31,7 +31,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
 
-from lyapcheck.check.loop.arithmetic import BALLS
+from lyapcheck.check.loop.field import BALLS
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Piece

@@ -125,15 +125,12 @@ class _Point:
             [_sum(self.slopes[k][i][j] * self.w[k] for k in range(arm.n)) for j in range(arm.n)]
             for i in range(arm.n)
         ]
-        self.eps, self.eps_rate = self._eps(to_arb(eps0), state)
+        # dε/dt = ε₀ (eᵀw/r)/(1 + r)² is put at 0 where e = 0 (see `rate`)
+        r, self.eps_rate = _dot(self.e, self.e).sqrt(), arb(0)
+        self.eps = to_arb(eps0) / (1 + r)
+        if any(state.e):
+            self.eps_rate = self.eps * _dot(self.e, self.w) / (r * (1 + r))
         self.y = [w - self.eps * h for w, h in zip(self.w, self.h, strict=True)]
-
-    def _eps(self, eps0: arb, state: State) -> tuple[arb, arb]:
-        """ε and dε/dt = ε₀ (eᵀw/r)/(1 + r)²; the latter is put at 0 where e = 0 (see `rate`)."""
-        if not any(state.e):
-            return eps0, arb(0)
-        r = _dot(self.e, self.e).sqrt()
-        return eps0 / (1 + r), eps0 * _dot(self.e, self.w) / (r * (1 + r) * (1 + r))
 
     def inertia_times_acceleration(self) -> list[arb]:
         coriolis = _times(self.mass_rate, self.w)

@@ -24,13 +24,14 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 
 from flint import arb, ctx, fmpq, fmpq_mat
 
-from lyapcheck.check.loop.arithmetic import BALLS
 from lyapcheck.check.loop.chain import UNIT, RigidLink
+from lyapcheck.check.loop.field import BALLS
 from lyapcheck.check.numbers.polynomials import rational
-from lyapcheck.check.numbers.vectors import ZERO, Algebra, Entry, Vector, transposed
+from lyapcheck.check.numbers.vectors import ZERO, Algebra, transposed
 
 TWIST, FALL = 6, 3
 BITS = 256
@@ -201,14 +202,6 @@ def slack(stages: Sequence[Stage], k: int, own: fmpq_mat, after: fmpq_mat | None
     return fmpq_mat([[total[i, j] for j in met] for i in met])
 
 
-def shows(stages: Sequence[Stage], forms: Sequence[fmpq_mat], prices: Sequence[Fraction]) -> bool:
-    """Whether the condition at each joint, of price κ_k, is a positive definite form: then it holds."""
-    rows = zip(forms, [*forms[1:], None], prices, strict=True)
-    slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after, kappa) in enumerate(rows)]
-    with ctx.workprec(BITS):
-        return all(BALLS.positive_definite([list(map(arb, row)) for row in form.tolist()]) for form in slacks)
-
-
 @dataclass(frozen=True)
 class Shown:
     """A diagonal bound diag(κ_1, …, κ_n), and for each of some chains the forms that show it; untrusted."""
@@ -217,14 +210,22 @@ class Shown:
     forms: tuple[Forms, ...]
 
     def holds(self, chains: Sequence[Sequence[Stage]], vectors: int) -> bool:
+        """Whether the condition at each joint of each chain is a positive definite form: then it holds."""
         n, count = len(self.prices), vectors * (3 * vectors + 1) // 2
-        fits = len(self.forms) == len(chains) and all(len(stages) == n for stages in chains)
-        return fits and all(
-            len(forms) == n
-            and all(len(row) == count for row in forms)
-            and shows(stages, [invariant_form(row, vectors) for row in forms], self.prices)
-            for stages, forms in zip(chains, self.forms, strict=True)
-        )
+        sizes = [{len(stages), len(rows)} == {n} for stages, rows in zip(chains, self.forms, strict=False)]
+        lengths = {len(row) for rows in self.forms for row in rows}
+        if len(chains) != len(self.forms) or not all(sizes) or lengths != {count}:
+            return False
+        return all(map(partial(self._shows, vectors), chains, self.forms))
+
+    def _shows(self, vectors: int, stages: Sequence[Stage], rows: Forms) -> bool:
+        forms = [invariant_form(row, vectors) for row in rows]
+        each = enumerate(zip(forms, [*forms[1:], None], self.prices, strict=True))
+        slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after, kappa) in each]
+        with ctx.workprec(BITS):
+            return all(
+                BALLS.positive_definite([list(map(arb, row)) for row in form.tolist()]) for form in slacks
+            )
 
 
 def stored_at_base(stages: Sequence[Stage], forms: Sequence[fmpq_mat], fall: Sequence[Fraction]) -> Fraction:
@@ -264,48 +265,3 @@ def _scaled(factor: Fraction | int, rows: Matrix) -> list[list[Fraction]]:
 
 def _matrix(rows: Matrix) -> fmpq_mat:
     return fmpq_mat([[rational(x) for x in row] for row in rows])
-
-
-# --- zᵀC(q, x)x of a chain of links at one posture, as a sum along the chain.
-#
-# For rates z and x of the joints let Z and V be the twists of a link, and A its acceleration for q̇ = x and
-# q̈ = 0. In the frame of joint k, e the unit twist about its axis,
-#
-#     Z' = Z + e z_k,   A' = A + (V × e) x_k,   V' = V + e x_k,   zᵀC(q, x)x = Σ_k Z'ᵀ(G A' + V' ×* G V').
-#
-# References: recursive Newton–Euler algorithm, ``featherstone2008rigid`` chapter 5.
-
-
-def coriolis_power(
-    of: Algebra, hinges: Sequence[Hinge], sines: Vector, cosines: Vector, z: Vector, x: Vector
-) -> Entry:
-    """zᵀC(q, x)x at one posture."""
-    Z: Vector = [ZERO] * TWIST
-    A, V, total = Z, Z, of.value(ZERO)
-    for hinge, sine, cosine, rate, speed in zip(hinges, sines, cosines, z, x, strict=True):
-        Z, A, V = (_turned(of, sine, cosine, of.apply(hinge.carry, part)) for part in (Z, A, V))
-        bend = (V[1], of.minus(ZERO, V[0]), ZERO, V[4], of.minus(ZERO, V[3]), ZERO)
-        A = of.add(A, of.scaled(speed, bend))
-        Z, V = _about_axis(of, Z, rate), _about_axis(of, V, speed)
-        total = total + _power(of, hinge, Z, A, V)
-    return total
-
-
-def _turned(of: Algebra, sine: Entry, cosine: Entry, twist: Vector) -> list[Entry]:
-    result = list(twist)
-    for k in (0, 3):
-        result[k] = of.dot((cosine, sine), twist[k : k + 2])
-        result[k + 1] = of.minus(of.times(cosine, twist[k + 1]), of.times(sine, twist[k]))
-    return result
-
-
-def _about_axis(of: Algebra, twist: Vector, rate: Entry) -> list[Entry]:
-    return [*twist[:2], of.plus(twist[2], rate), *twist[3:]]
-
-
-def _power(of: Algebra, hinge: Hinge, Z: Vector, A: Vector, V: Vector) -> Entry:
-    """Zᵀ(G A + V ×* G V)."""
-    momentum = of.apply(hinge.body, V)
-    torque = of.add(of.cross(V[:3], momentum[:3]), of.cross(V[3:], momentum[3:]))
-    force = of.add(of.apply(hinge.body, A), [*torque, *of.cross(V[:3], momentum[3:])])
-    return of.value(of.dot(Z, force))

@@ -14,7 +14,7 @@ from functools import lru_cache
 from math import ceil, log
 from typing import Any
 
-from flint import arb, ctx, fmpz_poly
+from flint import arb, ctx
 
 from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 
@@ -60,23 +60,6 @@ def peaks_of_dh(m: int) -> tuple[arb, arb]:
         return (2 * m - 1) * (m - 1) + 2 * m * m * u * (1 - p) - (2 * m - 1) * (m + 2) * p + p * p
 
     return bracketed_root(curvature, arb(0), arb(1)), bracketed_root(curvature, arb(1), arb(4 * m * m))
-
-
-def peaks_of_d2h(m: int) -> tuple[arb, ...]:
-    """The u = sinh²x > 0 at which h_m'' may have an extreme, and perhaps others.
-
-    With P of `peaks_of_dh` and p = u^m the third derivative has for x > 0 the sign of the polynomial
-
-        (1 + p)((1 + 2u) P + 2(1 + u)((m-2) P + u P')) - 6m (1 + u) p P,
-
-    all of whose roots flint isolates; those that are not shown to be off the positive axis are handed back.
-    """
-    u, k = fmpz_poly([0, 1]), 2 * m - 1
-    p, one = u**m, 1 + u
-    P = k * (m - 1) + 2 * m * m * u * (1 - p) - k * (m + 2) * p + p * p
-    rise = (1 + p) * ((1 + 2 * u) * P + 2 * one * ((m - 2) * P + u * P.derivative())) - 6 * m * one * p * P
-    roots = (root for root, _ in rise.complex_roots())
-    return tuple(sorted((x.real for x in roots if x.imag.contains(0) and not x.real <= 0), key=float))
 
 
 def peak_of_secant(m: int) -> arb:
@@ -220,16 +203,6 @@ def dh(m: int, x: arb) -> arb:
     return even_range(lambda a: _dh(m, a), _extremes_of_dh(m, ctx.prec), x)
 
 
-def d2h(m: int, x: arb) -> arb:
-    """h_m''(x) = 2 s c s^(2m-4) P(s²) / (1 + s^(2m))³, P that of `critical.peaks_of_dh`."""
-    return odd_range(lambda a: _d2h(m, a), _extremes_of_d2h(m, ctx.prec), x)
-
-
-def bends(m: int) -> tuple[arb, ...]:
-    """The x > 0 at which h_m'' may stop being monotone; between −1 and 1 times the first it is."""
-    return tuple(where for where, _ in _extremes_of_d2h(m, ctx.prec))
-
-
 def potential(m: int, x: arb) -> arb:
     """U_m(x) = ln(1 + sinh^(2m)x) / (2m)."""
     return even_range(lambda a: _potential(m, a), (), x)
@@ -290,24 +263,6 @@ def _dh(m: int, a: arb) -> arb:
     return dh_value(m, a.sinh() ** 2)
 
 
-def _d2h(m: int, a: arb) -> arb:
-    if m == 1:
-        return -2 * _h(1, a) * _dh(1, a)
-    k = 2 * m - 1
-    if a > 1:
-        coth, r = _far(a)
-        v = r * r
-        q = power(v, m - 1)
-        p = q * v
-        curvature = 1 - 2 * m * m * q * (1 - p) - p * (k * (m + 2) - k * (m - 1) * p)
-        return 2 * coth * v * curvature / (1 + p) ** 3
-    s, c = a.sinh_cosh()
-    y = s * s
-    p = power(y, m)
-    curvature = k * (m - 1) + 2 * m * m * y * (1 - p) - p * (k * (m + 2) - p)
-    return 2 * s * c * power(y, m - 2) * curvature / (1 + p) ** 3
-
-
 def _potential(m: int, a: arb) -> arb:
     if a == 0:
         return arb(0)
@@ -338,8 +293,3 @@ def _extremes_of_dh(m: int, bits: int) -> Extremes:
     if m == 1:
         return ()
     return tuple((position(u), dh_value(m, u)) for u in peaks_of_dh(m))
-
-
-@lru_cache(maxsize=256)
-def _extremes_of_d2h(m: int, bits: int) -> Extremes:
-    return tuple((x, _d2h(m, x)) for x in map(position, peaks_of_d2h(m)))

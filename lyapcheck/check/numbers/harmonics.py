@@ -61,6 +61,20 @@ def combination(parts: Iterable[tuple[Fraction, Mapping[Harmonic, Gaussian]]]) -
     return {k: ab for k, ab in total.items() if any(ab)}
 
 
+def mixed(parts: Iterable[tuple[int | Fraction, Uncertain]]) -> Uncertain:
+    """Σ factor · polynomial."""
+    rows = [(Fraction(factor), entry) for factor, entry in parts]
+    powers = {power for _, entry in rows for power in entry}
+    sums = {power: combination((f, entry.get(power, {})) for f, entry in rows) for power in powers}
+    return {power: terms for power, terms in sums.items() if terms}
+
+
+def slope(entry: Uncertain, i: int) -> Uncertain:
+    """The derivative with respect to q_i, counted from 0."""
+    result = {powers: derivative(part, i) for powers, part in entry.items()}
+    return {powers: part for powers, part in result.items() if part}
+
+
 def mirrored(terms: Mapping[Harmonic, Gaussian], signs: Sequence[int]) -> Harmonics:
     """The polynomial with every q_i replaced by σ_i q_i."""
     result: Harmonics = {}

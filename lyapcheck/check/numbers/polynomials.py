@@ -46,27 +46,18 @@ def sign_at(poly: fmpq_poly, point: Fraction) -> int:
 
 
 def count_roots(poly: fmpq_poly, low: End, high: End) -> int:
-    """The number of distinct roots in (low, high] of a polynomial other than 0, by Sturm's theorem."""
+    """The number of distinct roots strictly between low and high of a polynomial other than 0, by Sturm."""
     if not poly:
         raise ValueError("the zero polynomial vanishes everywhere")
-    chain = sturm_chain(poly)
-    return _changes(chain, low, -1) - _changes(chain, high, 1)
-
-
-def sturm_chain(poly: fmpq_poly) -> list[fmpq_poly]:
-    """Sturm's sequence of the square-free part, every member scaled by a positive number only."""
-    free = squarefree(poly)
-    chain = [free, free.derivative()]
+    if poly.degree() == 0:
+        return 0
+    free = _scaled(poly // poly.gcd(poly.derivative()))  # with the same distinct roots, each once
+    chain = [free, free.derivative()]  # every member scaled by a positive number only
     while chain[-1].degree() > 0:
-        remainder = chain[-2] % chain[-1]
-        chain.append(-_scaled(remainder))
-    return [member for member in chain if member]
-
-
-def squarefree(poly: fmpq_poly) -> fmpq_poly:
-    """The polynomial with the same distinct roots, each once."""
-    common = poly.gcd(poly.derivative()) if poly.degree() > 0 else fmpq_poly([1])
-    return _scaled(poly // common)
+        chain.append(-_scaled(chain[-2] % chain[-1]))
+    chain = [member for member in chain if member]
+    at_high = 1 if high is not None and sign_at(poly, high) == 0 else 0
+    return _changes(chain, low, -1) - _changes(chain, high, 1) - at_high
 
 
 def odd_part(poly: fmpq_poly) -> fmpq_poly:
@@ -85,7 +76,7 @@ def nonnegative_on(poly: fmpq_poly, low: End, high: End) -> bool:
     if low is not None and low == high:
         return sign_at(poly, low) >= 0
     point = inner_point(poly, low, high)
-    return sign_at(poly, point) >= 0 and _inside(odd_part(poly), low, high) == 0
+    return sign_at(poly, point) >= 0 and count_roots(odd_part(poly), low, high) == 0
 
 
 def positive_on(
@@ -101,7 +92,7 @@ def positive_on(
         return True
     if _positive_by_coefficients(poly, low, high):
         return True
-    return sign_at(poly, inner_point(poly, low, high)) > 0 and _inside(poly, low, high) == 0
+    return sign_at(poly, inner_point(poly, low, high)) > 0 and count_roots(poly, low, high) == 0
 
 
 def inner_point(poly: fmpq_poly, low: End, high: End) -> Fraction:
@@ -119,13 +110,6 @@ def _point(low: End, high: End, step: int) -> Fraction:
     if low is not None:
         return low + step
     return high - step if high is not None else Fraction(step)
-
-
-def _inside(poly: fmpq_poly, low: End, high: End) -> int:
-    if poly.degree() <= 0:
-        return 0
-    at_high = 1 if high is not None and sign_at(poly, high) == 0 else 0
-    return count_roots(poly, low, high) - at_high
 
 
 def _positive_by_coefficients(poly: fmpq_poly, low: End, high: End) -> bool:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from flint import arb
+
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.functions.arctan import half_pi
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.family.base import (
     Arithmetic,
@@ -59,7 +60,7 @@ class Arctan(Family):
         """γ = π/2 in the limit, ρ = L = 1 at 0."""
         one, zero = Enclosure.exact(1), Enclosure.exact(0)
         with precision(4 * digits + 16):
-            gamma = half_pi()
+            gamma = Enclosure.from_arb(arb.pi() / 2)
         return FamilyConstants(gamma, one, one, None, zero, zero)
 
 

@@ -1,1 +1,1 @@
-"""The bounded functions that the checker knows: a file each, whose ``create(m)`` gives its ``Member``."""
+"""Bounded functions beside those of ``members``: a file each, whose ``create(m)`` gives its ``Member``."""
