@@ -209,14 +209,14 @@ def worst_corner(model: RobotModel, at: ControlledArm, witness: RisingState) -> 
     """The arm with each uncertain number at the end that is worse for a witness, one after the other."""
     state = witness.state
     states = States(*(np.array([[float(x) for x in part]]) for part in (state.q, state.e, state.w)))
-    corner: Corner = {name: number.value for name, number in at.model.parameters.items()}
     chosen, merit = at.model, _merit(at, states)
-    for moved in _moves(model, corner):
-        trial = at_corner(model, chosen, moved)
-        result = _merit(replace(at, model=trial), states)
-        if result > merit:
-            chosen, merit = trial, result
-            corner.update(moved)
+    numbers = model.parameters | {f"viscous {i}": number for i, number in enumerate(model.viscous)}
+    for name, number in numbers.items():
+        for end in number.bounds if number.ranged else ():
+            trial = at_corner(model, chosen, {name: end})
+            result = _merit(replace(at, model=trial), states)
+            if result > merit:
+                chosen, merit = trial, result
     return chosen
 
 
@@ -231,18 +231,6 @@ def at_corner(model: RobotModel, near: RobotModel, moved: Corner) -> RobotModel:
         for i, number in enumerate(near.viscous)
     )
     return replace(near, parameters=parameters, viscous=viscous)
-
-
-def _moves(model: RobotModel, corner: Corner) -> Iterator[Corner]:
-    """Each end of each range, on its own."""
-    for name, number in model.parameters.items():
-        for end in number.bounds:
-            if number.ranged:
-                yield {name: end}
-    for i, number in enumerate(model.viscous):
-        for end in number.bounds:
-            if number.ranged:
-                yield {f"viscous {i}": end}
 
 
 def _merit(controlled: ControlledArm, states: States) -> float:
