@@ -17,7 +17,7 @@ from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.flow import Flow
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import RULES
-from lyapcheck.claims.handover import CaseData, ClaimData, ScriptRequest
+from lyapcheck.claims.handover import ScriptRequest
 from lyapcheck.claims.script import SHIPPED, ask, check_ids, find_script
 from lyapcheck.claims.search_result import procedure_of
 from lyapcheck.claims.statements import Missing
@@ -26,7 +26,6 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import PROSE
 
-FORMULA = re.compile(r"\(\w+\)")
 ACCENTS = {"'": "\N{COMBINING ACUTE ACCENT}", "~": "\N{COMBINING TILDE}"}
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
@@ -67,7 +66,6 @@ class Explanation(Answer):
         reference: the text, or its key in the bibliography.
         uses: the claims it rests on, and what they say.
         used_by: the claims that rest on it, and what they say.
-        near: the other claims about the same formulas of the text, and what they say.
         case: the m, n and arm at which the parts are written out; empty where they depend on none of them.
         parts: what is decided.
         lacking: why nothing can be decided for the paper's arm, empty where it can.
@@ -87,7 +85,6 @@ class Explanation(Answer):
     reference: str
     uses: tuple[tuple[str, str], ...]
     used_by: tuple[tuple[str, str], ...]
-    near: tuple[tuple[str, str], ...]
     case: str
     parts: tuple[Part, ...]
     lacking: str
@@ -99,10 +96,8 @@ class Explanation(Answer):
     @property
     def found(self) -> tuple[str, ...]:
         """The verdict for each m, with its counterexample or reason."""
-        return tuple(
-            "; ".join((f"{_member(row)}{row.decision.word} [{row.grade}]", *row.support))
-            for row in self.decided
-        )
+        rows = ((f"m = {row.m}: " if row.m is not None else "", row) for row in self.decided)
+        return tuple("; ".join((f"{m}{row.decision.word} [{row.grade}]", *row.support)) for m, row in rows)
 
     def document(self) -> Document:
         """The verdict, what is decided and what it uses; in detail how, and the other claims about it."""
@@ -124,7 +119,6 @@ class Explanation(Answer):
         ]
         remarks = (cut(f"decided{case}: {'; '.join(stated)}", 3 * PROSE), *links)
         how = tuple(block for text in self.procedures for block in _blocks(text))
-        about = f"Also about {', '.join(FORMULA.findall(self.place))}"
         sections = (
             ("Verdicts", (Bullets(self.found),) if self.found else ()),
             (f"What is decided{case}", tuple(map(Paragraph, stated))),
@@ -132,7 +126,6 @@ class Explanation(Answer):
             ("Assumptions", (Bullets(self.granted),) if self.granted else ()),
             ("What it uses", (_claims(self.uses),)),
             ("What uses it", (_claims(self.used_by),)),
-            (about, (_claims(self.near),) if self.near else ()),
         )
         return Document(
             title,
@@ -163,7 +156,7 @@ class Explanation(Answer):
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
         plain = ("id", "says", "script", "title", "place", "reference", "case", "lacking")
-        linked = {"uses": self.uses, "used_by": self.used_by, "near": self.near}
+        linked = {"uses": self.uses, "used_by": self.used_by}
         return {
             **{name: getattr(self, name) for name in plain},
             **{key: [{"id": name, "says": says} for name, says in claims] for key, claims in linked.items()},
@@ -236,7 +229,7 @@ def list_claims(script: str | None = None) -> ClaimList:
     for name in SHIPPED if script is None else (script,):
         path = find_script(name)
         handover = ask(ScriptRequest(str(path), path.name))
-        proofs.append((path.name, handover.title, tuple(_named(claim) for claim in handover.claims)))
+        proofs.append((path.name, handover.title, tuple((claim.id, claim.says) for claim in handover.claims)))
     return ClaimList(tuple(proofs), script or "")
 
 
@@ -266,10 +259,10 @@ def explain(
     handover = ask(ScriptRequest(str(script_path), script_path.name, (case,), only=(meant,)))
     claims = {claim.id: claim for claim in handover.claims}
     claim = claims[meant]
-    answer = claim.answers[0]
+    answer, (m, n, robot, _) = claim.answers[0], case
+    values = {"m": f"m = {m}", "n": f"n = {n}", "robot": robot.name}
     stated = handover.stated(answer)
     statement = None if isinstance(stated, Missing) else stated
-    formulas = set(FORMULA.findall(claim.place))
     return Explanation(
         id=claim.id,
         says=claim.says,
@@ -277,14 +270,9 @@ def explain(
         title=handover.title,
         place=claim.place,
         reference=handover.reference,
-        uses=tuple(_named(claims[used]) for used in claim.uses),
-        used_by=tuple(_named(other) for other in handover.claims if claim.id in other.uses),
-        near=tuple(
-            _named(other)
-            for other in handover.claims
-            if other != claim and formulas & {*FORMULA.findall(other.place)}
-        ),
-        case=_shown_case(case, answer.read),
+        uses=tuple((used, claims[used].says) for used in claim.uses),
+        used_by=tuple((other.id, other.says) for other in handover.claims if claim.id in other.uses),
+        case=", ".join(value for name, value in values.items() if name in answer.read),
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",
         procedures=() if statement is None else tuple(dict.fromkeys(_procedures(statement))),
@@ -345,20 +333,6 @@ def _blocks(text: str) -> Iterator[Block]:
             yield Bullets(tuple(map(one_line, block[2:].split("\n- "))))
         else:
             yield Paragraph(one_line(block))
-
-
-def _member(row: ClaimResult) -> str:
-    return "" if row.m is None else f"m = {row.m}: "
-
-
-def _named(claim: ClaimData) -> tuple[str, str]:
-    return claim.id, claim.says
-
-
-def _shown_case(case: CaseData, read: Collection[str]) -> str:
-    m, n, robot, _ = case
-    values = {"m": f"m = {m}", "n": f"n = {n}", "robot": robot.name}
-    return ", ".join(value for name, value in values.items() if name in read)
 
 
 def _parts(name: str, statement: Statement) -> list[Part]:

@@ -25,7 +25,7 @@ from lyapcheck.control.sampling import LoopRecord, judged_sampled, time_text
 from lyapcheck.errors import argument_error
 from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
 from lyapcheck.export.steps import Unbounded
-from lyapcheck.files.decimals import decimal_text, significant_down
+from lyapcheck.files.decimals import decimal_text, decimal_texts, significant_down
 from lyapcheck.lyapunov.numeric import arm_digest
 from lyapcheck.output import fields
 from lyapcheck.output.answer import Answer
@@ -78,9 +78,9 @@ class Exported:
             "robot": controller.model.name,
             "family": gains.family,
             "m": gains.m,
-            "kp": [*map(decimal_text, gains.kp)],
-            "kv": [*map(decimal_text, gains.kv)],
-            "limits": [None if limit is None else decimal_text(limit) for limit in controller.limits],
+            "kp": decimal_texts(gains.kp),
+            "kv": decimal_texts(gains.kv),
+            "limits": decimal_texts(controller.limits),
             "period": None if loop.period is None else decimal_text(loop.period),
             "delay": loop.delay,
             "filter": [*map(decimal_text, loop.filter)],
@@ -248,7 +248,7 @@ FIELDS = (
         "controller.limits",
         "limit [N·m]",
         _limit,
-        lambda all_: [None if one is None else decimal_text(one) for one in all_],
+        decimal_texts,
         each=True,
     ),
     *(

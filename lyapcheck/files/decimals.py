@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -93,6 +94,11 @@ def of_physical_size(value: Fraction | int) -> bool:
 def places_of(value: Fraction | int) -> int:
     """Digits after the decimal point that the writer of a value used; integers have none."""
     return value.places if isinstance(value, Written) else 0
+
+
+def decimal_texts(values: Iterable[Fraction | None]) -> list[str | None]:
+    """Exact numbers for programs; ``None`` stays ``None``."""
+    return [None if value is None else decimal_text(value) for value in values]
 
 
 def round_down(value: Fraction, places: int) -> Fraction:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest
 from lyapcheck.answers.gate.words import advices
-from lyapcheck.answers.running import SAMPLED, SampledCheck, runs_of
+from lyapcheck.answers.running import runs_of
+from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions
 from lyapcheck.control.sampling import time_text

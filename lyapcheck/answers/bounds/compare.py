@@ -12,7 +12,7 @@ import numpy as np
 
 from lyapcheck import asked
 from lyapcheck._types import Array, Progress, silent
-from lyapcheck.answers.running import HoldsCheck, holds_checks
+from lyapcheck.answers.running.holds import HoldsCheck, holds_checks
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, resting
 from lyapcheck.errors import argument_error

@@ -16,8 +16,10 @@ from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel.coq import GRADE, accepted_before
 from lyapcheck.kernel.coq import GRADE as KERNEL
+from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
+from lyapcheck.output.fields import Field
 from lyapcheck.output.text import PROSE
 from lyapcheck.promise import all_say, told
 from lyapcheck.verdicts import STANDS, Exit, Grade, Verdict, exit_code
@@ -130,25 +132,7 @@ class ClaimResult:
 
     def data(self, timings: bool = False) -> dict[str, Any]:
         """The row as plain data; ``seconds`` only when asked for."""
-        row: dict[str, Any] = {
-            "id": self.id,
-            "m": self.m,
-            "n": self.n,
-            "statement": self.statement,
-            "comment": self.comment,
-            "place": self.place,
-            "section": self.section,
-            "stands": self.stands,
-            "kind": self.kind,
-            "verdict": self.decision.word,
-            "grade": self.grade,
-            "uses": list(self.uses),
-            "broken": list(self.broken),
-            "witness": self.decision.witness,
-            "reason": self.decision.reason,
-            "method": self.method,
-            "evidence": told(self.decision.promise, self.decision.evidence),
-        }
+        row = fields.data(FIELDS, self)
         return {**row, "seconds": round(self.seconds, 3)} if timings else row
 
     def record(self, timings: bool = False) -> dict[str, Any]:
@@ -192,6 +176,19 @@ def _span(value: Any) -> str:
         return str(value)
     low, high = value
     return str(low) if low == high else f"[{low}, {high}]"
+
+
+FIELDS = (
+    *(Field(key, key) for key in ("id", "m", "n", "statement", "comment")),
+    *(Field(key, key) for key in ("place", "section", "stands", "kind")),
+    Field("verdict", "decision.word"),
+    Field("grade", "grade"),
+    *(Field(key, key, to=list) for key in ("uses", "broken")),
+    *(Field(key, f"decision.{key}") for key in ("witness", "reason")),
+    Field("method", "method"),
+    Field("evidence", lambda row: told(row.decision.promise, row.decision.evidence)),
+)
+"""What is said of a claim."""
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers import assumed_line
 from lyapcheck.check.kinds.decreasing import Decreasing, StateWitness
 from lyapcheck.check.kinds.link_bounds import ChainDecreasing
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, decimal_texts
 from lyapcheck.output.answer import Annotation, Answer, Level
-from lyapcheck.output.digits import at_least, at_most, decimals
+from lyapcheck.output.digits import at_least, at_most, ends
 from lyapcheck.output.document import Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import Field, data, table
 from lyapcheck.promise import all_say
@@ -205,8 +205,8 @@ def _six_places(ratio: Fraction) -> str:
 
 
 def _witness(witness: RisingState) -> dict[str, Any]:
-    state = {name: [exact(x) for x in getattr(witness.state, name)] for name in ("q", "e", "w")}
-    rate = dict(zip(("lower", "upper"), decimals(witness.rate, RATE_DIGITS), strict=True))
+    state = {name: decimal_texts(getattr(witness.state, name)) for name in ("q", "e", "w")}
+    rate = ends(witness.rate, RATE_DIGITS)
     return {"eps0": exact(witness.eps0), **state, "rate": rate, "kind": witness.kind}
 
 
@@ -214,8 +214,8 @@ def _weights(weighted: Weighted) -> dict[str, Any]:
     loop = weighted.proof.loop
     return {
         "eps0": exact(loop.eps0),
-        "lambda": [exact(scale) for scale in loop.Lambda],
-        "eps0_lambda": [exact(value) for value in weighted.products],
+        "lambda": decimal_texts(loop.Lambda),
+        "eps0_lambda": decimal_texts(weighted.products),
         "boxes": weighted.proof.boxes,
         "states": weighted.states,
     }

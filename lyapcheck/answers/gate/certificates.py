@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.gate.friction import held, resting
 from lyapcheck.answers.gate.promises import DIGITS, is_stated, numbers_of, shown_gravity, stated
 from lyapcheck.answers.gate.words import RULES, Row
-from lyapcheck.answers.running import SampledCheck
+from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.judgement import LARGEST

@@ -11,7 +11,9 @@ from lyapcheck.answers.gate import accepting, proved_otherwise, remarks, without
 from lyapcheck.answers.gate.friction import farthest, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
-from lyapcheck.answers.running import INFINITE, SampledCheck, farthest_unknown, open_as_run
+from lyapcheck.answers.running import INFINITE, open_as_run
+from lyapcheck.answers.running.holds import farthest_unknown
+from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command

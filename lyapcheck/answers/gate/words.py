@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult
 from lyapcheck.answers.gate.stability import GLOBAL, LASALLE, SCALAR
-from lyapcheck.answers.running import HOLDS, SAMPLED, SampledCheck
-from lyapcheck.answers.running.holds import HoldsCheck, falls
-from lyapcheck.answers.running.sampled import unstable_text
+from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, falls
+from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, unstable_text
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.check.refusal import Refused
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check

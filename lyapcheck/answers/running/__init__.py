@@ -7,14 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.running.holds import (
-    HOLDS,
-    HoldsCheck,
-    falls,
-    farthest_unknown,
-    holds_checks,
-    holds_sentences,
-)
+from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, falls, holds_checks, holds_sentences
 from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, sampled_check
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.control.gains import GainSet
@@ -26,20 +19,6 @@ if TYPE_CHECKING:
     from lyapcheck.check.certificate import Certificate
 
 INFINITE = "no [loop] gives a rate: judged for a controller of infinite rate, as in (11)"
-
-__all__ = [
-    "HOLDS",
-    "INFINITE",
-    "SAMPLED",
-    "HoldsCheck",
-    "SampledCheck",
-    "farthest_unknown",
-    "holds_checks",
-    "open_as_run",
-    "running_checks",
-    "running_sentences",
-    "runs_of",
-]
 
 
 def running_checks(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.running import running_sentences
@@ -12,10 +13,10 @@ from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import DECIDING, Bounds, GainSet
 from lyapcheck.control.limits import Limits
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, decimal_texts
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_least, decimals
+from lyapcheck.output.digits import at_least, ends
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
@@ -89,27 +90,17 @@ class TunedSet:
         return GainSet(self.name, self.m, kp, kv, condition=DECIDING)
 
 
-def ends(value: Enclosure) -> dict[str, str]:
-    """A limit for programs."""
-    return dict(zip(("lower", "upper"), decimals(value, DIGITS), strict=True))
-
-
-def texts(values: Iterable[Fraction | None]) -> list[str | None]:
-    """Exact numbers for programs."""
-    return [None if value is None else decimal_text(value) for value in values]
-
-
 def _limit(value: Enclosure) -> str:
     return at_least(value, LIMIT_DIGITS)
 
 
 ASKED = (
     Field("digits", "digits"),
-    *(Field(key, key, to=texts) for key in ("peak_share", "kv_share", "damping")),
+    *(Field(key, key, to=decimal_texts) for key in ("peak_share", "kv_share", "damping")),
 )
 TUNED_TO = (
-    Field("torque", "torque", to=texts),
-    Field("gravity", "gravity", to=texts),
+    Field("torque", "torque", to=decimal_texts),
+    Field("gravity", "gravity", to=decimal_texts),
     Field("viscous_min", "viscous_min", to=decimal_text),
 )
 """N·m and N·m·s/rad."""
@@ -125,8 +116,8 @@ def of_joint(digits: int, damped: bool) -> tuple[Field, ...]:
         Field("joint", "name", "joint", align="l"),
         Field("kp", "kp", "k_p", gain, gain),
         Field("kv", "kv", "k_v", gain, gain),
-        Field("sum_limit", "sum_limit", "(10p) limit", _limit, ends),
-        Field("kv_limit", "kv_limit", "(19) limit", _limit, ends),
+        Field("sum_limit", "sum_limit", "(10p) limit", _limit, partial(ends, digits=DIGITS)),
+        Field("kv_limit", "kv_limit", "(19) limit", _limit, partial(ends, digits=DIGITS)),
         Field("kp_bound", "kp_bound", "k_p ends at", BOUNDS.__getitem__, align="l"),
         Field("kv_bound", "kv_bound", "k_v ends at", BOUNDS.__getitem__, align="l"),
         Field("damping", "damping", "ζ" if damped else "", at_least, decimal_text),

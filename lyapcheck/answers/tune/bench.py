@@ -16,7 +16,7 @@ from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
 from lyapcheck.control.conditions import REJECTED
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.sampling import record_of, time_text
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, decimal_texts
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
@@ -307,8 +307,8 @@ class BenchTuning(Answer):
 
         return (
             Field("joint", lambda one: self.joints, "joint", align="l", each=True),
-            Field("kp", "gains.kp", "k_p", gain, _exact, each=True),
-            Field("kv", "gains.kv", "k_v", gain, _exact, each=True),
+            Field("kp", "gains.kp", "k_p", gain, decimal_texts, each=True),
+            Field("kv", "gains.kv", "k_v", gain, decimal_texts, each=True),
             Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
             Field("settling", "trial.settled", "settles [s]", _seconds, _sixes, each=True),
             Field("torque_share", "trial.share", "torque share", _up, _sixes, each=True),
@@ -376,10 +376,6 @@ def _six(value: float) -> float | None:
 
 def _sixes(values: Iterable[float]) -> list[float | None]:
     return [_six(value) for value in values]
-
-
-def _exact(values: Iterable[Fraction]) -> list[str]:
-    return [decimal_text(value) for value in values]
 
 
 def _most(values: Any, none_is_worst: bool = False) -> float:
