@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from lyapcheck.answers.check import ClaimResult, refuted_by_source
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from lyapcheck.promise import Promise
     from lyapcheck.robots import RobotModel
 
+Made = TypeVar("Made")
 WEIGHTS = {
     "A": "breaks the proof",
     "B": "wrong, but the proposition stands without it",
@@ -104,19 +105,18 @@ class Notes:
 def published_notes() -> Notes:
     """Those on the paper."""
     result = tomllib.loads((shipped("proofs") / "published.toml").read_text(encoding="utf-8"))
-    chain, route = (
-        tuple(Box(**one | {"claims": tuple(one["claims"])}) for one in result[name])
-        for name in ("chain", "route")
-    )
-    findings = (
-        Note(**one | {name: tuple(one.get(name, ())) for name in ("claims", "mended")})
-        for one in result["findings"]
-    )
+
+    def made(kind: type[Made], name: str) -> tuple[Made, ...]:
+        lists = (
+            {key: tuple(x) if isinstance(x, list) else x for key, x in one.items()} for one in result[name]
+        )
+        return tuple(kind(**one) for one in lists)
+
     return Notes(
         paper=Paper(**result["paper"]),
-        chain=chain,
-        route=route,
-        findings=tuple(findings),
+        chain=made(Box, "chain"),
+        route=made(Box, "route"),
+        findings=made(Note, "findings"),
         equations=result["equations"],
         titles=result["titles"],
         known=(result["known"]["short"], *result["known"]["text"]),
@@ -453,11 +453,6 @@ class EpsilonRow:
     certificates: Mapping[str, str] = field(default_factory=dict)
     weighted: tuple[str, ...] = ()
     promise: Promise | None = None
-
-    def eps0(self, kind: str) -> str | None:
-        """One of ``KINDS``."""
-        value: str | None = getattr(self, kind)
-        return value
 
 
 RunRow = SimpleNamespace

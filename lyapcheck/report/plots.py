@@ -252,12 +252,13 @@ MARKERS = ("o", "s", "D", "X")
 
 def draw_epsilon(epsilon: Sequence[EpsilonRow]) -> Files:
     """The four ε₀ of each gain set that has any, on one logarithmic axis; one that is missing has no mark."""
-    rows = [row for row in epsilon if any(row.eps0(kind) is not None for kind in KINDS)]
+    rows = [row for row in epsilon if any(getattr(row, kind) is not None for kind in KINDS)]
     if not rows:
         return {}
     names = [row.name for row in rows]
     values = {
-        kind: [None if (text := row.eps0(kind)) is None else float(text) for row in rows] for kind in KINDS
+        kind: [None if (text := getattr(row, kind)) is None else float(text) for row in rows]
+        for kind in KINDS
     }
     with styled():
         figure, axes = panels(1, 1, height=0.8 + 0.45 * len(names))
