@@ -303,7 +303,7 @@ class Report:
         by_size: the claims of the paper whose verdict changes with n.
         runs: simulated runs, one a gain set, the PD baseline last.
         findings: the heaviest first.
-        figures: SVG text, PNG and CSV by file name.
+        figures: SVG by file name.
         certificates: by their paths, those that the checker has accepted.
         versions: of the packages that the computations loaded.
         seed: the seed of every random search.
@@ -324,7 +324,7 @@ class Report:
     by_size: tuple[BySize, ...]
     runs: tuple[RunRow, ...]
     findings: tuple[Finding, ...]
-    figures: Mapping[str, str | bytes] = field(repr=False)
+    figures: Mapping[str, str] = field(repr=False)
     certificates: Mapping[str, str] = field(default_factory=dict, repr=False)
     versions: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0

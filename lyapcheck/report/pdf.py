@@ -63,10 +63,9 @@ def render(report: Report, appendix: bool = False) -> bytes:
         source = Path(folder, "report.typ")
         source.write_text(markup(document, running), encoding="utf-8")
         for name, drawing in report.figures.items():
-            if isinstance(drawing, str) and name.endswith(".svg"):
-                path = Path(folder, "figures", name)
-                path.parent.mkdir(exist_ok=True)
-                path.write_text(drawing, encoding="utf-8")
+            path = Path(folder, "figures", name)
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(drawing, encoding="utf-8")
         pages = typst.compile(str(source), root=folder, ignore_system_fonts=True)
     assert isinstance(pages, bytes)
     return pages

@@ -5,8 +5,7 @@ Colours are those that colour-blind readers can tell apart; equal data give equa
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from io import BytesIO, StringIO
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +13,7 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.files.fields import file_stem
-from lyapcheck.output.escapes import csv_text, plot_text
+from lyapcheck.output.escapes import plot_text
 from lyapcheck.report.model import KINDS
 
 if TYPE_CHECKING:
@@ -27,6 +26,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 DASHES = ("-", "--", "-.", ":")
 """A line style for each curve as well, for grey prints."""
 DOTS_PER_INCH = 200
+Files = dict[str, str]
 SETTINGS = {
     "svg.hashsalt": "lyapcheck",
     "svg.fonttype": "none",
@@ -91,43 +91,6 @@ def styled() -> Any:
     import matplotlib as mpl
 
     return mpl.rc_context(SETTINGS)
-
-
-# --- One figure in every form a report hands out: SVG, PNG, and the data as CSV.
-
-
-Files = dict[str, str | bytes]
-DIGITS = 7
-"""Significant digits of the data: more than anybody can read off."""
-
-
-def files_of(stem: str, figure: Any, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> Files:
-    """``stem.svg``, ``stem.png`` and ``stem.csv``; equal data give equal bytes.
-
-    Args:
-        stem: of the names of the files.
-        figure: of matplotlib, not yet drawn.
-        header: the columns of the data, with units.
-        rows: numbers, words, and ``None`` where there is nothing.
-    """
-    with styled():  # everything in its place: without this each form would compute the layout twice
-        figure.draw_without_rendering()
-        figure.set_layout_engine(None)
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(map(csv_text, header))
-    writer.writerows([_cell(value) for value in row] for row in rows)
-    return {f"{stem}.svg": svg(figure), f"{stem}.png": png(figure), f"{stem}.csv": text.getvalue()}
-
-
-def _cell(value: Any) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, str):
-        return csv_text(value)
-    if isinstance(value, (bool, int)):
-        return str(value)
-    return f"{float(value) + 0.0:.{DIGITS}g}"
 
 
 # --- One run over time.
@@ -275,8 +238,7 @@ def draw_epsilon(epsilon: Sequence[EpsilonRow]) -> Files:
         axis.margins(y=0.3)
         axis.set(xlabel="ε₀ [1/s]", title="ε₀: what is published, proved and refuted")
         figure.legend(ncols=4, loc="outside lower center")
-    data = [[name, *some] for name, *some in zip(names, *values.values(), strict=True)]
-    return files_of("epsilon", figure, ["gains", *(f"{kind} [1/s]" for kind in values)], data)
+    return {"epsilon.svg": svg(figure)}
 
 
 def draw_family(ms: Sequence[int]) -> Files:
@@ -287,37 +249,27 @@ def draw_family(ms: Sequence[int]) -> Files:
     from lyapcheck.family import hyperbolic
 
     x = np.linspace(-4.0, 4.0, 801)
-    header, columns = ["x [rad]"], [x]
     with styled():
         figure, axes = panels(1, 2)
         for index, m in enumerate(ms):
             look = _look(index)
-            family, label = hyperbolic(m), f"m = {m}"
-            h, dh = family.h(x), family.dh(x)
-            axes[0, 0].plot(x, h, label=label, **look)
-            axes[0, 1].plot(x, dh, label=label, **look)
-            header, columns = [*header, f"h ({label})", f"h' ({label})"], [*columns, h, dh]
+            family = hyperbolic(m)
+            axes[0, 0].plot(x, family.h(x), label=f"m = {m}", **look)
+            axes[0, 1].plot(x, family.dh(x), label=f"m = {m}", **look)
             if (gamma := family.constants().gamma) is not None:
                 axes[0, 0].axhline(float(gamma.mid), color=look["color"], linewidth=0.6)
         axes[0, 0].set(xlabel="x [rad]", ylabel="h(x)", title="The family; thin lines: γ")
         axes[0, 1].set(xlabel="x [rad]", ylabel="h′(x)", title="Its derivative")
         axes[0, 0].legend()
-    return files_of("family", figure, header, np.column_stack(columns))
+    return {"family.svg": svg(figure)}
 
 
 def draw_set(data: GainData) -> Files:
-    """Errors, torques, V and dV/dt of the simulated run of a gain set."""
+    """Errors and torques of the simulated run of a gain set."""
     run, row = data.run, data.row
     label = row.name if row.m is None else f"{row.name} (m = {row.m})"
-    e, tau = ([f"{joint} [{unit}]" for joint in row.joints] for unit in ("deg", "N·m"))
-    numbers = {
-        "errors": (e, np.degrees(run.e)),
-        "torques": (tau, run.tau),
-        "lyapunov": (["V [J]", "dV/dt [W]"], np.column_stack([run.V, run.dV])),
+    figures = {
+        "errors": draw_errors(label, run.t, run.e, row.joints),
+        "torques": draw_torques(label, run.t, run.tau, row.joints, row.torque_limit),
     }
-    files: Files = {}
-    for what, figure in drawn(label, run).items():
-        heads, values = numbers[what]
-        stem = f"{file_stem(row.name)}_{what}"
-        files |= files_of(stem, figure, ["t [s]", *heads], np.column_stack([run.t, values]))
-    return files
+    return {f"{file_stem(row.name)}_{what}.svg": svg(figure) for what, figure in figures.items()}

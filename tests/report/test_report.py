@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import pickle
 import re
@@ -10,14 +9,12 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import fields, replace
 from fractions import Fraction
 from html.parser import HTMLParser
-from io import BytesIO, StringIO
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from PIL import Image
 
 from lyapcheck.answers.gate.judge import judged_sets
 from lyapcheck.answers.table import build_table
@@ -61,30 +58,11 @@ class Balance(HTMLParser):
         assert self.open.pop() == tag
 
 
-def test_every_figure_is_there_in_three_forms(everything):
-    figures = {Path(name) for name in everything if name.startswith("figures/")}
-    stems = {figure.stem for figure in figures}
-    assert {"family", "epsilon", "tau_m1_errors"} <= stems
-    assert {figure.name for figure in figures} == {
-        f"{s}.{form}" for s in stems for form in ("svg", "png", "csv")
-    }
-    for name, content in everything.items():
-        if name.endswith(".png"):
-            assert isinstance(content, bytes)
-            picture = Image.open(BytesIO(content))
-            assert picture.size[0] > 900
-            assert picture.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
-            assert set(picture.info) <= {"dpi"}
-
-
-def test_the_data_beside_a_figure_are_those_of_the_run(report, files):
-    run = report.runs[0]
-    rows = list(csv.DictReader(StringIO(files["figures/tau_m1_torques.csv"])))
-    for joint, peak in zip(run.joints, run.peak_torque, strict=True):
-        sampled = max(abs(float(row[f"{joint} [N·m]"])) for row in rows)  # the peak may lie between two
-        assert sampled <= peak * (1 + 1e-5)
-        assert sampled == pytest.approx(peak, rel=1e-3)
-    assert float(rows[-1]["t [s]"]) == run.time
+def test_every_figure_is_there(everything):
+    figures = {name for name in everything if name.startswith("figures/")}
+    named = {f"figures/{stem}.svg" for stem in ("family", "epsilon", "tau_m1_errors", "tau_m1_torques")}
+    assert named <= figures
+    assert all(everything[name].startswith("<?xml") for name in figures)
 
 
 def test_pages_are_balanced_and_their_links_lead_somewhere(files):

@@ -101,11 +101,11 @@ def _templates() -> Environment:
 
 
 def _figure(report: Report, name: str, caption: str) -> Markup | None:
-    """A figure by its name, with links to its forms in ``figures``; nothing where there is none."""
+    """A figure by its name; nothing where there is none."""
     svg = report.figures.get(f"{name}.svg")
-    if not isinstance(svg, str):
+    if svg is None:
         return None
-    return markup("figure.html", name=name, svg=_inline(svg, caption), caption=caption)
+    return element("figure", _inline(svg, caption), element("figcaption", caption), class_="drawing")
 
 
 def _inline(svg: str, words: str) -> Markup:
