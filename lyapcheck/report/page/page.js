@@ -1,6 +1,7 @@
 "use strict";
 // Comfort only: everything on the page is there without it. Whoever follows a link to a claim finds it open.
 (() => {
+  const all = (selector, within = document) => [...within.querySelectorAll(selector)];
   const reveal = () => {
     let name = "";
     try { name = decodeURIComponent(location.hash.slice(1)); } catch { return; }
