@@ -65,17 +65,12 @@ def scalar_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds)
     if constants.gamma is None:
         return None
     norm_h = root_above(Fraction(len(gains.kp))) * _up(constants.gamma)
-    rho, L = _up(constants.rho), _up(constants.L)
-    G = norm_h * L / (L + norm_h)
-    return ScalarForm(
-        stiffness=min(gains.kp),
-        friction=bounds.viscous_min,
-        drift=_short(bounds.beta_M * (rho + G) + norm_h * bounds.k_c),
-        cross=_short(bounds.viscous_max + L * max(gains.kv)),
-    )
+    return sharp_form(gains, constants, bounds, norm_h)
 
 
-def sharp_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm:
+def sharp_form(
+    gains: GainSet, constants: FamilyConstants, bounds: RobotBounds, coriolis: Fraction | None = None
+) -> ScalarForm:
     """The form whose check at ε₀ proves dV/dt < 0 with less loss than ``scalar_form``, bounded h or not.
 
     Its drift is β_M (ρ + G) + k_c G instead of β_M (ρ + G) + k_c √n γ, and G < √n γ.
@@ -84,6 +79,7 @@ def sharp_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) 
         gains: diagonal gains, N·m, per rad or per degree where h is linear.
         constants: of the family.
         bounds: of the arm.
+        coriolis: at least ‖h‖ where it meets C, instead of G.
 
     Soundness: as ``scalar_form``; what holds for ε < ε₀ follows from ε₀ as the module says.
     """
@@ -96,7 +92,7 @@ def sharp_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) 
     return ScalarForm(
         stiffness=min(gains.kp) * low,
         friction=bounds.viscous_min,
-        drift=_short(bounds.beta_M * (rho + G) + bounds.k_c * G),
+        drift=_short(bounds.beta_M * (rho + G) + bounds.k_c * (coriolis or G)),
         cross=_short(bounds.viscous_max + L * max(gains.kv) * high),
     )
 
