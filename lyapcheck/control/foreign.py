@@ -58,14 +58,10 @@ def read_foreign(path: Path, joints: Sequence[str]) -> tuple[Pid, ...]:
     """
     text, name = read_text(path, TOML), str(path)
     kind = other_format(name, text)
-    if kind == "CSV":
-        root = _csv(text, name)
-    elif kind in ("YAML", "JSON"):
-        root = _yaml(text, name)
-    else:
+    if kind not in ("CSV", "YAML", "JSON"):
         repair = "give YAML, JSON, or CSV with the columns joint, kp, kd"
         raise file_error(name, f"is {kind or 'no file of gains that is known'}", repair)
-    return _Reading(name, joints).run(root)
+    return _Reading(name, joints).run(_csv(text, name) if kind == "CSV" else _yaml(text, name))
 
 
 def _csv(text: str, name: str) -> _Node:
@@ -145,7 +141,10 @@ class _Reading:
             table = {key.lower(): child for key, child in node.value.items()}
             names = next((_names(table[key]) for key in _JOINTS if key in table), ())
             listed = names or listed
-            gains = {kind: _first(table, words) for kind, words in WORDS.items()}
+            gains = {
+                kind: next((table[word] for word in words if word in table), None)
+                for kind, words in WORDS.items()
+            }
             p = gains["p"]
             if p is not None and isinstance(p.value, (str, list)):
                 self._gains(gains, keys, listed)
@@ -197,10 +196,6 @@ class _Reading:
         elif not values["p"] and not self.problems:
             self.fail(line, f"{joint}: p", "0", "must be positive", "give it a gain")
         self.found.setdefault(joint, []).append(Pid(joint, values["p"], values.get("d", Fraction(0)), line))
-
-
-def _first(table: Mapping[str, _Node], words: Sequence[str]) -> _Node | None:
-    return next((table[word] for word in words if word in table), None)
 
 
 def _names(node: _Node) -> tuple[str, ...]:

@@ -17,7 +17,6 @@ from sympy.printing.str import StrPrinter
 
 from lyapcheck.derive.lyapunov import (
     DEGREES,
-    EPS0,
     NEAR,
     Letters,
     column,
@@ -334,6 +333,3 @@ def values_of(name: str, values: Sequence[Any]) -> dict[str, Any]:
     if values and isinstance(values[0], (list, tuple)):
         return {f"{name}{i}_{j}": v for i, row in enumerate(values) for j, v in enumerate(row)}
     return {f"{name}{i}": v for i, v in enumerate(values)}
-
-
-EPS_NAME, NEAR_NAME = str(EPS0), str(NEAR)

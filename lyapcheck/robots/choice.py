@@ -14,6 +14,7 @@ from urllib.parse import quote, unquote
 
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.toml import key_of, quoted
 from lyapcheck.robots.fields import decimal
 
 FILES = (".toml", ".urdf", ".xacro", ".xml", ".mjcf", ".sdf")
@@ -43,6 +44,16 @@ class Choice:
         """This choice, and of another what it leaves open."""
         fixed, xacro = {**other.fixed, **self.fixed}, {**other.xacro, **self.xacro}
         return Choice(self.base or other.base, self.tip or other.tip, fixed, xacro)
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines of an arm file that say the same."""
+        links = (("base", self.base), ("tip", self.tip))
+        fixed = {joint: decimal_text(value) for joint, value in self.fixed.items()}
+        tables = (("fixed", fixed), ("xacro", {name: quoted(value) for name, value in self.xacro.items()}))
+        pairs = ((key, ", ".join(f"{key_of(x)} = {y}" for x, y in table.items())) for key, table in tables)
+        named = [f"{key} = {quoted(link)}" for key, link in links if link]
+        return [*named, *(f"{key} = {{ {text} }}" for key, text in pairs if text)]
 
     def of(self, arm: str) -> str:
         """The name of the arm of a robot that is chosen, which `split` takes apart."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from lyapcheck.errors import argument_error, nearest
 from lyapcheck.extensions import folders, shipped
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.files.toml import key_of, open_document, quoted
+from lyapcheck.files.toml import open_document
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.choice import Choice, split
 from lyapcheck.robots.plant import RobotModel
@@ -135,15 +135,7 @@ def arm_text(name_or_path: str, folder: Path) -> str:
 
 
 def _overlay(model: RobotModel, path: Path, folder: Path, choice: Choice) -> str:
-    lines = [f'title = "{model.title}"', f'urdf = "{_from(path, folder)}"']
-    for key, link in (("base", choice.base), ("tip", choice.tip)):
-        lines += [f"{key} = {quoted(link)}"] if link else []
-    for key, held in (
-        ("fixed", {joint: decimal_text(value) for joint, value in choice.fixed.items()}),
-        ("xacro", {name: quoted(value) for name, value in choice.xacro.items()}),
-    ):
-        pairs = ", ".join(f"{key_of(name)} = {value}" for name, value in held.items())
-        lines += [f"{key} = {{ {pairs} }}"] if held else []
+    lines = [f'title = "{model.title}"', f'urdf = "{_from(path, folder)}"', *choice.lines]
     for i, joint in enumerate(model.joints):
         lines += ["", "[[joints]]", f'name = "{joint}"']
         for key in ("viscous", "coulomb", "torque_limit"):

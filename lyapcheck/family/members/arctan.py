@@ -10,14 +10,7 @@ from flint import arb
 from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.base import (
-    Arithmetic,
-    Family,
-    FamilyConstants,
-    NumericForms,
-    SymbolicForms,
-    require_none,
-)
+from lyapcheck.family import base
 
 _SERIES_TERMS = 13
 _SERIES_END = 0.25
@@ -26,7 +19,7 @@ _HUGE = 2.0**27
 
 
 @dataclass(frozen=True)
-class Arctan(Family):
+class Arctan(base.Family):
     """h = arctan x, h' = 1/(1 + x²), U = x arctan x - ln(1 + x²)/2; γ = π/2 in the limit, ρ = L = 1 at 0."""
 
     @property
@@ -34,14 +27,14 @@ class Arctan(Family):
         """π/2."""
         return "div", ("pi",), ("num", "2")
 
-    def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
+    def numeric(self, of: base.Arithmetic, x: Any) -> base.NumericForms:
         """From 1/x where x² may overflow; U near 0 by its series, where its parts cancel."""
         a = of.fabs(x)
         angle, far, bounded = of.arctan(x), a > _HUGE, of.smaller(a, _HUGE)
         inverse, z = 1 / of.larger(a, 1.0), bounded * bounded
         log = of.where(far, of.log(of.smaller(of.larger(a, 1.0), 1e308)), 0.5 * _log1p(of, z))
         near = of.smaller(a, 2 * _SERIES_END)
-        return NumericForms(
+        return base.NumericForms(
             h=angle,
             dh=of.where(far, inverse * inverse, 1 / (1 + z)),
             potential=of.where(
@@ -50,27 +43,27 @@ class Arctan(Family):
             secant=of.where(a > 0, of.fabs(angle) / of.where(a > 0, a, 1.0), 1.0),
         )
 
-    def sympy(self, x: Any) -> SymbolicForms:
+    def sympy(self, x: Any) -> base.SymbolicForms:
         """h, h', U as SymPy expressions."""
         import sympy as sp
 
-        return SymbolicForms(sp.atan(x), 1 / (1 + x**2), x * sp.atan(x) - sp.log(1 + x**2) / 2)
+        return base.SymbolicForms(sp.atan(x), 1 / (1 + x**2), x * sp.atan(x) - sp.log(1 + x**2) / 2)
 
-    def constants(self, digits: int = 30) -> FamilyConstants:
+    def constants(self, digits: int = 30) -> base.FamilyConstants:
         """γ = π/2 in the limit, ρ = L = 1 at 0."""
         one, zero = Enclosure.exact(1), Enclosure.exact(0)
         with precision(4 * digits + 16):
             gamma = Enclosure.from_arb(arb.pi() / 2)
-        return FamilyConstants(gamma, one, one, None, zero, zero)
+        return base.FamilyConstants(gamma, one, one, None, zero, zero)
 
 
 def create(m: int | None) -> Arctan:
     """The one member."""
-    require_none("arctan", m)
+    base.require_none("arctan", m)
     return Arctan("arctan")
 
 
-def _log1p(of: Arithmetic, z: Any) -> Any:
+def _log1p(of: base.Arithmetic, z: Any) -> Any:
     """ln(1 + z) for z >= 0 by the logarithm alone: the rounding of 1 + z is put back to first order."""
     w = 1 + z
     return of.log(w) + (z - (w - 1)) / w

@@ -38,9 +38,12 @@ class Hyperbolic(Family):
 
     def sympy(self, x: Any) -> SymbolicForms:
         """h_m, h_m', U_m as SymPy expressions."""
-        from lyapcheck.family.members.hyperbolic import hyperbolic_symbolic
+        import sympy as sp
 
-        return hyperbolic_symbolic(x, self._member)
+        m, symbol = self._member, sp.Dummy("x", real=True)
+        U = sp.log(1 + sp.sinh(symbol) ** (2 * m)) / (2 * m)
+        h = sp.diff(U, symbol)  # U = ln(1 + sinh^(2m)x) / (2m), h = dU/dx, h' = d²U/dx²
+        return SymbolicForms(*(form.subs(symbol, x) for form in (h, sp.diff(h, symbol), U)))
 
     def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
         """The peak of h and those of h'; tanh has none."""
@@ -59,27 +62,6 @@ class Hyperbolic(Family):
 def create(m: int | None) -> Hyperbolic:
     """The member m of the family."""
     return Hyperbolic("hyperbolic", require_member(m))
-
-
-# --- The hyperbolic family in SymPy for a symbol or a whole number m.
-#
-# References: ``reyes2019family`` (6), (8), (12).
-
-
-def hyperbolic_symbolic(x: Any, m: Any) -> SymbolicForms:
-    """U = ln(1 + sinh^(2m)x) / (2m), and h = dU/dx and h' = d²U/dx² derived from it.
-
-    Args:
-        x: any SymPy expression.
-        m: a positive SymPy symbol, or a whole number.
-    """
-    import sympy as sp
-
-    symbol = sp.Dummy("x", real=True)
-    potential = sp.log(1 + sp.sinh(symbol) ** (2 * m)) / (2 * m)
-    h = sp.diff(potential, symbol)
-    dh = sp.diff(h, symbol)
-    return SymbolicForms(*(form.subs(symbol, x) for form in (h, dh, potential)))
 
 
 @lru_cache(maxsize=64)

@@ -8,18 +8,11 @@ from typing import Any
 from flint import arb
 
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.family.base import (
-    Arithmetic,
-    Family,
-    FamilyConstants,
-    NumericForms,
-    SymbolicForms,
-    require_none,
-)
+from lyapcheck.family import base
 
 
 @dataclass(frozen=True)
-class Linear(Family):
+class Linear(base.Family):
     """h = x, h' = 1, U = x²/2: unbounded, so γ does not exist; ρ = L = 1 everywhere."""
 
     @property
@@ -27,22 +20,22 @@ class Linear(Family):
         """None: h is unbounded."""
         return None
 
-    def numeric(self, of: Arithmetic, x: Any) -> NumericForms:
+    def numeric(self, of: base.Arithmetic, x: Any) -> base.NumericForms:
         """x, 1, x²/2, infinite where that is beyond the largest double, and 1."""
-        return NumericForms(h=x, dh=of.lift(1), potential=0.5 * x * x, secant=of.lift(1))
+        return base.NumericForms(h=x, dh=of.lift(1), potential=0.5 * x * x, secant=of.lift(1))
 
-    def sympy(self, x: Any) -> SymbolicForms:
+    def sympy(self, x: Any) -> base.SymbolicForms:
         """x, 1, x²/2."""
         import sympy as sp
 
-        return SymbolicForms(x, sp.Integer(1), x**2 / 2)
+        return base.SymbolicForms(x, sp.Integer(1), x**2 / 2)
 
-    def casadi(self, x: Any) -> NumericForms:
+    def casadi(self, x: Any) -> base.NumericForms:
         """x, 1, x²/2, 1."""
         import casadi as ca
 
         one = ca.SX.ones(*x.shape)
-        return NumericForms(x, one, 0.5 * x * x, one)
+        return base.NumericForms(x, one, 0.5 * x * x, one)
 
     def ball_h(self, x: arb) -> arb:
         """x itself."""
@@ -56,13 +49,13 @@ class Linear(Family):
         """x²/2."""
         return x * x / 2
 
-    def constants(self, digits: int = 30) -> FamilyConstants:
+    def constants(self, digits: int = 30) -> base.FamilyConstants:
         """No γ; ρ = L = 1, reached everywhere and named at 0."""
         one, zero = Enclosure.exact(1), Enclosure.exact(0)
-        return FamilyConstants(None, one, one, None, zero, zero)
+        return base.FamilyConstants(None, one, one, None, zero, zero)
 
 
 def create(m: int | None) -> Linear:
     """The one member."""
-    require_none("linear", m)
+    base.require_none("linear", m)
     return Linear("linear", bounded=False)

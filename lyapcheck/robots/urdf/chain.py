@@ -53,13 +53,10 @@ def choose_chain(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -
 
 def options(base: str, tip: str, fixed: Mapping[str, Fraction]) -> str:
     """How to choose a chain, for every command and in an arm file."""
-    words, values = [("base", base), ("tip", tip)], {j: decimal_text(x) for j, x in fixed.items()}
-    given = [f"--{key} {link}" for key, link in words if link]
-    given += [f"--fixed {joint}={value}" for joint, value in values.items()]
-    keys = [f'{key} = "{link}"' for key, link in words if link]
-    if fixed:
-        keys.append(f"fixed = {{ {', '.join(f'{joint} = {value}' for joint, value in values.items())} }}")
-    return f"{' '.join(given)} (in an arm file that names this URDF: {' and '.join(keys)})"
+    given = [f"--{key} {link}" for key, link in (("base", base), ("tip", tip)) if link]
+    given += [f"--fixed {joint}={decimal_text(value)}" for joint, value in fixed.items()]
+    keys = " and ".join(Choice(base, tip, fixed).lines)
+    return f"{' '.join(given)} (in an arm file that names this URDF: {keys})"
 
 
 def _to_tip(tree: Tree, choice: Choice, robot: Element, notes: UrdfNotes) -> Run:
