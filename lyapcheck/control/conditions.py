@@ -102,7 +102,8 @@ class Conditions:
     def __init__(self, limits: Limits, gamma: Tree | None) -> None:
         n = limits.n
         torques = [torque for torque in limits.torque if torque is not None]
-        self._norm = norms(_square(torques), _square(limits.gravity), n, gamma) if len(torques) == n else None
+        T, G = (sum((x * x for x in row), Fraction(0)) for row in (torques, limits.gravity))
+        self._norm = norms(T, G, n, gamma) if len(torques) == n else None
         rows = list(zip(limits.torque, limits.gravity, strict=True))
         self._joints, self._single = (
             [None if torque is None else scaled(torque - k_g, count, gamma, sign) for torque, k_g in rows]
@@ -174,7 +175,3 @@ class Conditions:
         largest = threshold.largest(places)
         passes = None if largest is None or result.shown == "proved" else threshold.judged(largest, places)
         return Check(name, joint, result, value, limit, largest, reason, admitted=passes, threshold=threshold)
-
-
-def _square(vector: list[Fraction] | tuple[Fraction, ...]) -> Fraction:
-    return sum((x * x for x in vector), Fraction(0))

@@ -54,8 +54,24 @@ def load(
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).
     """
-    name, choice = split(str(name_or_path))
-    result = _loaded(name, Choice(tip=tip or "").over(choice), spread, vary)
+    name, own = split(str(name_or_path))
+    path, choice = arm_file(name), Choice(tip=tip or "").over(own)
+    if name in names():
+        if choice:
+            rule = f"{name} is built in, and has no links to choose from"
+            raise argument_error("robot", choice.of(name), rule, "leave base, tip, fixed and xacro out")
+        result = _builtin(name, spread, vary)
+    elif path.suffix.lower() == ".toml" or path.is_dir():
+        result = read_arm(path, spread=spread, vary=vary, choice=choice)
+    elif path.suffix or path.exists():
+        from lyapcheck.robots.formats import read_robot
+
+        result = with_ranges(read_robot(path, str(path), choice), spread, vary)
+    else:
+        known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
+        guess = nearest(name, [*names(), *_examples()])
+        repair = f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
+        raise argument_error("robot", name, "is neither a built-in arm nor a file", repair)
     require_known(result, vary)
     return result
 
@@ -64,25 +80,6 @@ def arm_file(name_or_path: str | Path) -> Path:
     """The file of an arm: that of a built-in one or of an example, or the path itself."""
     known, name = _arms() | _examples(), split(str(name_or_path))[0]
     return known.get(name, known.get(name.lower(), Path(name)))
-
-
-def _loaded(name: str, choice: Choice, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
-    if name in names():
-        if choice:
-            rule = f"{name} is built in, and has no links to choose from"
-            raise argument_error("robot", choice.of(name), rule, "leave base, tip, fixed and xacro out")
-        return _builtin(name, spread, vary)
-    path = arm_file(name)
-    if not path.suffix and not path.exists():
-        known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
-        guess = nearest(name, [*names(), *_examples()])
-        repair = f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
-        raise argument_error("robot", name, "is neither a built-in arm nor a file", repair)
-    if path.suffix.lower() == ".toml" or path.is_dir():
-        return read_arm(path, spread=spread, vary=vary, choice=choice)
-    from lyapcheck.robots.formats import read_robot
-
-    return with_ranges(read_robot(path, str(path), choice), spread, vary)
 
 
 @lru_cache(maxsize=64)
