@@ -149,8 +149,8 @@ def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
         before = rest[past]
         smooth = before + (1 - math.exp(-2 * math.pi * float(bench.lowpass) * bench.T)) * (smooth - before)
         kept = [smooth]
-    spring = ca.DM(gains.kp) * gains.family.casadi(goal - reading).h
-    wanted = spring - ca.DM(gains.kv) * gains.family.casadi(smooth).h + graph.gravity(model, reading)
+    known = ca.DM(gains.kp), ca.DM(gains.kv), gains.family.casadi
+    wanted = ca.vertcat(*graph.at_symbols(model, reading, goal - reading, smooth, *known).torque())
     most = ca.DM(motor_limits(model))
     held, *later = [*rest[past + len(kept) :], ca.fmin(ca.fmax(wanted, -most), most)]
     new = ca.vertcat(reading, *velocity[:past], *kept, *later)
