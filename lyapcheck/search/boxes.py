@@ -213,9 +213,8 @@ CHUNK = 32768
 """Boxes that are judged at a time."""
 FEW = 512
 """Boxes of a level up to which every middle is probed."""
-PROBE_BITS = 5
-"""Of the boxes of larger levels one in 2⁵ is probed."""
-MIXING = np.multiply.accumulate(np.full(128, 0x9E3779B97F4A7C15, dtype=np.uint64))
+PROBED = 32
+"""Of the boxes of larger levels every so many."""
 SMALLEST = 1e-5
 """Half width below which a box that is not proved ends the search."""
 RESISTS = "a state resisted"
@@ -307,15 +306,8 @@ def _judged(boxes: Boxes, prove: Prover, few: bool) -> tuple[NDArray[np.bool_], 
     else:
         proved = np.concatenate([prove(boxes[k : k + CHUNK]) for k in range(0, len(boxes), CHUNK)])
         rest = boxes[~proved]
-        middles = rest[_probed(rest)].mean(axis=1)
+        middles = rest[::PROBED].mean(axis=1)
         central = prove(np.stack([middles, middles], axis=1)) if len(middles) else np.ones(0, dtype=bool)
     small = rest[np.max(rest[:, 1] - rest[:, 0], axis=1) < 2 * SMALLEST]
     points = np.concatenate([middles[~central], small.mean(axis=1)])
     return proved, points[np.lexsort(points.T[::-1])[0]] if len(points) else None
-
-
-def _probed(boxes: Boxes) -> NDArray[np.bool_]:
-    """About one box in 2⁵, by nothing but its ends."""
-    ends = np.ascontiguousarray(boxes).reshape(len(boxes), 2 * boxes.shape[2]).view(np.uint64)
-    mixed: NDArray[np.uint64] = np.sum(ends * MIXING[: ends.shape[1]], axis=1, dtype=np.uint64)
-    return np.asarray(mixed >> np.uint64(64 - PROBE_BITS) == 0)
