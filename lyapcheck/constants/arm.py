@@ -152,17 +152,10 @@ DIGITS = 10**7
 BITS = 128
 
 
-@dataclass(frozen=True)
-class Extreme:
-    """A posture q, rad, a direction x (none for gravity), and what the constant is there, rounded safely."""
+def extreme(plant: RobotModel, name: str) -> tuple[PostureWitness, Fraction]:
+    """Where λmin(M), λmax(M), k_c, k_g or a k_gi of a chain is reached, and its value, rounded safely.
 
-    q: tuple[Fraction, ...]
-    x: tuple[Fraction, ...]
-    value: Fraction
-
-
-def extreme(plant: RobotModel, name: str) -> Extreme:
-    """Where λmin(M), λmax(M), k_c, k_g or a k_gi of a chain is reached: quasi-Newton steps, many starts.
+    By quasi-Newton steps from many starts; there is no direction x for gravity.
 
     Soundness: the value is taken in balls at the rational posture; that it is the extreme one is not.
     """
@@ -183,9 +176,8 @@ def extreme(plant: RobotModel, name: str) -> Extreme:
         best = min(best, found, key=lambda point: merit(point)[0])
     q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
     x = best[n:] / np.linalg.norm(best[n:])
-    q_exact, x_exact = _short(q), _short(x) if directed else ()
-    value = _in_balls(zero_bound(chain, name), PostureWitness(q_exact, (), x_exact))
-    return Extreme(q_exact, x_exact, value)
+    at = PostureWitness(_short(q), (), _short(x) if directed else ())
+    return at, _in_balls(zero_bound(chain, name), at)
 
 
 def _merit(plant: RobotModel, name: str) -> Callable[..., tuple[float, Array]]:
@@ -237,9 +229,9 @@ def chain_constant(plant: RobotModel, name: str, on_progress: Progress = silent)
     Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts.
     """
     on_progress(0.0, "posture")
-    inner, chain = extreme(plant, name), plant.chain
+    (at, inner), chain = extreme(plant, name), plant.chain
     assert chain is not None
-    still = name.startswith("k_g") and inner.value == 0
+    still = name.startswith("k_g") and inner == 0
     shown = storage_proof(chain, name, still=True) if still else None
     if shown is None:
         on_progress(0.1, "forms along the links")
@@ -248,6 +240,6 @@ def chain_constant(plant: RobotModel, name: str, on_progress: Progress = silent)
         rule = "has no bound along the links that the checker accepts"
         raise argument_error(name, "", rule, "correct the masses and inertias")
     # bodies without mass may leave nothing to show, but that M(q) of links is never negative
-    low, high = sorted((inner.value, shown.bound if shown else Fraction(0)))
+    low, high = sorted((inner, shown.bound if shown else Fraction(0)))
     unit = "N·m" if name.startswith("k_g") else "kg·m²"
-    return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*inner.q, *inner.x))), 0, shown)
+    return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*at.q, *at.x))), 0, shown)

@@ -156,7 +156,7 @@ def test_the_certificate_of_published_arms_is_above_what_is_reached_and_within_t
     arm = load(str(ROOT / "examples" / f"{name}.toml"))
     shown = storage_proof(arm.chain, "k_c")
     assert shown is not None
-    assert extreme(arm, "k_c").value <= shown.bound <= most * extreme(arm, "k_c").value
+    assert extreme(arm, "k_c")[1] <= shown.bound <= most * extreme(arm, "k_c")[1]
 
 
 @pytest.mark.parametrize("size", [F(1, 10), F(1), F(10)])
@@ -173,7 +173,7 @@ def test_the_bound_that_a_posture_refutes(size):
 
 def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path):
     arm = arm_of("pelican2", tmp_path)
-    smaller = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c").value * F(9, 10))
+    smaller = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c")[1] * F(9, 10))
     result = propose(smaller)
     assert result.verdict is Verdict.REFUTED
     assert result.proof is not None
@@ -182,7 +182,7 @@ def test_a_bound_that_is_too_small_is_refuted_by_a_posture(tmp_path):
 
 def test_between_what_is_reached_and_what_is_shown_a_bound_is_open(tmp_path):
     arm = arm_of("pelican2", tmp_path)
-    between = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c").value * F(11, 10))
+    between = ChainCoriolisBelow(arm.chain.links, extreme(arm, "k_c")[1] * F(11, 10))
     result = propose(between)
     assert result.proof is None
     assert "take a larger one" in result.reason

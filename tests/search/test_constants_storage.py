@@ -9,7 +9,6 @@ import pytest
 from lyapcheck.check.kinds.chain import (
     NoTorque,
 )
-from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.loop.storage import hinges, invariant_form
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -134,11 +133,10 @@ NAMES = ("lambda_min", "lambda_max", "k_g")
 @pytest.mark.parametrize("name", NAMES)
 def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name, tmp_path):
     arm = arm_of("leaning", tmp_path)
-    shown, inner = storage_proof(arm.chain, name), extreme(arm, name)
-    witness = PostureWitness(inner.q, (), inner.x)
+    shown, (witness, inner) = storage_proof(arm.chain, name), extreme(arm, name)
     assert refused(shown.statement, witness)
     more = F(1001, 1000) if name == "lambda_min" else F(999, 1000)
-    result = verify(shown.at_end(inner.value * more), witness)
+    result = verify(shown.at_end(inner * more), witness)
     assert (result.verdict, result.grade) == ("refuted", "enclosure")
 
 
@@ -159,9 +157,7 @@ def test_of_an_arm_the_size_of_a_finger_extremes_are_in_proportion(name, tmp_pat
     )
     small = replace(arm, dynamics=replace(arm.chain, links=links))
     share = long * heavy if name == "k_g" else long**2 * heavy
-    assert float(extreme(small, name).value / share) == pytest.approx(
-        float(extreme(arm, name).value), rel=1e-5
-    )
+    assert float(extreme(small, name)[1] / share) == pytest.approx(float(extreme(arm, name)[1]), rel=1e-5)
 
 
 def test_joints_without_torque_are_shown_exactly(tmp_path):

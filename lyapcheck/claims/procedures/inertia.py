@@ -148,18 +148,17 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
                 return still_open("bounds are looked for of one torque or of all", LINKS)
             name = f"k_g{statement.joints[0]}"
     joints = tuple(f"joint {i + 1}" for i in range(chain.n))
-    reached = extreme(
-        RobotModel(name="chain", joints=joints, dynamics=chain, viscous=(Number(Fraction(0)),) * chain.n),
-        name,
-    )
-    if reached.value > statement.high:
-        witness = failing(entries(q=reached.q, x=reached.x), reached.value, "<=", statement.high)
-        return broken(PostureWitness(reached.q, (), reached.x), f"{LINKS}: a posture", witness)
+    viscous = (Number(Fraction(0)),) * chain.n
+    plant = RobotModel(name="chain", joints=joints, dynamics=chain, viscous=viscous)
+    at, reached = extreme(plant, name)
+    if reached > statement.high:
+        witness = failing(entries(q=at.q, x=at.x), reached, "<=", statement.high)
+        return broken(at, f"{LINKS}: a posture", witness)
     result = storage_proof(chain, name)
     if result is None or result.bound > statement.high:
         least = "none" if result is None else f"{float(result.bound):.6g}"
         return still_open(
-            f"{float(reached.value):.6g} is reached, and the least bound that forms show is {least}; take a "
+            f"{float(reached):.6g} is reached, and the least bound that forms show is {least}; take a "
             "larger one",
             LINKS,
         )
