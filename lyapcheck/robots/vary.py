@@ -232,9 +232,7 @@ def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, Ro
         What was changed, and the arm with exact numbers. Between the ends nothing is tried, and where numbers
         move together not every corner is; ``corners_text`` says how many are.
     """
-    groups = _moved(model, varies)
-    if 2 ** len(groups) > MOST_CORNERS:
-        groups = _together(groups, model, varies)
+    _, groups = _moved(model, varies)
     for ends in product((0, 1), repeat=len(groups)):
         values = {
             key: model.numbers[key].bounds[end]
@@ -247,31 +245,28 @@ def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, Ro
 
 def corners_text(model: RobotModel, varies: Sequence[Vary]) -> str:
     """Say which corners of the ranges ``corners`` yields, and how many corners there are."""
-    alone = _moved(model, varies)
-    total = 2 ** len(alone)
+    count, groups = _moved(model, varies)
+    total, tried = 2**count, 2 ** len(groups)
     if total <= MOST_CORNERS:
         return "the corner of the ranges" if total == 1 else f"all {total} corners of the ranges"
-    tried = 2 ** len(_together(alone, model, varies))
     return f"{tried} of {total} corners of the ranges (numbers of one name move together)"
 
 
-def _moved(model: RobotModel, varies: Sequence[Vary]) -> list[list[str]]:
-    """The numbers that have a range of more than one value, each in a list of its own."""
-    keys = [key for key in model.numbers if any(_is_meant(one, key, model) for one in varies)]
-    return [[key] for key in keys if model.numbers[key].ranged]
+def _moved(model: RobotModel, varies: Sequence[Vary]) -> tuple[int, list[list[str]]]:
+    """How many numbers have a range of more than one value, and which of them move together.
 
-
-def _together(groups: Sequence[Sequence[str]], model: RobotModel, varies: Sequence[Vary]) -> list[list[str]]:
-    """The same numbers, those of one name in one list; a name of one number goes before that of all."""
-    result: dict[str, list[str]] = {}
-    for (key,) in groups:
-        meant = [one for one in varies if _is_meant(one, key, model)]
-        result.setdefault(min(meant, key=lambda one: one.name != key).name, []).append(key)
-    return list(result.values())
-
-
-def _is_meant(vary: Vary, key: str, model: RobotModel) -> bool:
-    return vary.matches(key) or (vary.name == PAYLOAD and key == f"{model.joints[-1]}_mass")
+    Each moves alone if these are few, else all of one name; a name of one number goes before that of all.
+    """
+    keys: list[str] = []
+    named: dict[str, list[str]] = {}
+    for key, number in model.numbers.items():
+        last = key == f"{model.joints[-1]}_mass"
+        meant = [one for one in varies if one.matches(key) or (last and one.name == PAYLOAD)]
+        if meant and number.ranged:
+            keys.append(key)
+            named.setdefault(next((one for one in meant if one.name == key), meant[0]).name, []).append(key)
+    few = 2 ** len(keys) <= MOST_CORNERS
+    return len(keys), [[key] for key in keys] if few else list(named.values())
 
 
 def at_values(model: RobotModel, values: Mapping[str, Fraction]) -> RobotModel:
