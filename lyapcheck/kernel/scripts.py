@@ -9,7 +9,7 @@ import math
 from fractions import Fraction
 from functools import singledispatch
 
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.check.expressions.expression import Tree, nodes
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart, OnePart
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.constant import (
@@ -208,6 +208,8 @@ def _(statement: ForAll, proof: Proof) -> str:
                 f"intros {x}. assert (B : Rabs ({name} {m} {x}) <= {most}) by (revert {x}; {tactic}). "
                 "apply Rabs_le_between in B. lra."
             )
+    if any(node[0] == "abs" for node in nodes(one.gap)):
+        raise NotPrinted("an absolute value")
     return f"intros {x}; intros; signs {x}."
 
 

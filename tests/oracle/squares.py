@@ -1,4 +1,7 @@
-"""Sums of squares by their values at random points, in fractions: no polynomial is multiplied out here."""
+"""Sums of squares by their values at random points, in fractions: no polynomial is multiplied out here.
+
+For sines and cosines of an argument there are random points of the unit circle.
+"""
 
 from fractions import Fraction
 from math import prod
@@ -15,20 +18,38 @@ def shows(document, random):
     relations = [*statement["hypotheses"], statement["conclusion"]]
     gaps = [(_tree(one["left"]), _tree(one["right"])) for one in relations]
     letters = sorted(names(*(side for gap in gaps for side in gap)))
+    turned = []
+    for side in (side for gap in (gaps[-1], *gaps[:-1]) for side in gap[::-1]):
+        _circular(side, turned)
+    circular = [[bool(_circular(side, [])) for side in gap] for gap in gaps]
+    gaps = [tuple(_plain(side, turned) for side in gap) for gap in gaps]
     known = {one["name"]: one for one in statement["variables"]}
     lows = [Fraction(known[name]["low"] or 0) for name in letters]
     signs = [
         None if known[name]["low"] is None else "> 0" if known[name]["strict"] else ">= 0" for name in letters
     ]
+    names_of_all = [*letters, *(f"{wave} {k}" for k, _ in enumerate(turned) for wave in ("sin", "cos"))]
+    lows += [Fraction(0)] * (2 * len(turned))
+    signs += [None] * (2 * len(turned))
+    points = []
+    for _ in range(POINTS):
+        u = [Fraction(random.randint(-SIZE, SIZE), random.randint(1, SIZE)) for _ in turned]
+        waves = [value for x in u for value in (2 * x / (1 + x**2), (1 - x**2) / (1 + x**2))]
+        points.append([*(Fraction(random.randint(-SIZE, SIZE)) for _ in letters), *waves])
+    at_points = [_gaps(gaps, names_of_all, lows, t) for t in points]
+    known_0 = {
+        k
+        for k, _ in enumerate(gaps[:-1])
+        if any(all(one[k] == -one[j] for one in at_points) for j, _ in enumerate(gaps[:-1]))
+    }
     products = proof["products"]
-    forms = [proof["lift"], *(one["squares"] for one in products)]
+    forms = [proof["lift"], *(one["squares"] for one in products if one["hypothesis"] not in known_0)]
     if any(Fraction(d) < 0 for form in forms for d in form["diagonal"]):
         return False
-    if any(signs[i] is None and k % 2 for one in products for i, k in one["monomial"]):
+    free = (one for one in products if one["hypothesis"] not in known_0)
+    if any(signs[i] is None and k % 2 for one in free for i, k in one["monomial"]):
         return False
-    for _ in range(POINTS):
-        t = [Fraction(random.randint(-SIZE, SIZE)) for _ in letters]
-        values = _gaps(gaps, letters, lows, t)
+    for t, values in zip(points, at_points, strict=True):
         right = sum(
             (
                 _monomial(one["monomial"], t)
@@ -43,11 +64,13 @@ def shows(document, random):
     if statement["conclusion"]["operator"] == "<=":
         return True
     strict = [one["operator"] == "<" for one in relations]
-    at_zero = _gaps(gaps, letters, lows, [Fraction(0)] * len(letters))[:-1]
+    at_zero = _gaps(gaps, names_of_all, lows, [Fraction(0)] * len(names_of_all))[:-1]
     excluded = "> 0" in signs or any(
-        value < 0 or (value == 0 and open_) for value, open_ in zip(at_zero, strict, strict=False)
+        (value < 0 or (value == 0 and open_)) and not any(waves)
+        for value, open_, waves in zip(at_zero, strict, circular, strict=False)
     )
-    return any(_positive(one, signs, strict, excluded, len(letters)) for one in products)
+    able = (one for one in products if one["hypothesis"] not in known_0)
+    return any(_positive(one, signs, strict, excluded, len(letters)) for one in able)
 
 
 def _positive(one, signs, strict, excluded, count):
@@ -85,6 +108,23 @@ def _form(form, t):
         ),
         start=Fraction(0),
     )
+
+
+def _circular(tree, found):
+    """The arguments of sines and cosines, in the order in which they are come to."""
+    for part in tree[1:]:
+        if isinstance(part, tuple):
+            _circular(part, found)
+    if tree[0] in ("sin", "cos") and tree[1] not in found:
+        found.append(tree[1])
+    return found
+
+
+def _plain(tree, turned):
+    """The expression with names for sines and cosines."""
+    if tree[0] in ("sin", "cos"):
+        return ("var", f"{tree[0]} {turned.index(tree[1])}")
+    return tuple(_plain(part, turned) if isinstance(part, tuple) else part for part in tree)
 
 
 def _tree(data):

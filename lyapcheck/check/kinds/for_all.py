@@ -12,11 +12,12 @@ from itertools import pairwise
 
 from flint import arb, ctx, fmpq_poly
 
-from lyapcheck.check.expressions.domain import Comparison, Interval
-from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, substitute, taylor
+from lyapcheck.check.expressions.domain import Comparison, Domain, Interval
+from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, nodes, substitute, taylor
 from lyapcheck.check.expressions.grammar import MAX_EXPONENT
 from lyapcheck.check.expressions.normal_form import Ratio, normal_form
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
+from lyapcheck.check.expressions.signs import MINUS, PLUS, never
 from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.numbers.polynomials import ball_of, nonnegative_on, positive_on, univariate
 from lyapcheck.check.refusal import Refused, require
@@ -178,15 +179,32 @@ def by_pieces(statement: ForAll, proof: Pieces) -> Accepted:
 
 
 def pieces(statement: ForAll) -> Iterator[Stretch]:
-    """The gap on pieces [low, high] with 0 <= low, which together cover the domain."""
+    """The gap on pieces [low, high] with 0 <= low, which together cover the domain.
+
+    Soundness: on a piece |a| is a where a is never negative, and −a where a is never positive.
+    """
     low, high, zero = statement.low, statement.high, Fraction(0)
-    gap = statement.relation.gap
+    gap, name = statement.relation.gap, statement.variable
     if high is None or high > 0 or low == 0:
-        yield gap, max(low, zero) if low is not None else zero, high
+        start = max(low, zero) if low is not None else zero
+        yield without_abs(gap, {name: Interval(start, high)}), start, high
     if low is None or low < 0:
-        start = max(-high, zero) if high is not None else zero
-        mirrored = substitute(gap, {statement.variable: ("neg", ("var", statement.variable))})
-        yield mirrored, start, None if low is None else -low
+        start, end = max(-high, zero) if high is not None else zero, None if low is None else -low
+        mirrored = substitute(gap, {name: ("neg", ("var", name))})
+        yield without_abs(mirrored, {name: Interval(start, end)}), start, end
+
+
+def without_abs(tree: Tree, domain: Domain) -> Tree:
+    """The same function on a domain, without the absolute values of parts whose sign is seen there."""
+    if all(node[0] != "abs" for node in nodes(tree)):
+        return tree
+    result: Tree = tuple(without_abs(part, domain) if isinstance(part, tuple) else part for part in tree)
+    if result[0] != "abs":
+        return result
+    inner: Tree = result[1]
+    if never(inner, MINUS, domain):
+        return inner
+    return ("neg", inner) if never(inner, PLUS, domain) else result
 
 
 def zero_must_be_positive(statement: ForAll, low: Fraction) -> bool:
