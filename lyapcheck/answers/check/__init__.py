@@ -57,13 +57,6 @@ GRADES = {
 WHOSE = "Statements and verdicts are the checker's; what the author calls them stands in quotation marks."
 
 
-def statement_text(stated: Statement) -> str:
-    """A statement rendered from its data; cut where it is long, with a digest."""
-    text = stated.text()
-    short = shortened(text, full=False)
-    return short if short == text else f"{short} [statement {digest_of(to_json(stated))[:12]}]"
-
-
 def refuted_by_source(rows: Sequence[ClaimResult]) -> dict[str, list[str]]:
     """The refuted claims by whose sentence they are; what is ``ours`` is no error of the text."""
     ids = {name: [r.id for r in rows if r.verdict is Verdict.REFUTED and r.stands == name] for name in STANDS}
@@ -94,7 +87,11 @@ class ClaimResult:
 
     @cached_property
     def _text(self) -> str:
-        return statement_text(self.stated) if isinstance(self.stated, Statement) else "no statement"
+        if not isinstance(self.stated, Statement):
+            return "no statement"
+        text = self.stated.text()
+        short = shortened(text, full=False)
+        return short if short == text else f"{short} [statement {digest_of(to_json(self.stated))[:12]}]"
 
     @property
     def statement(self) -> str:
@@ -276,6 +273,12 @@ class ProofResult(Answer):
 
     def data(self) -> dict[str, Any]:
         """``claims: [{id, m, statement, verdict, …}]``, and what they were asked for."""
+        theorems = []
+        for row in self.theorems:
+            script, other = self.elsewhere.get((row.id, row.m), ("", None))
+            otherwise = other and {"script": script, "id": other.id, "verdict": other.decision.word}
+            own = {"id": row.id, "m": row.m, "verdict": row.decision.word}
+            theorems.append({**own, "otherwise": otherwise})
         return {
             "proof": self.name,
             "title": self.title,
@@ -285,14 +288,9 @@ class ProofResult(Answer):
             "assumptions": list(self.assumptions),
             "counts": self.counts(),
             "refuted": refuted_by_source(self.claims),
-            "theorems": [self._theorem_data(row) for row in self.theorems],
+            "theorems": theorems,
             "claims": [row.data(self.timings) for row in self.claims],
         }
-
-    def _theorem_data(self, row: ClaimResult) -> dict[str, Any]:
-        script, other = self.elsewhere.get((row.id, row.m), ("", None))
-        otherwise = other and {"script": script, "id": other.id, "verdict": other.decision.word}
-        return {"id": row.id, "m": row.m, "verdict": row.decision.word, "otherwise": otherwise}
 
     def records(self) -> list[dict[str, Any]]:
         """A row a claim and m; the witness in words, what was found on the way left to the JSON."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers import arm_words, assumed_line, file_words
@@ -34,7 +35,10 @@ def document(answer: GateAnswer) -> Document:
     lead, said, details = _of_one(answer[0]) if len(answer) == 1 else _of_many(answer)
     if any(result.record is None or result.record.period is None for result in answer):
         lead.append(INFINITE)
-    said = list(dict.fromkeys([*(text for result in answer for text in _warnings(result)), *said]))
+    # what nobody may miss: ranges with their cost, an arm file that looks wrong, bounds without proof
+    every = [result.limits for result in answer]
+    warned = ((*one.ranges, *one.doubts, *(one.gravity_notes if one.model else ())) for one in every)
+    said = list(dict.fromkeys([*chain.from_iterable(warned), *said]))
     many = len(answer) > 1
     rows = sorted(_rows(answer), key=lambda row: (row.check.verdict == ACCEPTED, many and _room(row.check)))
     blocks: list[Block] = [_table(rows[:MOST_ROWS], many)] if rows else []
@@ -50,8 +54,10 @@ def document(answer: GateAnswer) -> Document:
     formulas = tuple(f"({name}) {RULES[name].formula}" for name in shown)
     more += [*details, Section("Formulas", (Bullets(formulas),))] if formulas else details
     notes = dict.fromkeys(text for result in answer for text in result.rests_on)
+    count = len({problem.path for problem in answer.problems})
+    unread = f"; {count} other file{'s' * (count > 1)} cannot be used" if count else ""
     return Document(
-        "; ".join((_title(answer), *_unread(answer))),
+        f"{_title(answer)}{unread}",
         tuple(blocks),
         tuple(notes),
         tuple(lead[:2]),
@@ -108,12 +114,6 @@ def _holds(result: GateResult, name: str) -> str:
     return RULES[name].holds
 
 
-def _warnings(result: GateResult) -> Iterator[str]:
-    """What nobody may miss: ranges with their cost, an arm file that looks wrong, bounds without proof."""
-    limits = result.limits
-    yield from (*limits.ranges, *limits.doubts, *(limits.gravity_notes if limits.model else ()))
-
-
 def _title(answer: GateAnswer) -> str:
     verdicts = [result.verdict for result in answer]
     worst = next((v for v in (REJECTED, UNDECIDED) if v in verdicts), ACCEPTED)
@@ -125,12 +125,6 @@ def _title(answer: GateAnswer) -> str:
     counts = {word: words.count(word) for word in (REJECTED, BREAKS_19, UNDECIDED, ACCEPTED)}
     counted = "; ".join(_counted(answer, word, count) for word, count in counts.items() if count)
     return "; ".join((f"{symbol} {counted or 'no gain sets'}", *([far[1]] if far else [])))
-
-
-def _unread(answer: GateAnswer) -> Iterator[str]:
-    count = len({problem.path for problem in answer.problems})
-    if count:
-        yield f"{count} other file{'s' if count > 1 else ''} cannot be used"
 
 
 def _farthest(answer: GateAnswer) -> Fact | None:

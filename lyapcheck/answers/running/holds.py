@@ -264,7 +264,8 @@ def holds_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]
     if not held:
         return []
     far = ", ".join(f"{joints[one.joint or 0]} {degrees_above(one.error or Fraction(0))}" for one in held)
-    words = f"{_cause(held)} leaves at most {far}, at every state of rest"
+    dry = " with dry friction" if any(one.friction for one in held) else ", without dry friction,"
+    words = f"{held[0].unknown} unknown to the controller{dry} leaves at most {far}, at every state of rest"
     return [all_say((one.promise for one in held), words)]
 
 
@@ -281,11 +282,6 @@ def farthest_unknown(checks: Sequence[Check]) -> tuple[Fraction, str] | None:
 
 def _held(checks: Sequence[Check]) -> list[HoldsCheck]:
     return [check for check in checks if isinstance(check, HoldsCheck) and check.error is not None]
-
-
-def _cause(held: Sequence[HoldsCheck]) -> str:
-    dry = " with dry friction" if any(one.friction for one in held) else ", without dry friction,"
-    return f"{held[0].unknown} unknown to the controller{dry}"
 
 
 def falls(check: HoldsCheck, joints: Sequence[str]) -> str:

@@ -116,7 +116,10 @@ class SampledCheck(Check):
         if self.up_to is not None and self.most is not None:
             covered = self.named and self.record.period is not None and self.record.period <= self.most
             words = f"as run ({self.record.text if covered else self.record.how}): "
-            end = periods_text(self._asked) + inside
+            # (S) bounds the intervals of each period by a multiple of it, not by one time
+            r = self._asked.stretch
+            apart = f", no interval above {decimal_text(r)} times it" if r > 1 else ""
+            end = f"with exact readings for every period up to {time_text(self.most)}{apart}{inside}"
             said.append(self.up_to.says(f"{words}{'comes to rest' if self.rests else 'it is stable'} {end}"))
         if self.from_rest is not None:
             without = ", without the dry friction of the arm" if self.rests else ""
@@ -125,12 +128,6 @@ class SampledCheck(Check):
         if self.refuted is not None and not (told and self.verdict == REJECTED):
             said.append(unstable_text(self.refuted, self.rests))
         return said
-
-
-def periods_text(shown: SampledStable) -> str:
-    """For which periods: (S) bounds the intervals of each by a multiple of that period, not by one time."""
-    apart = f", no interval above {decimal_text(shown.stretch)} times it" if shown.stretch > 1 else ""
-    return f"with exact readings for every period up to {time_text(shown.period)}{apart}"
 
 
 def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
@@ -189,7 +186,7 @@ def sampled_check(
             return replace(known, reason=(SATURATES if record.encoder is None else STEPS).format("S"))
         why = why_not or f"(S) shows no period above {time_text(most[0])}"
     refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
-    if refuted is not None and not known.rests and _period(refuted) <= asked.period:
+    if refuted is not None and not known.rests and refuted.proof.period <= asked.period:  # type: ignore[union-attr]
         return replace(known, judgement=refuted, refuted=refuted)
     arm = limits.model
     promise, lacks = shown_from_rest(gains, arm, record, viscous_min, kept)
@@ -248,11 +245,6 @@ def largest(
     if stated == most:  # (S) is strict
         stated = significant_down(most * Fraction(9999, 10000), 4)
     return (max(stated, asked.period) if asked.period < most else stated, most), ends.index(most), ""
-
-
-def _period(refuted: JudgedStatement) -> Fraction:
-    period: Fraction = refuted.proof.period  # type: ignore[union-attr]
-    return period
 
 
 def _refuted(asked: SampledStable, arm: RobotModel | None) -> tuple[JudgedStatement | None, str]:

@@ -64,10 +64,7 @@ def _inside(one: TrackingRun) -> list[str]:
     ]
 
 
-def _yes(whether: bool) -> str:
-    return "yes" if whether else "no"
-
-
+YES = {True: "yes", False: "no"}
 SEEN = (
     Field("reference_speed", lambda one: plain(one.largest(one.speed))),
     Field("error_rate", lambda one: plain(one.largest(one.w))),
@@ -105,7 +102,7 @@ FIELDS = (
     Field("L2", "indices.L2", "L2 [°]", ".4f", plain),
     Field("", "eps0", "ε₀", lower, csv=None),
     Field("", "promise.largest", "estimated Θ′ ≻ 0 up to", lower, csv=None),
-    Field("", "promise.falls", "estimated to fall", _yes, align="l", csv=None),
+    Field("", "promise.falls", "estimated to fall", YES.__getitem__, align="l", csv=None),
     Field("band", lambda one: plain(math.degrees(one.band))),
     Field("V_start", lambda one: one.V[0], "V(0) [J]", ".5g", plain),
     Field("V_end", lambda one: one.V[-1], "V at end [J]", ".3g", plain),

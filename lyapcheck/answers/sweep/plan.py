@@ -92,14 +92,12 @@ def _of_joints(gain: Gain, n: int) -> tuple[Fraction, ...]:
 
 
 def _name(m: int, kp: tuple[Fraction, ...], kv: tuple[Fraction, ...]) -> str:
-    """What a gain set of a grid is called: what it is."""
-    parts = (f"{key} {gain_text(gains)}" for key, gains in (("kp", kp), ("kv", kv)))
+    """What a gain set of a grid is called: what it is; one number where it is the same in every joint."""
+    parts = (
+        f"{key} {','.join(map(decimal_text, gains[:1] if len(set(gains)) == 1 else gains))}"
+        for key, gains in (("kp", kp), ("kv", kv))
+    )
     return f"m{m} {' '.join(parts)}"[:LONGEST_NAME]
-
-
-def gain_text(gains: tuple[Fraction, ...]) -> str:
-    """One number where it is the same in every joint, else one a joint."""
-    return ",".join(map(decimal_text, gains[:1] if len(set(gains)) == 1 else gains))
 
 
 def read_plan(path: str | Path) -> Plan:

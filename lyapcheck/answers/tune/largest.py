@@ -156,7 +156,8 @@ def gain_range_of(
         raise ValueError("a range needs a torque limit, a friction and a bounded function")
     torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
     dampings = scaled(friction, limits.n, gamma)
-    kept = scaled(targets.share_of_kv(joint) * friction, limits.n, gamma).most_units(targets.digits)
+    share = Fraction(1) if targets.kv_share is None else targets.kv_share[joint]
+    kept = scaled(share * friction, limits.n, gamma).most_units(targets.digits)
     return GainRange(
         unit=targets.unit,
         sum_limit=_enclosed(torques),

@@ -260,7 +260,12 @@ def tune_for(
         told = part(on_progress or silent, done / len(jobs), (done + 1) / len(jobs), note)
         search = Search(bench, arms, limits, m, way, record)
         if not search.possible:
-            reasons.append(_none(m, way, limits))
+            why = "(10i) leaves no room for gains with so few decimal places; raise --digits"
+            if way == BY_19:
+                why = "(19) admits no k_v with so few decimal places; raise --digits"
+            if way == BY_19 and not limits.viscous_min:
+                why = "(19) admits no k_v without viscous friction; stability by proof does without it"
+            reasons.append(f"m = {m}: {why}")
             continue
         result = search.run(told)
         judged = accepted(result.gains, way, robot, bounds, ranges, loop)
@@ -301,13 +306,6 @@ def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tupl
     if outside(model, ranged):
         return ends, f"{text}; the values of the file lie outside"
     return (model, *ends), f"the nominal arm and {text}"
-
-
-def _none(m: int, way: str, limits: Limits) -> str:
-    if way == BY_19 and not limits.viscous_min:
-        return f"m = {m}: (19) admits no k_v without viscous friction; stability by proof does without it"
-    rule = "(19) admits no k_v" if way == BY_19 else "(10i) leaves no room for gains"
-    return f"m = {m}: {rule} with so few decimal places; raise --digits"
 
 
 def accepted(

@@ -71,10 +71,6 @@ class Targets:
         """One unit in the last decimal place of a gain."""
         return Fraction(1, 10**self.digits)
 
-    def share_of_kv(self, joint: int) -> Fraction:
-        """The share that k_v of a joint takes."""
-        return Fraction(1) if self.kv_share is None else self.kv_share[joint]
-
     def for_joints(self, n: int) -> Targets:
         """The same with one value per joint.
 
