@@ -12,12 +12,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.answers.check.run import paper_case
+from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.answers.explain import explain
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.claims import cosh, dh, expr, gamma, h, log, potential, rho, secant_bound, sqrt, tanh, var
-from lyapcheck.claims.claim import Lacking
+from lyapcheck.claims.claim import Case, Lacking
 from lyapcheck.claims.script import SHIPPED, find_script, load_proof
 from lyapcheck.claims.statements import AllOf
 from lyapcheck.errors import InputError
@@ -250,7 +250,7 @@ def reread(text):
 
 
 def test_the_statements_of_every_proof_can_be_written_out():
-    case, written = paper_case(2), 0
+    case, written = Case(*paper_case_data(2)), 0
     for script in SHIPPED:
         for claim in load_proof(find_script(script)).claims.values():
             try:

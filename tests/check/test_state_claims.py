@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.answers.check.run import paper_case
+from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About, judge, parse, read
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import above, below, damping_below, decreasing, expr, gamma, largest_with, pi, sqrt
-from lyapcheck.claims.claim import Lacking
+from lyapcheck.claims.claim import Case, Lacking
 from lyapcheck.claims.procedures import propose
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
@@ -21,7 +21,7 @@ from lyapcheck.verdicts import Verdict
 from tests.helpers.shares import one_in
 
 F = Fraction
-CASE = paper_case(2)
+CASE = Case(*paper_case_data(2))
 BOUND = F("0.406") / sqrt(3) / gamma(2)
 STATEMENT = damping_below(CASE.robot, CASE.gains, BOUND)
 

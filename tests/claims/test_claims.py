@@ -7,7 +7,7 @@ from flint import arb, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.answers.check.run import paper_case
+from lyapcheck.answers.check.run import paper_case_data
 from lyapcheck.check.expressions.expression import ball, derivative, taylor
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
@@ -59,6 +59,7 @@ from lyapcheck.claims import (
     tanh,
     var,
 )
+from lyapcheck.claims.claim import Case
 from lyapcheck.claims.decision import Decision, Judged, decided, undecided
 from lyapcheck.claims.expressions import exact_value
 from lyapcheck.claims.procedures import propose
@@ -339,7 +340,7 @@ def test_what_is_written_where_a_number_belongs_is_that_number_or_is_refused():
         lambda: for_all(x >= "1.5", gamma(2)),
         lambda: for_all(x >= 0, 0, pi),
         lambda: bounded([expr("1.5") * cos(x)], by=[gamma(2)]),
-        lambda: decreasing(paper_case(1).robot, paper_case(1).gains, h(1, "0.001")),
+        lambda: decreasing(Case(*paper_case_data(1)).robot, Case(*paper_case_data(1)).gains, h(1, "0.001")),
         lambda: largest_with(lambda eps: eps < 1, start=sqrt(2)),
     ):
         with pytest.raises(ValueError, match=r"not shown to be rational.*round it by above\("):

@@ -16,7 +16,7 @@ from lyapcheck.certificate import Certificate, to_json
 from lyapcheck.check.certificate import About, digest_of
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.statement import Statement
-from lyapcheck.claims.claim import Case, in_order
+from lyapcheck.claims.claim import in_order
 from lyapcheck.claims.decision import (
     Judged,
     Proposal,
@@ -224,11 +224,6 @@ def proposed_proof(
     proposals = _proposals(handover, asked, script.name, on_progress or silent)
     made = certificates(proposals, handover.name)
     return ProposedProof(str(path), tuple(ms), joints, model, tuple(only), handover, proposals, made)
-
-
-def paper_case(m: int) -> Case:
-    """The case of the paper: its arm and its Table 2 gains."""
-    return Case(*paper_case_data(m))
 
 
 def paper_case_data(m: int) -> CaseData:
