@@ -44,8 +44,7 @@ def _sheared(multiples: Array, sizes: Array) -> tuple[Array, Array]:
 
 PI_ABOVE = 3.1415926535897936
 SLACK = 1e-12
-_NEAR = 0.25
-"""Harmonics that turn by less than this many radians over half a box are bounded by their slope."""
+NEAR = 0.25
 
 
 @dataclass(frozen=True)
@@ -89,10 +88,13 @@ class Torus:
         entries: the polynomials.
         n: number of joints.
         sheared: whether sums of angles may be coordinates.
+        near: how far harmonics may turn over half a box, rad, that are bounded by their slope.
     """
 
-    def __init__(self, entries: Sequence[Harmonics], n: int, sheared: bool = True) -> None:
-        self.n = n
+    def __init__(
+        self, entries: Sequence[Harmonics], n: int, sheared: bool = True, near: float = NEAR
+    ) -> None:
+        self.n, self.near = n, near
         sums = [
             {(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries
         ]
@@ -129,14 +131,14 @@ class Torus:
         """Values and reach over boxes of coordinates, given by their middles and half widths, (boxes, n)."""
         values, turned = self._harmonics(middle)
         turn = half @ self._frequency.T
-        near = turn < _NEAR
+        near = turn < self.near
         far = np.minimum(turn, np.pi)
         along, across = np.cos(far), turned * np.sin(far)
         ends = values * along + across, values * along - across
         low = np.where(-values >= along, -1.0, np.minimum(*ends))
         high = np.where(values >= along, 1.0, np.maximum(*ends))
         # v cos d + u sin d at the distance d, v the value and u the slope: what is left of it without u d
-        most = np.minimum(turn, _NEAR)
+        most = np.minimum(turn, self.near)
         least = np.cos(most)
         bent = np.abs(values) * 0.5 * (1 - least) + np.abs(turned) * (most - np.sin(most))
         middles = np.where(near, values * 0.5 * (1 + least), 0.5 * (low + high))

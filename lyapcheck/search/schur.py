@@ -21,6 +21,8 @@ from lyapcheck.search.boxes import Interval, norm, of_sides, positive_definite, 
 
 RING = Ring(float, Interval.square)
 """Intervals beside exact numbers."""
+NEAR = 0.05
+"""rad: harmonics that turn by more are bounded by their ranges, with which trees have the fewest boxes."""
 BEYOND = 1 + 1e-12
 """As a multiple of the radius of the tail: doubles are not balls."""
 ANGLES = 0.25
@@ -42,14 +44,14 @@ class SchurProblem:
         member, joints = loop.member, range(loop.n)
         entries = {(i, j): loop.mass[i][j] for i in joints for j in range(i + 1)} | loop.symbols
         self.parts = [(place, powers, x) for place, entry in entries.items() for powers, x in entry.items()]
-        self.torus = Torus([x for _, _, x in self.parts], loop.n, sheared=False)
+        self.torus = Torus([x for _, _, x in self.parts], loop.n, sheared=False, near=NEAR)
         self.of_error = of_sides(lambda side: (member.h(ball(side)), member.dh(ball(side))))
 
     @cached_property
     def turning(self) -> Torus:
         """The slopes of all parts by one angle after the other."""
         slopes = [derivative(x, i) for i in self.loop.angles for _, _, x in self.parts]
-        return Torus(slopes, self.loop.n, sheared=False)
+        return Torus(slopes, self.loop.n, sheared=False, near=NEAR)
 
     def proved(self, boxes: Array) -> NDArray[np.bool_]:
         """Where P ≻ 0 on the whole box, up to rounding, or all of it lies beyond the radius of the tail."""
