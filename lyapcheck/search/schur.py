@@ -47,12 +47,6 @@ class SchurProblem:
         self.torus = Torus([x for _, _, x in self.parts], loop.n, sheared=False, near=NEAR)
         self.of_error = of_sides(lambda side: (member.h(ball(side)), member.dh(ball(side))))
 
-    @cached_property
-    def turning(self) -> Torus:
-        """The slopes of all parts by one angle after the other."""
-        slopes = [derivative(x, i) for i in self.loop.angles for _, _, x in self.parts]
-        return Torus(slopes, self.loop.n, sheared=False, near=NEAR)
-
     def proved(self, boxes: Array) -> NDArray[np.bool_]:
         """Where P ≻ 0 on the whole box, up to rounding, or all of it lies beyond the radius of the tail."""
         with np.errstate(all="ignore"):
