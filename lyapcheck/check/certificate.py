@@ -190,7 +190,17 @@ def judged(content: bytes, full: bool = False) -> Judgement:
         sealed(data)
         result = replace(result, digest=data["digest"])
         certificate = read(data)
-        result = _claimed(certificate, data, full)
+        claim = certificate.claim
+        result = replace(
+            result,
+            claim=claim.id,
+            label=plain(claim.id),
+            says=shortened(" ".join(claim.says.split()).replace("”", "’’"), full),
+            m=claim.m,
+            n=claim.n,
+            verdict=certificate.verdict,
+            uses=dict(sorted(certificate.uses.items())),
+        )
         return _shown(result, certificate, data, judge(certificate).grade, full)
     except (UnicodeDecodeError, JSONDecodeError) as error:
         return replace(result.refused(f"is not JSON in UTF-8 ({error})"), unreadable=True)
@@ -200,32 +210,17 @@ def judged(content: bytes, full: bool = False) -> Judgement:
         return result.refused(f"cannot be judged ({type(error).__name__}: {error})")
 
 
-def _claimed(certificate: Certificate, data: Any, full: bool) -> Judgement:
-    claim = certificate.claim
-    return Judgement(
-        digest=data["digest"],
-        claim=claim.id,
-        label=plain(claim.id),
-        says=shortened(" ".join(claim.says.split()).replace("”", "’’"), full),
-        m=claim.m,
-        n=claim.n,
-        verdict=certificate.verdict,
-        uses=dict(sorted(certificate.uses.items())),
-    )
-
-
 def _shown(result: Judgement, certificate: Certificate, data: Any, grade: str, full: bool) -> Judgement:
-    statement = certificate.statement
-    decided = decided_by(statement, certificate.proof, certificate.verdict, data["statement"])
-    shown = certificate.verdict == "proved"
-    shows = tuple((digest_of(part), verdict, where) for part, verdict, where in decided)
+    statement, verdict = certificate.statement, certificate.verdict
+    decided = decided_by(statement, certificate.proof, verdict, data["statement"])
+    shows = tuple((digest_of(part), said, where) for part, said, where in decided)
     return replace(
         result,
         grade=grade,
         statement=shortened(statement.decided_text(certificate.proof), full),
         statement_digest=shows[0][0],
         shows=shows,
-        theorems=statement.theorems if shown else (),
+        theorems=statement.theorems if verdict == "proved" else (),
         granted=statement.granted,
         rules=tuple(sorted(set(_rules(certificate)))),
     )

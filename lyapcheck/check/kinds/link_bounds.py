@@ -206,13 +206,9 @@ class LinkBounds(RateProof):
         require(made, "links", len(self.arms), "do not make M(q) at the corners of its ranges")
         sizes = {len(self.rising), len(self.falling)}
         require(sizes == {n - 1}, "rates", sizes, f"must be bounded for {n - 1} joints")
-        require(self._bounds_shown(), "forms", "", "do not show the bounds of M and its rates")
-        require(self._boxes_shown(loop), "boxes", self.tree.count("."), "do not show dV/dt < 0 at every e")
-
-    def _bounds_shown(self) -> bool:
         same = all(up.prices == down.prices for up, down in zip(self.rising, self.falling, strict=True))
         energy = [storage.energy(links, 1) for links in self.arms]
-        return (
+        shown = (
             same
             and self.inertia.holds(energy, 2)
             and all(
@@ -221,10 +217,11 @@ class LinkBounds(RateProof):
                 for k, bound in enumerate(bounds)
             )
         )
+        require(shown, "forms", "", "do not show the bounds of M and its rates")
+        require(self._boxes_shown(loop), "boxes", self.tree.count("."), "do not show dV/dt < 0 at every e")
 
     def _boxes_shown(self, loop: ClosedLoop) -> bool:
-        size = 1 + 2 * loop.n
-        count = self.tree.count(".")
+        size, count = 1 + 2 * loop.n, self.tree.count(".")
         if len(self.scales) != size * count or not set(self.scales) <= set(SCALE):
             return False
         start: Box = tuple((0.0, far) for far in loop.farthest)
