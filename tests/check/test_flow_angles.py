@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from lyapcheck.check.kinds.flow import Flow, known_of_sine
-from lyapcheck.check.kinds.sum_of_squares import Product, Squares, SumOfSquares
+from lyapcheck.check.kinds.implies import Product, Squares, SumOfSquares
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import converges_to, cos, enters, global_, implies, local, reals, sin, system, var

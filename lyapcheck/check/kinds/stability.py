@@ -50,7 +50,7 @@ class Stable(Total):
 
     @property
     def granted(self) -> tuple[str, ...]:
-        return granted_of(self.argument)
+        return tuple(_granted(self.argument))
 
     @property
     def conclusion(self) -> str:
@@ -185,11 +185,6 @@ DIFFERENCES = {
     "ad": "‖q̈_d‖ ≤ ad",
 }
 """What is granted where a bound has the constant, for q_d(t)."""
-
-
-def granted_of(argument: Argument) -> tuple[str, ...]:
-    """What holds of the arm and of the letters."""
-    return tuple(_granted(argument))
 
 
 def _granted(argument: Argument) -> Iterator[str]:
@@ -343,7 +338,7 @@ class Property(Total):
 
     @property
     def granted(self) -> tuple[str, ...]:
-        return granted_of(self.argument)
+        return tuple(_granted(self.argument))
 
     def text(self) -> str:
         """The property, of which system and of which V."""

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from flint import fmpq, fmpq_mpoly
 
-from lyapcheck.check.kinds.implies import Implies, Signs
-from lyapcheck.check.kinds.sum_of_squares import gaps_of, letters_of
+from lyapcheck.check.kinds.implies import Implies, Signs, gaps_of, letters_of
 from lyapcheck.claims.procedures.gram import as_float
 
 if TYPE_CHECKING:

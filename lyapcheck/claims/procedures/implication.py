@@ -24,9 +24,9 @@ from lyapcheck.check.kinds.implies import (
     Multiple,
     SignIdentity,
     Signs,
+    gaps_of,
     signs_of,
 )
-from lyapcheck.check.kinds.sum_of_squares import gaps_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Variable
 from lyapcheck.check.verify import verify

@@ -20,8 +20,18 @@ from math import log2
 import numpy as np
 from flint import fmpq, fmpq_mpoly
 
-from lyapcheck.check.kinds.implies import Exponents, Implies, Monomial, Signs, signs_of
-from lyapcheck.check.kinds.sum_of_squares import Product, Squares, SumOfSquares, gaps_of, letters_of
+from lyapcheck.check.kinds.implies import (
+    Exponents,
+    Implies,
+    Monomial,
+    Product,
+    Signs,
+    Squares,
+    SumOfSquares,
+    gaps_of,
+    letters_of,
+    signs_of,
+)
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import verify
