@@ -163,8 +163,8 @@ def _proof(report: Report) -> str:
     more = f"; {wrong} more of its statements fail without harm to the proposition" if wrong else ""
     errors = report.errors()
     counted = f"{len(errors['quoted'])} of its own sentences and {len(errors['implied'])} that it relies on"
-    ours = f", beside {len(errors['ours'])} further questions of ours" if errors["ours"] else ""
-    return f"Its printed proof breaks at {and_list(broken)}{more}. Refuted are {counted}{ours}."
+    ours = f" {len(errors['ours'])} further refuted claims are ours, not the paper's." if errors["ours"] else ""
+    return f"Its printed proof breaks at {and_list(broken)}{more}. Refuted are {counted}.{ours}"
 
 
 def _gains(report: Report) -> tuple[str, ...]:
@@ -196,7 +196,7 @@ def _gains(report: Report) -> tuple[str, ...]:
         every = len(proved) == len(judged)
         whom = and_list(proved) if not every else "it" if len(proved) == 1 else "all of them"
         arm = " on this arm" if every and report.own else ""
-        so = ", so all are stable all the same" if every and failed and not report.own else ""
+        so = ", so all are still stable" if every and failed and not report.own else ""
         tail = f"; dV/dt < 0 at every state is proved for {whom}{arm}{where}{so}"
     if limitless:
         what = "it is" if proved else "dV/dt < 0 at every state is"

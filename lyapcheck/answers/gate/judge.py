@@ -214,7 +214,7 @@ def judged_sets(
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
         result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, grounds, record)
-        # what breaks (19) may be stable all the same
+        # what breaks (19) may still be stable
         known = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
         if more and not known and result.verdict_of(("19",)) == REJECTED:
             result = replace(result, otherwise=prover.otherwise(gains))
