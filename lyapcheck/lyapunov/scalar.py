@@ -40,7 +40,7 @@ _PER_DEGREE = (Fraction(57295779513082, 10**12), Fraction(57295779513083, 10**12
 
 @dataclass(frozen=True)
 class RobotBounds:
-    """Proved bounds of one arm.
+    """Enclosures of the bounds of one arm, which the checker judges only within a certificate.
 
     Args:
         beta_M: at least ‖M(q)‖ for all q, kg·m².
