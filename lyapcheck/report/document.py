@@ -306,9 +306,9 @@ MEMBER = (
     Field("", "m", "m", align="l"),
     Field("", lambda row: math.nan if row.L2 is None else row.L2, "L2 [°]", ".2f"),
     Field("", lambda row: max(abs(e) for e in row.final_error if e is not None), "last error [°]", ".2f"),
-    Field("", _most_share, "torque share", ".2f"),
+    Field("", _most_share, "torque / limit", ".2f"),
     Field("", "top_speed", "top speed [rad/s]", ".2f"),
-    Field("", "rest", "friction leaves [°]", _leaves),
+    Field("", "rest", "friction error [°]", _leaves),
 )
 """What is said of a member's run."""
 

@@ -285,9 +285,9 @@ class BenchTuning(Answer):
             Field("", lambda one: one.stable or NONE, "stable by", align="l"),
             Field("", lambda one: one.trial.worst(self.bench.wishes), "worst", _times),
             Field("", lambda one: _most(one.trial.overshoot), "overshoot [%]", _up),
-            Field("", lambda one: _most(one.trial.settled, none_is_worst=True), "settles [s]", _seconds),
-            Field("", lambda one: _most(one.trial.share), "torque share", _up),
-            Field("", lambda one: float(max(one.trial.rest)), "friction leaves [°]", _degrees),
+            Field("", lambda one: _most(one.trial.settled, none_is_worst=True), "settling [s]", _seconds),
+            Field("", lambda one: _most(one.trial.share), "torque / limit", _up),
+            Field("", lambda one: float(max(one.trial.rest)), "friction error [°]", _degrees),
         )
         return table(fields, [(one,) for one in self.sets], keys=2)
 
@@ -310,11 +310,11 @@ class BenchTuning(Answer):
             Field("kp", "gains.kp", "k_p", gain, decimal_texts, each=True),
             Field("kv", "gains.kv", "k_v", gain, decimal_texts, each=True),
             Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
-            Field("settling", "trial.settled", "settles [s]", _seconds, _sixes, each=True),
-            Field("torque_share", "trial.share", "torque share", _up, _sixes, each=True),
-            Field("rest_error", self._rests, "friction leaves [°]", _degrees, _sixes, each=True),
+            Field("settling", "trial.settled", "settling [s]", _seconds, _sixes, each=True),
+            Field("torque_share", "trial.share", "torque / limit", _up, _sixes, each=True),
+            Field("rest_error", self._rests, "friction error [°]", _degrees, _sixes, each=True),
             Field(
-                "held_by", lambda one: one.held or ("",) * len(self.joints), "held by", align="l", each=True
+                "held_by", lambda one: one.held or ("",) * len(self.joints), "limited by", align="l", each=True
             ),
         )
 
