@@ -163,7 +163,8 @@ def _proof(report: Report) -> str:
     more = f"; {wrong} more of its statements fail without harm to the proposition" if wrong else ""
     errors = report.errors()
     counted = f"{len(errors['quoted'])} of its own sentences and {len(errors['implied'])} that it relies on"
-    ours = f" {len(errors['ours'])} further refuted claims are ours, not the paper's." if errors["ours"] else ""
+    count = len(errors["ours"])
+    ours = f" {count} further refuted claims are ours, not the paper's." if count else ""
     return f"Its printed proof breaks at {and_list(broken)}{more}. Refuted are {counted}.{ours}"
 
 
