@@ -26,6 +26,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import PROSE
 
+FORMULA = re.compile(r"\(\w+\)")
 ACCENTS = {"'": "\N{COMBINING ACUTE ACCENT}", "~": "\N{COMBINING TILDE}"}
 SHOWN_MEMBER = 2
 """The m at which statements are written out: the first with a peak."""
@@ -66,6 +67,7 @@ class Explanation(Answer):
         reference: the text, or its key in the bibliography.
         uses: the claims it rests on, and what they say.
         used_by: the claims that rest on it, and what they say.
+        near: the other claims about the same formulas of the text, and what they say.
         case: the m, n and arm at which the parts are written out; empty where they depend on none of them.
         parts: what is decided.
         lacking: why nothing can be decided for the paper's arm, empty where it can.
@@ -85,6 +87,7 @@ class Explanation(Answer):
     reference: str
     uses: tuple[tuple[str, str], ...]
     used_by: tuple[tuple[str, str], ...]
+    near: tuple[tuple[str, str], ...]
     case: str
     parts: tuple[Part, ...]
     lacking: str
@@ -119,6 +122,7 @@ class Explanation(Answer):
         ]
         remarks = (cut(f"decided{case}: {'; '.join(stated)}", 3 * PROSE), *links)
         how = tuple(block for text in self.procedures for block in _blocks(text))
+        about = f"Also about {', '.join(FORMULA.findall(self.place))}"
         sections = (
             ("Verdicts", (Bullets(self.found),) if self.found else ()),
             (f"What is decided{case}", tuple(map(Paragraph, stated))),
@@ -126,6 +130,7 @@ class Explanation(Answer):
             ("Assumptions", (Bullets(self.granted),) if self.granted else ()),
             ("What it uses", (_claims(self.uses),)),
             ("What uses it", (_claims(self.used_by),)),
+            (about, (_claims(self.near),) if self.near else ()),
         )
         return Document(
             title,
@@ -156,7 +161,7 @@ class Explanation(Answer):
     def data(self) -> dict[str, Any]:
         """The fields by their names, and the command that decides the claim."""
         plain = ("id", "says", "script", "title", "place", "reference", "case", "lacking")
-        linked = {"uses": self.uses, "used_by": self.used_by}
+        linked = {"uses": self.uses, "used_by": self.used_by, "near": self.near}
         return {
             **{name: getattr(self, name) for name in plain},
             **{key: [{"id": name, "says": says} for name, says in claims] for key, claims in linked.items()},
@@ -263,6 +268,7 @@ def explain(
     values = {"m": f"m = {m}", "n": f"n = {n}", "robot": robot.name}
     stated = handover.stated(answer)
     statement = None if isinstance(stated, Missing) else stated
+    formulas = set(FORMULA.findall(claim.place))
     return Explanation(
         id=claim.id,
         says=claim.says,
@@ -272,6 +278,11 @@ def explain(
         reference=handover.reference,
         uses=tuple((used, claims[used].says) for used in claim.uses),
         used_by=tuple((other.id, other.says) for other in handover.claims if claim.id in other.uses),
+        near=tuple(
+            (other.id, other.says)
+            for other in handover.claims
+            if other != claim and formulas & {*FORMULA.findall(other.place)}
+        ),
         case=", ".join(value for name, value in values.items() if name in answer.read),
         parts=() if statement is None else tuple(_parts("", statement)),
         lacking=stated.reason if isinstance(stated, Missing) else "",

@@ -279,6 +279,7 @@ def joined(values: Sequence[Any], places: int = 2) -> str:
 RUN = (
     Field("", "name", "gains", align="l"),
     Field("", "L2", "L2 [°]", lambda x: fixed(x, 3)),
+    Field("", lambda row: (row.printed or {}).get("L2"), "measured L2 [°]", lambda x: fixed(x, 3)),
     Field("", "settling", "settling [s]", joined),
     Field("", "overshoot", "overshoot [%]", lambda x: joined(x, 1)),
     Field("", "peak_torque", "peak torque [N·m]", lambda x: joined(x, 1)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,8 +12,8 @@ from lyapcheck._types import Array
 from lyapcheck.control.limits import kept_bounds
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.simulate.breach import LEAST_ENERGY
-from lyapcheck.simulate.run import Indices, Promises
-from lyapcheck.simulate.task import Gains, Setup
+from lyapcheck.simulate.run import Indices, Promises, Run
+from lyapcheck.simulate.task import PAPER_TASK, Gains, Setup
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -220,3 +220,48 @@ def _indices(t: Array, e: Array, tau: Array, L2: float, band: float) -> Indices:
 def imbalance(error: Array, *sizes: Array) -> float:
     """The largest error of an account of energy, relative to the largest of what was counted."""
     return float(np.max(np.abs(error))) / max(*(float(np.max(np.abs(x))) for x in sizes), LEAST_ENERGY)
+
+
+# --- What the paper measured, to be put beside what the model does; nothing here is used to compute anything.
+
+
+PAPER_ARM = "buap3"
+
+
+@dataclass(frozen=True)
+class PrintedIndices:
+    """The printed performance of one controller of the experiment.
+
+    References: ``reyes2019family``, Section 4, Table 2 and Fig. 11.
+    """
+
+    m: int | None
+    """``None`` for PD."""
+    kp: tuple[float, ...]
+    """N·m (PD: N·m/°)."""
+    kv: tuple[float, ...]
+    L2: float
+    """degrees, (20)."""
+    settling: tuple[float, ...] | None
+    """s per joint; the band is not printed. For m = 1 the paper says only: below 1.4 s."""
+    final_error: tuple[float, ...]
+    """degrees."""
+
+
+PRINTED = (
+    PrintedIndices(1, (28, 60, 5), (0.233,) * 3, 25.4006, None, (-0.5774, 0.1272, -0.051)),
+    PrintedIndices(2, (27, 50, 5), (0.223,) * 3, 24.6892, (0.994, 0.997, 0.929), (-0.1849, 0.4876, 0.1867)),
+    PrintedIndices(3, (25, 50, 5), (0.223,) * 3, 23.4006, (0.892, 0.923, 0.867), (-0.3717, 0.3009, 0.2024)),
+    PrintedIndices(
+        None, (0.8, 2.5, 0.133), (0.4, 0.75, 0.01), 27.8546, (1.14, 0.959, 0.952), (-0.2566, -0.7238, -0.8646)
+    ),
+)
+
+
+def printed_for(run: Run) -> PrintedIndices | None:
+    """The printed numbers of the same gains, arm and task; none for anything the paper did not run."""
+    if run.robot != PAPER_ARM or run.task != PAPER_TASK:
+        return None
+    family, written = run.gains.family, run.gains.written
+    known = {("linear" if x.m is None else "hyperbolic", x.m, x.kp, x.kv): x for x in PRINTED}
+    return known.get((family.name, family.m, *written))

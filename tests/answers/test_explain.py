@@ -22,6 +22,7 @@ from lyapcheck.claims.script import SHIPPED, find_script, load_proof
 from lyapcheck.claims.statements import AllOf
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Bullets
+from lyapcheck.output.text import Depth, View
 from tests.helpers.command import invoke
 from tests.oracle.numbers import Undefined, Unsure, constant, lifted
 from tests.oracle.trees import Evaluation
@@ -169,9 +170,15 @@ def test_a_notebook_gets_the_statement_and_what_it_uses():
     result = explain("7a")
     shown = result._repr_html_()
     assert "<p>‖(h_2(x))ᵢ‖ ≤ √3·γ_2" in shown
-    tables = (result.uses, result.used_by)
+    tables = (result.uses, result.used_by, result.near)
     assert all(tables)
-    assert shown.count("<tr>") == 2 + sum(map(len, tables))
+    assert shown.count("<tr>") == 3 + sum(map(len, tables))
+
+
+def test_other_claims_about_the_same_formula_are_named():
+    assert {"19n", "19.gains", "T2.19.m2.true"} < {name for name, _ in explain("19").near}
+    assert "Also about (16)\n" in explain("16.6").written("text", View(Depth.VERBOSE))
+    assert explain("2.7").near == ()
 
 
 x, y = var("x"), var("y")

@@ -111,6 +111,14 @@ def test_a_record_of_random_starts_is_a_quantity() -> None:
     assert l2["without"] == "0"
 
 
+def test_joints_of_a_record_have_the_printed_numbers_beside_them() -> None:
+    run = simulate(TABLE2[1], robots.load("buap3"), TARGET, points=51)
+    rows = SetPointRuns((run,)).records()
+    assert [row["printed_settling"] for row in rows] == [0.994, 0.997, 0.929]
+    assert {row["printed_L2"] for row in rows} == {24.6892}
+    assert {row["printed_L2"] for row in SetPointRuns((short_run(),)).records()} == {None}
+
+
 def test_a_broken_promise_fails_in_every_system() -> None:
     answer = SetPointRuns((broken_run(), short_run(1)), file=FILE)
     assert answer.exit_code is Exit.REFUTED

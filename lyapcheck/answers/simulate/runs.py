@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers.running import running_sentences
@@ -32,7 +33,7 @@ from lyapcheck.output.digits import NONE, shown
 from lyapcheck.output.document import Block, Bullets, Section
 from lyapcheck.output.fields import Field
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.results import BAND, SETTLING_BAND
+from lyapcheck.simulate.results import BAND, SETTLING_BAND, printed_for
 from lyapcheck.simulate.run import Run
 
 if TYPE_CHECKING:
@@ -48,6 +49,18 @@ INSIDE = {True: "yes", False: "NO", None: ""}
 
 def _falls(rises_at: float | None) -> str:
     return "never rose" if rises_at is None else f"ROSE at {shown(rises_at, '.4g')} s"
+
+
+def _printed(key: str, one: Run) -> Any:
+    return (_paper(one) or {}).get(key)
+
+
+def _paper(one: Run) -> dict[str, Any] | None:
+    paper = printed_for(one)
+    if paper is None:
+        return None
+    settling = None if paper.settling is None else list(paper.settling)
+    return {"L2": paper.L2, "settling": settling, "final_error": list(paper.final_error)}
 
 
 def _loop_text(loop: LoopRecord) -> str:
@@ -93,6 +106,11 @@ FIELDS = (
     Field("inside_bound", "promises.inside_bound"),
     Field("accuracy", "accuracy", to=plain),
     Field("energy_balance", "energy_balance", to=plain),
+    Field("printed", _paper, csv=None),
+    *(
+        Field("", partial(_printed, key), each=key != "L2", csv=f"printed_{key}")
+        for key in ("L2", "settling", "final_error")
+    ),
     Field("loop", "loop", to=_loop_text),
     Field("unrest", "unrest", to=vars, csv=None),
     Field("", "unrest.sentence", csv="unrest"),
@@ -179,7 +197,18 @@ def _facts(one: Run) -> tuple[str, ...]:
     beyond = "‖τ‖ went BEYOND the bound (9)" if one.promises.inside_bound is False else ""
     balance = "" if math.isnan(one.energy_balance) else f"; energy balance {sized(one.energy_balance)}"
     checks = accuracy(one) + ("" if math.isnan(one.accuracy) else balance)
-    return tuple(filter(None, (rates, beyond, checks)))
+    return tuple(filter(None, (rates, beyond, checks, _beside(one))))
+
+
+def _beside(one: Run) -> str:
+    """What the paper measured on its bench, where it ran the same."""
+    paper = printed_for(one)
+    if paper is None or not one.complete:
+        return ""
+    error = ", ".join(f"{x:g}" for x in paper.final_error)
+    when = "below 1.4" if paper.settling is None else ", ".join(f"{x:g}" for x in paper.settling)
+    settled = f"settling {when} s (band not printed)"
+    return f"the paper measured L2 {paper.L2:.4f}°, {settled}, final error {error}°"
 
 
 def breach_certificate(run: Run, gains: GainSet, model: RobotModel) -> Certificate | None:

@@ -314,7 +314,11 @@ class BenchTuning(Answer):
             Field("torque_share", "trial.share", "torque / limit", _up, _sixes, each=True),
             Field("rest_error", self._rests, "friction error [°]", _degrees, _sixes, each=True),
             Field(
-                "held_by", lambda one: one.held or ("",) * len(self.joints), "limited by", align="l", each=True
+                "held_by",
+                lambda one: one.held or ("",) * len(self.joints),
+                "limited by",
+                align="l",
+                each=True,
             ),
         )
 

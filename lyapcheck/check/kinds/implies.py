@@ -1,6 +1,12 @@
 """Implications between inequalities: identities of signs or sums of squares, or a point at which they fail.
 
-References: ``stengle1974nullstellensatz`` (these certificates are its simplest members).
+Polynomials are also shown by an identity  (1 + σ)·C = Σ μ_k σ_k H_k. C is the gap of the conclusion. H_k are
+gaps of hypotheses, or 1. μ_k are monomials that are never negative. σ and σ_k are zᵀ L D Lᵀ z: z are
+monomials, L has ones on its diagonal and 0 above it, and D ≥ 0 is diagonal. If H_k ≥ 0 and −H_k ≥ 0 are both
+hypotheses, they are an equation, and μ_k σ_k may be any polynomial. Monomials are of variables and of sines
+and cosines; both sides are compared with cos² = 1 − sin².
+
+References: ``stengle1974nullstellensatz``, ``putinar1993positive``, ``parrilo2003semidefinite``.
 """
 
 from __future__ import annotations
@@ -167,16 +173,7 @@ def signs_of(statement: Implies) -> Signs:
     return Signs(statement.variables, statement.hypotheses, statement.conclusion)
 
 
-# --- Implications between polynomials, shown by an identity  (1 + σ)·C = Σ μ_k σ_k H_k.
-#
-# C is the gap of the conclusion. H_k are gaps of hypotheses, or 1. μ_k are monomials that are never negative.
-# σ and σ_k are zᵀ L D Lᵀ z: z are monomials, L has ones on its diagonal and 0 above it, and D ≥ 0 is
-# diagonal. If H_k ≥ 0 and −H_k ≥ 0 are both hypotheses, they are an equation, and μ_k σ_k may be any
-# polynomial. Monomials are of variables and of sines and cosines; both sides are compared with
-# cos² = 1 − sin².
-#
-# References: ``putinar1993positive``, ``parrilo2003semidefinite``.
-
+# --- Sums of squares.
 
 MOST_MONOMIALS, MOST_DEGREE = 200, 64
 """Of all vectors together, and of a monomial."""
