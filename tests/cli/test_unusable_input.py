@@ -84,11 +84,12 @@ def test_a_clean_run_has_no_invocation(capsys: pytest.CaptureFixture[str]) -> No
 @pytest.mark.usefixtures("place")
 def test_others_read_what_is_written(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The parsers of two programs that show such files."""
-    junitparser = pytest.importorskip("junitparser")
-    sarif = pytest.importorskip("sarif.loader")
+    import junitparser
+    from sarif import loader
+
     (place / "j.xml").write_text(written(COMMANDS[0][0], "junit", capsys)[0], encoding="utf-8")
     (place / "s.sarif").write_text(written(COMMANDS[0][0], "sarif", capsys)[0], encoding="utf-8")
     suites = junitparser.JUnitXml.fromfile(str(place / "j.xml"))
     suites.update_statistics()
     assert (suites.tests, suites.errors) == (2, 1)
-    assert sarif.load_sarif_file(str(place / "s.sarif")).get_result_count() == 1
+    assert loader.load_sarif_file(str(place / "s.sarif")).get_result_count() == 1
