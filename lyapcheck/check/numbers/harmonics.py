@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
+from math import lcm
 
 Harmonic = tuple[int, ...]
 """Integer multiples k of the joint angles; the first that is not zero is positive."""
@@ -27,12 +28,15 @@ def harmonics(terms: Iterable[Term], n: int) -> Harmonics:
     With z = exp(i k·q) each s is (z − 1/z)/(2i) and each c is (z + 1/z)/2; the coefficients stay Gaussian
     rationals, and those of k and −k are conjugate.
     """
-    total: dict[Harmonic, Gaussian] = {}
-    for powers, coefficient in terms:
-        share = coefficient / 2 ** sum(powers[: 2 * n])
-        for k, value in _product(powers[:n], powers[n : 2 * n]).items():
-            _add(total, k, (value[0] * share, value[1] * share))
-    return _real(total)
+    shares = [(powers, Fraction(coefficient, 2 ** sum(powers[: 2 * n]))) for powers, coefficient in terms]
+    scale = lcm(*(share.denominator for _, share in shares))  # adding integers takes a tenth of the time
+    total: _Integers = {}
+    for powers, share in shares:
+        whole = share.numerator * (scale // share.denominator)
+        for k, (re, im) in _product(powers[:n], powers[n : 2 * n]).items():
+            old = total.get(k, (0, 0))
+            total[k] = old[0] + whole * re, old[1] + whole * im
+    return _real({k: (Fraction(re, scale), Fraction(im, scale)) for k, (re, im) in total.items()})
 
 
 Uncertain = dict[tuple[int, ...], Harmonics]
