@@ -20,6 +20,8 @@ WITHOUT_WORDS = {
     ("GravityBelow", "joints"): "of a gravity that is 0",
     ("Stable", "argument.system.functions.member"): "bounds of a function that is printed",
     ("StableArm", "argument.system.functions.member"): "bounds of a function that is printed",
+    ("Stable", "argument.rest"): "how it is shown that the goal is the only state of rest",
+    ("StableArm", "argument.rest"): "how it is shown that the goal is the only state of rest",
     ("Property", "argument"): "how the property of the printed loop and V is shown",
 }
 """What the words leave out, and what it is."""
