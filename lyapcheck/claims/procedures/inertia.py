@@ -7,7 +7,7 @@ bounds by the sizes of harmonics; against any of them the worst of many random p
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -57,13 +57,17 @@ from lyapcheck.constants.storage import storage_proof
 from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import Number
+from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.search.controlled_arm import mass_proof
+from lyapcheck.search.sampled import arm_of_terms
 
 INERTIA, GRAVITY = "inertia", "gravity"
 SAMPLES = 400
 MOST_BOXES_JOINTS = 4
 OfArm = MassAbove | MassBelow | CoriolisBelow | GravityBelow
+Place = tuple[tuple[Fraction, ...], tuple[Fraction, ...]]
+"""Angles and parameters."""
 Posture = tuple[float, PostureWitness]
 """What a bound is about there, and the witness with its vectors."""
 
@@ -94,7 +98,10 @@ def _found(statement: OfArm, quick: list[Proof], method: str, advice: str) -> Se
         if proves(statement, proof):
             return shown(proof, f"{method}: {proof.rule}")
     random = np.random.default_rng(SEED)
-    value, against = max((_sampled(statement, random) for _ in range(SAMPLES)), key=lambda row: row[0])
+    drawn: Iterable[Place] = (_drawn(statement, random) for _ in range(SAMPLES))
+    if isinstance(statement, MassAbove | MassBelow) and not statement.parameters:
+        drawn = [_worst(statement, list(drawn))]
+    value, against = max((_at(statement, *place, random) for place in drawn), key=lambda row: row[0])
     if refutes(statement, against):
         point = entries(q=against.q, x=against.x, y=against.y, p=against.parameters)
         if isinstance(statement, MassAbove):
@@ -108,11 +115,25 @@ def _found(statement: OfArm, quick: list[Proof], method: str, advice: str) -> Se
     return still_open(f"it is not shown, and no posture breaks it; {advice}", method)
 
 
-def _sampled(statement: OfArm, random: np.random.Generator) -> Posture:
-    """A random posture, at a corner of the ranges, with the vectors at which it breaks the bound most."""
+def _drawn(statement: OfArm, random: np.random.Generator) -> Place:
+    """A random posture, at a corner of the ranges."""
     n = statement.joints if isinstance(statement, GravityBelow) else len(statement.mass)
     q = tuple(Fraction(int(k), 64) for k in random.integers(-201, 202, n))
-    parameters = tuple(pair[int(random.integers(2))] for pair in statement.parameters)
+    return q, tuple(pair[int(random.integers(2))] for pair in statement.parameters)
+
+
+def _worst(statement: MassAbove | MassBelow, drawn: Sequence[Place]) -> Place:
+    """The posture of the least or largest M, in floating point: balls take minutes for seven joints."""
+    arm = NumericModel(arm_of_terms(statement.mass, ()))
+    values = np.linalg.eigvalsh(arm.mass(np.array([q for q, _ in drawn], dtype=float)))
+    return drawn[int(values[:, 0].argmin() if isinstance(statement, MassAbove) else values[:, -1].argmax())]
+
+
+def _at(
+    statement: OfArm, q: tuple[Fraction, ...], parameters: tuple[Fraction, ...], random: np.random.Generator
+) -> Posture:
+    """A posture with the vectors at which it breaks the bound most."""
+    n = len(q)
     if isinstance(statement, GravityBelow):
         torques = [float(value) for value in statement.at(q, parameters)]
         return float(np.linalg.norm(torques)), PostureWitness(q, parameters, ())
