@@ -353,7 +353,7 @@ def _swings(loop, slope, fading):
     even = len(sizes) == 0 or sizes.max() < 1e3 * sizes.min()
     sloped = all(abs(function(np.array([1e-3]))[0]) > 1e-4 for function in loop.functions.values())
     values, vectors = np.linalg.eig(slope)
-    lasting = vectors[:, values.real > -1e-9 * np.abs(values).max()]
+    lasting = vectors[:, values.real > -1e-12 * np.abs(values).max()]  # slow is not lasting
     parts = dict(zip(loop.system.moving, np.split(lasting, loop.ends[:-1]), strict=True))
     return even and sloped and any(np.abs(parts[name]).max(initial=0) > 1e-4 for name in fading)
 
