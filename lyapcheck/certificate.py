@@ -65,6 +65,10 @@ class Certificate(read.Certificate):
 
 def to_json(value: Any) -> Any:
     """Data as JSON values."""
+    if isinstance(value, tuple):  # first: M(q) of seven joints has half a million entries
+        return [to_json(part) for part in value]
+    if isinstance(value, Fraction):
+        return str(value)
     if is_dataclass(value) and not isinstance(value, type):
         usual, parts = left_out(type(value)), vars(value)
         own = {
@@ -74,6 +78,4 @@ def to_json(value: Any) -> Any:
         }
         tag = next(({key: name_of(type(value))} for base, key in TAGS.items() if isinstance(value, base)), {})
         return tag | own
-    if isinstance(value, tuple):
-        return [to_json(part) for part in value]
-    return str(value) if isinstance(value, Fraction) else value
+    return value

@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cached_property
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
-from flint import arb, ctx
+from flint import ctx
 
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
@@ -131,22 +131,22 @@ class ArmBounds:
         self.viscous = tuple(number.value for number in self.robot.viscous)
         self.b_min, self.b_max = min(self.viscous), max(self.viscous)
 
-    @cached_property
+    @property
     def mass(self) -> Mass:
         """M(q) as statements have it."""
         return self.robot.mass_terms
 
-    @cached_property
+    @property
     def inertia(self) -> Inertia:
         """M(q) as the checker bounds it."""
-        return Inertia(self.mass, ())
+        return _inertia(self.robot)
 
-    @cached_property
+    @property
     def beta(self) -> Fraction:
         """β_M, kg·m²."""
         return above(self.inertia.largest_row)
 
-    @cached_property
+    @property
     def kc(self) -> Fraction:
         """k_c, kg·m²."""
         return above(sqrt(self.inertia.squares_of_symbols))
@@ -155,8 +155,11 @@ class ArmBounds:
         """Half of λmin(M) at a few postures, down to a power of two, kg·m²: a proposal for ``mass_above``."""
         import numpy as np
 
-        postures = ([Fraction(k * (i + 1), 3) for i in range(self.robot.n)] for k in range(7))
-        result = min(float(np.linalg.eigvalsh(_doubles(self.inertia.at(q, ())))[0]) for q in postures)
+        from lyapcheck.robots.numeric import NumericModel
+
+        model = NumericModel(self.robot)
+        postures = np.array([[k * (i + 1) / 3 for i in range(self.robot.n)] for k in range(7)])
+        result = float(np.linalg.eigvalsh(model.mass(postures)).min())
         return Fraction(2) ** math.floor(math.log2(result / 2)) if result > 0 else Fraction(1, 2**20)
 
     def mass_above(self, low: object = 0) -> MassAbove:
@@ -172,8 +175,10 @@ class ArmBounds:
         return CoriolisBelow(self.mass, (), self.kc)
 
 
-def _doubles(rows: list[list[arb]]) -> list[list[float]]:
-    return [[float(entry) for entry in row] for row in rows]
+@lru_cache(maxsize=4)
+def _inertia(robot: RobotModel) -> Inertia:
+    """Several claims ask for that of the same robot, and its harmonics can take seconds."""
+    return Inertia(robot.mass_terms, ())
 
 
 def largest_with(holds: Callable[[Fraction], bool], start: object = 1) -> Fraction | None:

@@ -75,7 +75,7 @@ class RobotModel:
         """M(q), rows of polynomials in normal form, kg·m²; raises `TooLong` where those are not worth it."""
         return self.dynamics.polynomials.mass
 
-    @property
+    @cached_property
     def mass_terms(self) -> tuple[tuple[Monomials, ...], ...]:
         """M(q) as statements have it."""
         return tuple(tuple(tuple(to_terms(entry)) for entry in row) for row in self.mass)

@@ -17,7 +17,7 @@ from lyapcheck.check.loop.field import BALLS, SPANS, BrokenTree, Span, halves, l
 from lyapcheck.check.loop.schur import Evaluator, proves, proves_part
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, mirrored
+from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, is_mirrored
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
@@ -171,9 +171,14 @@ def test_harmonics_and_symbols_agree_with_the_numeric_model(robot):
     assert np.allclose(C, numeric.coriolis(q, h), atol=1e-13)
 
 
-def test_a_mirror_turned_twice_is_no_mirror_and_slopes_follow():
+def test_mirrors_of_sines_and_cosines_and_their_slopes():
     terms = {(1, -2): (F(1), F(2)), (0, 1): (F(0), F(3))}
-    assert mirrored(mirrored(terms, (-1, 1)), (-1, 1)) == terms
+    assert not any(is_mirrored(terms, turned, sign) for turned in ((-1, 1), (1, -1)) for sign in (1, -1))
+    assert not any(is_mirrored(terms, (-1, -1), sign) for sign in (1, -1))
+    even, odd = (dict.fromkeys([(1, 2), (1, -2)], own) for own in ((F(1), F(0)), (F(0), F(1))))
+    for part, turned, sign in ((even, (-1, 1), 1), (odd, (1, -1), 1), (odd, (-1, 1), -1)):
+        assert is_mirrored(part, turned, sign)
+        assert not is_mirrored(part, turned, -sign)
     assert derivative(terms, 1) == {(1, -2): (F(-4), F(2)), (0, 1): (F(3), F(0))}
 
 

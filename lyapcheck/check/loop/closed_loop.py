@@ -15,7 +15,7 @@ from lyapcheck.check.judgement import MOST_CORNERS
 from lyapcheck.check.loop.field import PI_ABOVE, Box
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.loop.states import Arm
-from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, mirrored
+from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, is_mirrored
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 from lyapcheck.check.refusal import require
@@ -163,16 +163,15 @@ class ClosedLoop:
         If M(σq) = Σ M(q) Σ for Σ = diag(σ), then (q, e, w) → (σq, Σe, Σw) leaves dV/dt as it is. Such σ are a
         group, in which the first joint that each turns can be turned without any other of these first ones.
         """
-        turns = (signs for signs in product((1, -1), repeat=self.n) if self.symmetric_under(signs))
-        return tuple(sorted({signs.index(-1) for signs in turns if -1 in signs}))
+        turns = (signs for signs in product((1, -1), repeat=self.n) if -1 in signs)
+        return tuple(sorted({signs.index(-1) for signs in turns if self.symmetric_under(signs)}))
 
     def symmetric_under(self, signs: Sequence[int]) -> bool:
         joints = range(self.n)
         return all(
-            mirrored(part, signs) == {k: (sign * a, sign * b) for k, (a, b) in part.items()}
+            is_mirrored(part, signs, signs[i] * signs[j])
             for i in joints
             for j in joints
-            for sign in (signs[i] * signs[j],)
             for part in self.mass[i][j].values()
         )
 

@@ -79,14 +79,18 @@ def slope(entry: Uncertain, i: int) -> Uncertain:
     return {powers: part for powers, part in result.items() if part}
 
 
-def mirrored(terms: Mapping[Harmonic, Gaussian], signs: Sequence[int]) -> Harmonics:
-    """The polynomial with every q_i replaced by σ_i q_i."""
-    result: Harmonics = {}
+def is_mirrored(terms: Mapping[Harmonic, Gaussian], signs: Sequence[int], sign: int) -> bool:
+    """Whether the polynomial becomes ``sign`` times itself where every q_i is replaced by σ_i q_i.
+
+    Soundness: k ↦ σk takes different harmonics to different ones, so the polynomial has no others.
+    """
     for k, (a, b) in terms.items():
         turned = tuple(s * x for s, x in zip(signs, k, strict=True))
-        flip = _lead(turned) < 0
-        result[tuple(-x for x in turned) if flip else turned] = (a, -b if flip else b)
-    return result
+        flip = _lead(turned) < 0  # cos and sin of −k are cos and −sin of k
+        place = tuple(-x for x in turned) if flip else turned
+        if terms.get(place) != (a if sign > 0 else -a, b if (sign > 0) != flip else -b):
+            return False
+    return True
 
 
 def largest(terms: Mapping[Harmonic, Gaussian]) -> Fraction:
