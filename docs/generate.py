@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 from argparse import SUPPRESS
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -278,7 +279,7 @@ def entry(name, value):
             [f"`{member}`", (inspect.getdoc(kept) or "").partition("\n\n")[0]]
             for member, kept in vars(value).items()
             if member[0] != "_"
-            and (callable(kept) or isinstance(kept, (property, classmethod, staticmethod)))
+            and (callable(kept) or isinstance(kept, (property, cached_property, classmethod, staticmethod)))
         ]
         if rows:
             parts.append(table(["member", "meaning"], rows))
