@@ -25,11 +25,10 @@ SHAPES = (lambda eps: Fraction(1), lambda eps: eps, lambda eps: eps**2, lambda e
 def _for_small(statement, random):
     axes, given = axes_of(statement.variables), tuple(map(relation, statement.hypotheses))
     claim, moving = relation(statement.conclusion), {statement.small, *statement.bounded}
-    if any(names(left, right) & moving for left, _, right in given):
-        return None
     zero = ("num", "0")
-    fixed = Region(axes, ((zero, "<=", zero),), given)
-    still = [node for node in nodes(claim[0], claim[2]) if not names(node) & moving]
+    fixed = Region(axes, ((zero, "<=", zero),), tuple(r for r in given if not names(r[0], r[2]) & moving))
+    sides = (side for left, _, right in (claim, *given) for side in (left, right))
+    still = [node for node in nodes(*sides) if not names(node) & moving]
     with mp.workdps(DIGITS):
         for point in islice(candidates(fixed, random), POINTS):
             if not _moderate(still, point):
