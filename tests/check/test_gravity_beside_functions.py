@@ -110,6 +110,8 @@ NUMBERS = (
     ("dot", ("vec", "w"), ("apply", ("diag", "L"), ("vec", "c"))),
     ("dot", ("vec", "L"), ("vec", "Uf")),
     ("dot", ("vec", "Tf"), ("apply", ("diag", "L"), ("vec", "f"))),
+    ("dot", ("vec", "Tf"), ("vec", "f")),
+    ("dot", ("vec", "Tf"), ("apply", ("diag", "A"), ("vec", "f"))),
     ("dot", ("vec", "e"), ("apply", ("diag", "K"), ("vec", "f"))),
     ("dot", ("vec", "c"), ("vec", "c")),
     ("dot", ("vec", "Tf"), ("vec", "opposite_dg")),

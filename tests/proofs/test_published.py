@@ -1,4 +1,4 @@
-"""The paper's own proof: verdicts found by hand elsewhere, and faults planted in the script."""
+"""The paper's own proof: verdicts found by hand elsewhere."""
 
 import re
 from dataclasses import replace
@@ -264,81 +264,6 @@ def test_what_an_arm_file_does_not_say_leaves_claims_open_not_broken(tmp_path):
     row = next(row for row in rows if row.id == "10j")
     assert row.verdict is Verdict.UNDECIDED
     assert "arm file" in row.decision.reason
-
-
-FAULTS = [
-    ("7a", "sqrt(n) * largest(m), power)", "largest(m), power)"),
-    ("12", "- ε_e * h_e @ M @ w", "+ ε_e * h_e @ M @ w"),
-    ("14", "ε_e**2 * (2 * êw", "ε_e**2 * (êw"),
-    ("15", "total(loops.terms(S))", "total(loops.terms(S)[1:])"),
-    ("16.2", "b * norm_w**2)", "b / 2 * norm_w**2)"),
-    ("16.4", '"s u 7a M w"', '"u 7a M w"'),
-    ("16.8", "return above(secant_bound(m))", "return above(secant_bound(m)) / 2"),
-    ("16.11", "ε * ε0 * n * γ * ρ * β", "ε * ε0 * γ * ρ * β"),
-    ("T2.19.m1.true", 'VISCOUS_MIN = "0.406"', 'VISCOUS_MIN = "0.403"'),
-    ("1.PD", "companion(PD).theorem", "companion(PID).theorem(local=False)"),
-    ("1.PID", "companion(PID).theorem()", "companion(PID).theorem(local=False)"),
-    ("2.2.strict", "size < shown + more)", "size + more < shown)"),
-    ("9.hold.arm", "expr(gravity) <= limit", "expr(gravity) * 4 <= limit"),
-    ("S4.period", 'expr("0.0025")', 'expr("0.0868")'),
-    ("S4.percent.m1", '("m1", "8"), ("m3", "16")', '("m1", "7"), ("m3", "16")'),
-    ("F.4.fit", '("47", "120", "10")', '("47", "120", "11")'),
-    ("F.reach", '("6", "m2", "shoulder", "126.33")', '("6", "m2", "shoulder", "94.33")'),
-    ("F.limits", '("8", "m3", "shoulder", "122.16")', '("8", "m3", "shoulder", "151")'),
-    ("21.rest", "h_rate = -h_w", "h_rate = h_w"),
-    ("21.rest", "M @ still", "M @ h_w"),
-    ("R.8b", "sqrt(n) * rho(m), 1)", "rho(m), 1)"),
-    (
-        "R.7b",
-        'norm_bound(h(m, x), n, secant_of(m), power=1), "(7)"',
-        'norm_bound(h(m, x), n, secant_of(m) / 2, power=1), "(7)"',
-    ),
-    ("R.16.6", "-Z.eps * kp * size**2", "-2 * Z.eps * kp * size**2"),
-    ("R.17a", "(sqrt(n) * whole * inner", "(n * whole * inner"),
-    ("R.17c", "(start <= 1, line(1))", "(start <= 2, line(1))"),
-    (
-        "R.9.hold",
-        "(abs_g <= k_g, k_g <= τ_max), abs_g <= τ_max",
-        "(abs_g <= k_g, abs_g <= τ_max), k_g <= τ_max",
-    ),
-    ("R.19.m2", '(2, "0.222")', '(2, "0.223")'),
-    ("R.7g", '2: "1.054"', '2: "1.0535"'),
-]
-
-
-@pytest.mark.parametrize(("claim", "right", "wrong"), one_in(6, FAULTS))
-def test_a_planted_fault_is_not_proved(tmp_path, claim, right, wrong):
-    source = ONE.read_text(encoding="utf-8")
-    assert right in source
-    path = tmp_path / "faulty.py"
-    path.write_text(source.replace(right, wrong), encoding="utf-8")
-    rows = run_proof(path, ms=(2,), only=(claim,)).claims
-    assert all(row.verdict in (Verdict.REFUTED, Verdict.UNDECIDED) for row in rows)
-
-
-REPAIRS = [
-    ("7g", '2: "1.05"', '2: "1.06"'),
-    ("T1.torque.m2.elbow", '"m2": (("50", "150", "150")', '"m2": (("50", "150", "15")'),
-    ("17a", "(ε * (whole * inner + last**2 / 4))", "(ε * (sqrt(n) * whole * inner + last**2 / 4))"),
-    ("17c", "last = flat + ε0 * steep if with_eps0 else flat", "last = flat"),
-    ("13.first", "expr(0) < y_w**2 + y_h**2", "expr(0) < y_w**2 + y_h**2, expr(0) < (y_w - y_h) ** 2"),
-    (
-        "12.any",
-        "(share <= 1, condition_19(n)), det_positive(n)",
-        "(share <= 1, det_positive(n)), det_positive(n)",
-    ),
-    ("9.hold", "g[0] ** 2 <= limit[0] ** 2", "g[0] ** 2 <= total(limit_i**2 for limit_i in limit)"),
-    ("F.10.base", '("0.8", "2.5"', '("0.89", "2.5"'),
-]
-
-
-@pytest.mark.parametrize(("claim", "printed", "repaired"), one_in(3, REPAIRS))
-def test_a_repaired_statement_is_proved(tmp_path, claim, printed, repaired):
-    source = ONE.read_text(encoding="utf-8")
-    assert printed in source
-    path = tmp_path / "repaired.py"
-    path.write_text(source.replace(printed, repaired), encoding="utf-8")
-    assert [row.verdict.value for row in run_proof(path, ms=(2,), only=(claim,)).claims] == ["proved"]
 
 
 def test_what_is_ours_is_no_error_of_the_paper(result):
