@@ -25,17 +25,23 @@ GAINS = {
     "reyes-kelly2": ("41.089 5.618", "17.610 2.112"),
 }
 """Gains that targets at infinite rate suggest."""
-GAMMA = Gains((), (), F(1), 1, F(1), F(1), F(1), ())
+GAMMA = Gains((), (), F(1), 1, F(0), F(1), F(1), F(1), ())
 """Bounds of tanh."""
 ARM_OF = {tuple(map(F, kp.split())): name for name, (kp, _) in GAINS.items()}
 
 
-def question(name: str, period="0.001", within=90, delay=1) -> SampledFromRest:
+def h(m, x):
+    """h_m, and U_m of which it is the slope."""
+    s = np.sinh(x)
+    return s ** (2 * m - 1) * np.cosh(x) / (1 + s ** (2 * m)), np.log1p(s ** (2 * m)) / (2 * m)
+
+
+def question(name: str, period="0.001", within=90, delay=1, m=1) -> SampledFromRest:
     arm = load(name).fixed()
     kp, kv = (tuple(map(F, row.split())) for row in GAINS[name])
     friction = tuple((number.value, number.value) for number in arm.viscous)
     return SampledFromRest(
-        *("hyperbolic", 1, kp, kv, friction, arm.mass_terms, tuple(to_terms(arm.potential)), ()),
+        *("hyperbolic", m, kp, kv, friction, arm.mass_terms, tuple(to_terms(arm.potential)), ()),
         *(F(period), delay, F(within)),
     )
 
@@ -47,22 +53,22 @@ def shown(statement: SampledFromRest) -> FallingEnergy:
     return proof
 
 
-@pytest.mark.parametrize(("d", "seed"), [*product((0, 1, 2), (1, 2, 3))])
-def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself(d, seed):
+@pytest.mark.parametrize(("d", "seed", "m"), [*product((0, 1, 2), (1, 2, 3), (1, 3))])
+def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself(d, seed, m):
     """One inertia without gravity, its exact motion, credits by quadrature, D, D_e and h' as they are."""
     random = np.random.default_rng(seed)
     M, b, kp, kv, T, reach, c, eps, stiff, Q, beta = random.uniform(0.5, 2, 11)
     kept, late, reach = random.uniform(0, 1, d + 1), random.uniform(0, 1, d), reach + 1
     V = SampledEnergy(c, reach, (eps,), (stiff,), (Q,), (kept,), (beta,), (late,), (0.0,), None)  # type: ignore[arg-type]
     q, w, steps, fine = random.normal(), random.normal(), d + 4, 400
-    h, past = T / fine, []
+    step, past = T / fine, []
     for _ in range(steps):
         past.append((q, w, []))
         late_q, before = (past[max(len(past) - 1 - d - k, 0)][0] for k in (0, 1))
-        tau = kp * np.tanh(-late_q) - kv * np.tanh((late_q - before) / T)
+        tau = kp * h(m, -late_q)[0] - kv * h(m, (late_q - before) / T)[0]
         q0, w0 = q, w
         for k in range(1, fine + 1):  # the exact motion under a held torque
-            s = k * h
+            s = k * step
             decay = np.exp(-b / M * s)
             w = tau / b + (w0 - tau / b) * decay
             q = q0 + tau / b * s + (w0 - tau / b) * M / b * (1 - decay)
@@ -74,35 +80,38 @@ def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself(d, seed):
 
     def energy(k):
         q, w = inside[k]
-        s, e = (k + 1) * h, -q
+        s, e = (k + 1) * step, -q
         z, spent = s / T / reach, (k + 1) / fine
-        value = M * w * w / 2 + stiff * np.log(np.cosh(e)) - eps * np.tanh(e) * M * w
+        value = M * w * w / 2 + stiff * h(m, e)[1] - eps * h(m, e)[0] * M * w
         value += (
             c / 2 * (1 / z - 1) * M * (w - w_now) ** 2 + Q / (reach * T) / 2 * (1 / z - 1) * (q - q_now) ** 2
         )
         for j in range(d + 1):
             value -= spent * kept[j] * M / 2 * (back[j][1] - back[j + 1][1]) ** 2
         value -= spent * T * beta * exact[d] ** 2
-        value += beta * h * (sum((x[1] - w_now) ** 2 for x in inside[:k]) + (w - w_now) ** 2 / 2)
+        value += beta * step * (sum((x[1] - w_now) ** 2 for x in inside[:k]) + (w - w_now) ** 2 / 2)
         for j in range(d):
             value -= spent * T * late[j] * ((back[j][0] - back[j + 1][0]) / T) ** 2
             value += (
-                late[j] * h * (sum(x[1] ** 2 for x in [(0, w_now), *inside][: k + 1]) + (w**2 - w_now**2) / 2)
+                late[j]
+                * step
+                * (sum(x[1] ** 2 for x in [(0, w_now), *inside][: k + 1]) + (w**2 - w_now**2) / 2)
             )
         return value
 
     for k in (60, 200, 350):
         q, w = inside[k]
-        s, e, behind, v = (k + 1) * h, -q, q - back[d][0], (back[d][0] - back[d + 1][0]) / T
-        z, D = s / T / reach, np.tanh(v) / v
-        De = (np.tanh(e + behind) - np.tanh(e)) / behind
-        pays = {"w": eps * (1 - np.tanh(e) ** 2) * M, "h": 0.0, "y": 0.0, "r": 0.0}
-        gains = Gains((kp,), (kv,), T, d, 1.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
+        s, e, behind, v = (k + 1) * step, -q, q - back[d][0], (back[d][0] - back[d + 1][0]) / T
+        z, D = s / T / reach, h(m, v)[0] / v
+        De = (h(m, e + behind)[0] - h(m, e)[0]) / behind
+        slope = (h(m, e + 1e-6)[0] - h(m, e - 1e-6)[0]) / 2e-6
+        pays = {"w": eps * slope * M, "h": 0.0, "y": 0.0, "r": 0.0}
+        gains = Gains((kp,), (kv,), T, d, 0.0, 1.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
         form = np.array(form_of(0, V, M, pays, gains, (z, D, De, b)), dtype=float)  # type: ignore[arg-type]
-        x = [np.tanh(e), w, (w - w_now) / z, (q - q_now) / (z * reach * T)]
+        x = [h(m, e)[0], w, (w - w_now) / z, (q - q_now) / (z * reach * T)]
         x += [back[j][1] - back[j + 1][1] for j in range(d + 1)]
         x += [*((back[j][0] - back[j + 1][0]) / T for j in range(d)), exact[d]]
-        rate = (energy(k + 1) - energy(k - 1)) / (2 * h)
+        rate = (energy(k + 1) - energy(k - 1)) / (2 * step)
         assert -rate == pytest.approx(np.array(x) @ form @ np.array(x), rel=2e-3, abs=2e-3)
 
 
@@ -152,7 +161,7 @@ def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, go
         np.array(x, float) for x in ([x for x, _ in statement.viscous], proof.least, V.kept, V.late)
     )
     q, w, values = goal + starts, np.zeros_like(starts), []
-    readings, produced = [q] * (d + 2), []
+    readings, produced, m = [q] * (d + 2), [], statement.m
 
     def rates(q, w, tau):
         force = tau - np.einsum("aij,aj->ai", arm.coriolis(q, w), w) - b * w - arm.gravity(q)
@@ -162,37 +171,42 @@ def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, go
         readings = [q, *readings[:-1]] if k else readings
         e = goal - q
         momentum = np.einsum("aij,aj->ai", arm.mass(q), w)
-        value = (
-            (momentum * w).sum(1) / 2
-            + (stiff * np.log(np.cosh(e))).sum(1)
-            - (eps * np.tanh(e) * momentum).sum(1)
-        )
+        value = (momentum * w).sum(1) / 2 + (stiff * h(m, e)[1]).sum(1) - (eps * h(m, e)[0] * momentum).sum(1)
         for age, (delta, moved, mu) in enumerate(produced[::-1][: d + 1], 1):
             value += (kept[:, age - 1 :].sum(1) * u / 2 * delta**2).sum(1) + (T * mean * mu**2).sum(1)
             value += (late[:, age - 1 :].sum(1) * T * (moved / T) ** 2).sum(1)
         values.append(value)
         tau = (
-            kp * np.tanh(goal - readings[d])
-            - kv * np.tanh((readings[d] - readings[d + 1]) / T)
+            kp * h(m, goal - readings[d])[0]
+            - kv * h(m, (readings[d] - readings[d + 1]) / T)[0]
             + arm.gravity(readings[d])
         )
-        q0, w0, h = q, w, T / 4
+        q0, w0, s = q, w, T / 4
         for _ in range(4):
             a, c = rates(q, w, tau)
-            a2, c2 = rates(q + h / 2 * a, w + h / 2 * c, tau)
-            a3, c3 = rates(q + h / 2 * a2, w + h / 2 * c2, tau)
-            a4, c4 = rates(q + h * a3, w + h * c3, tau)
-            q, w = q + h / 6 * (a + 2 * a2 + 2 * a3 + a4), w + h / 6 * (c + 2 * c2 + 2 * c3 + c4)
+            a2, c2 = rates(q + s / 2 * a, w + s / 2 * c, tau)
+            a3, c3 = rates(q + s / 2 * a2, w + s / 2 * c2, tau)
+            a4, c4 = rates(q + s * a3, w + s * c3, tau)
+            q, w = q + s / 6 * (a + 2 * a2 + 2 * a3 + a4), w + s / 6 * (c + 2 * c2 + 2 * c3 + c4)
         produced.append((w - w0, q - q0, (q - q0) / T - w0))
     return np.array(values), q - goal, w
 
 
 @pytest.mark.parametrize(
-    ("name", "period"),
-    but([("reyes-kelly2", "0.005")], [("reyes-kelly2", "0.005"), ("buap3", "0.001"), ("buap3", "0.0016")]),
+    ("name", "period", "m"),
+    but(
+        [("reyes-kelly2", "0.005", 1)],
+        [
+            ("reyes-kelly2", "0.005", 1),
+            ("buap3", "0.001", 1),
+            ("buap3", "0.0016", 1),
+            ("buap3", "0.001", 2),
+            ("reyes-kelly2", "0.002", 3),
+        ],
+    ),
 )
-def test_gains_above_the_friction_are_proved_from_90_degrees_and_the_energy_falls(name, period):
-    statement = question(name, period)
+def test_gains_above_the_friction_are_proved_from_90_degrees_and_the_energy_falls(name, period, m):
+    statement = question(name, period, m=m)
     proof = shown(statement)
     assert verify(statement, proof) == PROVED
     random, n = np.random.default_rng(1), len(statement.kp)

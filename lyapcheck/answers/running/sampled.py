@@ -53,7 +53,6 @@ SATURATES = "({}) supposes that no motor saturates: it counts together with (10i
 STEPS = "({}) speaks of exact readings: leave encoder out of the loop, and simulate with it"
 DRY = "(P) speaks of an arm without dry friction"
 UNTRIED = "--within 90 or within = 90 under [loop] looks for a proof from rest, at exactly this period"
-TANH = (("tanh", None), ("hyperbolic", 1))
 UNSAID = LoopRecord()
 DIGITS = 9
 """Of the largest period in data."""
@@ -325,7 +324,7 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
     rules = {
         "asks for the arm itself: name one with robot = …": arm is not None,
         f"speaks of arms to {FEW_JOINTS} joints": arm is None or arm.n <= FEW_JOINTS,
-        "speaks of h = tanh, m = 1": (gains.family, gains.m) in TANH,
+        "speaks of the hyperbolic family": gains.family in ("tanh", "hyperbolic"),
         "speaks of differences without a filter": (record.velocity, record.filter) == ("difference", ONE),
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
