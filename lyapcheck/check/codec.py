@@ -28,6 +28,7 @@ LAST_READ_BY = {
     "DecreasingNearby": "0.1.0",
     "Settling": "0.1.0",
     "StaysWithin": "0.1.0",
+    "TrigonometricPositive": "0.2.0",
     "V decreasing at corners": "0.1.0",
     "dominant diagonal": "0.1.0",
     "energy along the links": "0.1.0",

@@ -17,7 +17,7 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.sampled import SampledStable
-from lyapcheck.check.kinds.trigonometric import TrigonometricBound, TrigonometricPositive
+from lyapcheck.check.kinds.trigonometric import TrigonometricBound
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.claims.claim import lacking
 from lyapcheck.claims.expressions import Expr, exact_value, expr, var
@@ -195,11 +195,6 @@ def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> Trig
     trees = [entry.tree for entry in entries]
     limits = [None] * len(trees) if by is None else [exact_value(b) for b in by]
     return TrigonometricBound(tuple(zip(trees, limits, strict=True)))
-
-
-def always_positive(entries: Iterable[Expr]) -> TrigonometricPositive:
-    """Polynomials in sines and cosines are positive for all angles."""
-    return TrigonometricPositive(tuple(entry.tree for entry in entries))
 
 
 # --- Statements about every state of one arm under one controller, from a robot and a gain set.

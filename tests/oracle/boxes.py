@@ -211,9 +211,6 @@ REGIONS = {
     ),
     "NormBound": _norm_bound,
     "TrigonometricBound": _bounds,
-    "TrigonometricPositive": lambda s: Region(
-        _reals(*s.entries), tuple((("num", "0"), "<", tree) for tree in s.entries)
-    ),
 }
 
 
@@ -226,7 +223,7 @@ def _look(statement, random):
 def _judge(statement, point):
     kind = type(statement).__name__
     parts = [REGIONS[kind](statement)]
-    if kind.startswith("Trigonometric"):  # a witness gives the variables of one entry, and no others
+    if kind == "TrigonometricBound":  # a witness gives the variables of one entry, and no others
         parts = [Region(_reals(claim[0], claim[2]), (claim,)) for claim in parts[0].claims]
     return _any(part.fails_at({name: Fraction(text) for name, text in point.items()}) for part in parts)
 

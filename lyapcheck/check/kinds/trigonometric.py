@@ -5,7 +5,6 @@ References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -24,33 +23,8 @@ from lyapcheck.check.statement import OfTerms, Point, Proof, Relation
 from lyapcheck.check.verify import Accepted, rule
 
 
-class OfAngles(OfTerms):
-    """A statement about each of some polynomials in sines and cosines, for all angles."""
-
-    @property
-    @abstractmethod
-    def trees(self) -> tuple[Tree, ...]:
-        """The polynomials."""
-
-    @abstractmethod
-    def says(self, k: int, lower: bool) -> Relation:
-        """What is said of one of them, from below or from above; refused if that is nothing."""
-
-    def require_well_formed(self) -> None:
-        require(len(self.trees) > 0, "entries", "", "must be one or more")
-        require_expressions(self.trees)
-
-    def terms(self) -> list[tuple[Tree, Domain]]:
-        return [(tree, {}) for tree in self.trees]
-
-    def over(self) -> str:
-        """The angles by name."""
-        names = sorted(set().union(*map(variables, self.trees)))
-        return f"for all angles {', '.join(names)}" if names else "for all angles"
-
-
 @dataclass(frozen=True)
-class TrigonometricBound(OfAngles):
+class TrigonometricBound(OfTerms):
     """``|f_i(q)| <= bound_i`` for all q, each f_i a polynomial in sines and cosines of q.
 
     A bound of ``None`` asks only that f_i is bounded.
@@ -58,15 +32,12 @@ class TrigonometricBound(OfAngles):
 
     entries: tuple[tuple[Tree, Fraction | None], ...]
 
-    @property
-    def trees(self) -> tuple[Tree, ...]:
-        return tuple(tree for tree, _ in self.entries)
+    def require_well_formed(self) -> None:
+        require(len(self.entries) > 0, "entries", "", "must be one or more")
+        require_expressions([tree for tree, _ in self.entries])
 
-    def says(self, k: int, lower: bool) -> Relation:
-        tree, bound = self.entries[k]
-        if bound is None:
-            raise Refused("entry", k, "has no bound to break")
-        return within(tree, bound)[1 if lower else 0]
+    def terms(self) -> list[tuple[Tree, Domain]]:
+        return [(tree, {}) for tree, _ in self.entries]
 
     def text(self) -> str:
         parts = [
@@ -75,26 +46,8 @@ class TrigonometricBound(OfAngles):
             else f"|{expression_text(tree)}| ≤ {number_text(bound)}"
             for tree, bound in self.entries
         ]
-        return f"{'; '.join(parts)}, {self.over()}"
-
-
-@dataclass(frozen=True)
-class TrigonometricPositive(OfAngles):
-    """``f_i(q) > 0`` for all q, each f_i a polynomial in sines and cosines of q."""
-
-    entries: tuple[Tree, ...]
-
-    @property
-    def trees(self) -> tuple[Tree, ...]:
-        return self.entries
-
-    def says(self, k: int, lower: bool) -> Relation:
-        require(lower, "lower", lower, "must be true: the bound is from below")
-        return above_zero(self.entries[k])
-
-    def text(self) -> str:
-        shown = "; ".join(f"{expression_text(tree)} > 0" for tree in self.entries)
-        return f"{shown}, {self.over()}"
+        names = sorted(set().union(*(variables(tree) for tree, _ in self.entries)))
+        return f"{'; '.join(parts)}, for all angles{' ' * bool(names)}{', '.join(names)}"
 
 
 @dataclass(frozen=True)
@@ -115,7 +68,6 @@ class EntryWitness(Proof):
     bits: int = 192
 
 
-ZERO: Tree = ("num", "0")
 MAX_EXPONENTIALS = 100_000
 """To which an entry may expand."""
 
@@ -133,23 +85,16 @@ def by_bounds(statement: TrigonometricBound, proof: FourierBounds) -> Accepted:
     return Accepted("proved", "exact")
 
 
-@rule(TrigonometricPositive, FourierBounds)
-def by_positive_mean(statement: TrigonometricPositive, proof: FourierBounds) -> Accepted:
-    """Soundness: as above; the mean exceeds the sum of the amplitudes."""
-    for k, tree in enumerate(statement.entries):
-        reached = lowest(tree)
-        require(reached > 0, f"entry {k + 1}", reached, "is all that the Fourier sum gives, not above 0")
-    return Accepted("proved", "exact")
-
-
-@rule(OfAngles, EntryWitness)
-def by_entry(statement: OfAngles, proof: EntryWitness) -> Accepted:
+@rule(TrigonometricBound, EntryWitness)
+def by_entry(statement: TrigonometricBound, proof: EntryWitness) -> Accepted:
     """Soundness: angles at which both sides of what is said of an entry lie in disjoint balls."""
-    require(0 <= proof.entry < len(statement.trees), "entry", proof.entry, "does not exist")
-    relation = statement.says(proof.entry, proof.lower)
+    require(0 <= proof.entry < len(statement.entries), "entry", proof.entry, "does not exist")
+    tree, bound = statement.entries[proof.entry]
+    if bound is None:
+        raise Refused("entry", proof.entry, "has no bound to break")
     statement.require_defined()
-    point = coordinates(proof.point, variables(statement.trees[proof.entry]))
-    require_failure(relation.comparison, point, proof.bits)
+    relation = within(tree, bound)[1 if proof.lower else 0]
+    require_failure(relation.comparison, coordinates(proof.point, variables(tree)), proof.bits)
     return Accepted("refuted", "enclosure")
 
 
@@ -157,11 +102,6 @@ def within(tree: Tree, bound: Fraction) -> tuple[Relation, Relation]:
     """f <= bound and −f <= bound."""
     limit = ("num", str(bound))
     return Relation(tree, "<=", limit), Relation(("neg", tree), "<=", limit)
-
-
-def above_zero(tree: Tree) -> Relation:
-    """0 < f."""
-    return Relation(ZERO, "<", tree)
 
 
 @lru_cache(maxsize=4096)
@@ -201,12 +141,6 @@ def largest(tree: Tree) -> Fraction:
     """An upper bound of |f|."""
     mean, swing = extent(tree)
     return abs(mean) + swing
-
-
-def lowest(tree: Tree) -> Fraction:
-    """A lower bound of f."""
-    mean, swing = extent(tree)
-    return mean - swing
 
 
 def is_bounded(tree: Tree) -> bool:

@@ -7,13 +7,13 @@ bounds by the sizes of harmonics; against any of them the worst of many random p
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 import numpy as np
 
 from lyapcheck._types import SEED
-from lyapcheck.check.expressions.expression import Tree, Unsupported, variables
+from lyapcheck.check.expressions.expression import Unsupported, variables
 from lyapcheck.check.kinds.chain import ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
@@ -30,15 +30,12 @@ from lyapcheck.check.kinds.trigonometric import (
     EntryWitness,
     FourierBounds,
     TrigonometricBound,
-    TrigonometricPositive,
-    above_zero,
     is_bounded,
     largest,
-    lowest,
     within,
 )
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.statement import Proof, Relation
+from lyapcheck.check.statement import Proof
 from lyapcheck.claims.procedures.implication import counterexample, sampled
 from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
 from lyapcheck.claims.search_result import (
@@ -194,70 +191,25 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
 
 SUMS = "mean and amplitudes of the Fourier sum"
 
-Doubt = tuple[str, list[tuple[bool, Relation]]]
-"""Why Fourier sums do not settle an entry, and the relations (from below?) to break."""
-
 
 @procedure(TrigonometricBound)
 def find_bounds(statement: TrigonometricBound) -> SearchResult:
     """Compute |mean| plus amplitudes of each entry; where that is above the bound, look for angles."""
-
-    def doubt(entry: tuple[Tree, Fraction | None]) -> Doubt | None:
-        tree, bound = entry
-        if bound is None:
-            if is_bounded(tree):
-                return None
-            raise Unsupported("a variable outside sin and cos has no bound")
-        reached = largest(tree)
-        if reached <= bound:
-            return None
-        above, below = within(tree, bound)
-        return f"{reached} is above {bound}", [(False, above), (True, below)]
-
-    return _each(statement.entries, doubt, lambda entry: entry[0])
-
-
-@procedure(TrigonometricPositive)
-def find_positive(statement: TrigonometricPositive) -> SearchResult:
-    """Compute mean minus amplitudes of each entry; where that is not positive, look for angles."""
-
-    def doubt(tree: Tree) -> Doubt | None:
-        reached = lowest(tree)
-        if reached > 0:
-            return None
-        return f"mean minus amplitudes is {reached}", [(True, above_zero(tree))]
-
-    return _each(statement.entries, doubt, lambda tree: tree)
-
-
-def _each(
-    entries: Sequence[tuple[object, ...]],
-    doubt: Callable[..., Doubt | None],
-    tree_of: Callable[..., Tree],
-) -> SearchResult:
-    open_ones: list[str] = []
-    for k, entry in enumerate(entries):
+    reason = ""
+    for k, (tree, bound) in enumerate(statement.entries):
         try:
-            doubted = doubt(entry)
+            if bound is None and not is_bounded(tree):
+                raise Unsupported("a variable outside sin and cos has no bound")
+            reached = None if bound is None else largest(tree)
         except Unsupported as problem:
             return still_open(f"{problem}; give the entries as polynomials in sin and cos", SUMS)
-        if doubted is not None:
-            why, relations = doubted
-            result = _angles_against(k, tree_of(entry), relations)
+        if bound is None or reached is None or reached <= bound:
+            continue
+        for lower, relation in enumerate(within(tree, bound)):
+            result = counterexample(Implies(reals(*sorted(variables(tree))), (), relation))
             if result is not None:
-                return result
-            open_ones.append(f"entry {k + 1}: {why}, and no angle that decides was found")
-    if open_ones:
-        return still_open(f"{open_ones[0]}; bisect over the angles", SUMS)
-    return shown(FourierBounds(), SUMS)
-
-
-def _angles_against(entry: int, tree: Tree, relations: list[tuple[bool, Relation]]) -> SearchResult | None:
-    names = reals(*sorted(variables(tree)))
-    for lower, relation in relations:
-        result = counterexample(Implies(names, (), relation))
-        if result is not None:
-            proof = EntryWitness(entry, lower, point_of(result[1]), BITS)
-            method = f"{SUMS}: angles at which entry {entry + 1} leaves its bound"
-            return broken(proof, method, witness_data(result), **sampled())
-    return None
+                proof = EntryWitness(k, bool(lower), point_of(result[1]), BITS)
+                method = f"{SUMS}: angles at which entry {k + 1} leaves its bound"
+                return broken(proof, method, witness_data(result), **sampled())
+        reason = reason or f"entry {k + 1}: {reached} is above {bound}, and no angle that decides was found"
+    return still_open(f"{reason}; bisect over the angles", SUMS) if reason else shown(FourierBounds(), SUMS)

@@ -30,7 +30,7 @@ PLAIN = {
         "BoundEveryN",
         "EveryN",
     ),
-    *("TrigonometricBound", "TrigonometricPositive"),
+    "TrigonometricBound",
 }
 LARGEST = 200_000
 """Characters: larger certificates take too long for their part."""

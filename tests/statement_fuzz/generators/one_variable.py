@@ -6,7 +6,7 @@ from math import isfinite
 
 import numpy as np
 
-from lyapcheck.claims import AllOf, Constant, ForAll, NormBound, TrigonometricBound, TrigonometricPositive
+from lyapcheck.claims import AllOf, Constant, ForAll, NormBound, TrigonometricBound
 from tests.oracle.trees import floats
 from tests.statement_fuzz.generators import FALSE, GENERATORS, TRUE, Made, generates
 from tests.statement_fuzz.generators.expressions import (
@@ -330,14 +330,3 @@ def angles(random):
         )
         entries.append((tree, None if random.random() < 0.2 else limit))
     return Made(TrigonometricBound(tuple(entries)), "bounds of sines and cosines")
-
-
-@generates("TrigonometricPositive", 4)
-def angles_above(random):
-    """f_i + c angles_above, with c that suffices, or not quite."""
-    entries = []
-    for _ in range(random.randint(1, 2)):
-        tree = _harmonics(random)
-        c = _swing(tree) * random.choice((1, Fraction(1000001, 1000000), 2, Fraction(1, 2), 0))
-        entries.append(add(tree, num(c)))
-    return Made(TrigonometricPositive(tuple(entries)), "sines and cosines above 0")
