@@ -1,4 +1,4 @@
-"""Implications between inequalities: proved by a certificate of signs or squares, refuted by an exact point.
+"""Implications between inequalities, also for every small ε: certificates of signs or squares, exact points.
 
 A certificate of signs is an identity  μ·C = Σ λ_k μ_k H_k + R.  C is the gap of the conclusion, H_k are gaps
 of hypotheses, λ_k > 0 are rational, μ and μ_k are positive monomials, and R has no negative term. It is
@@ -13,10 +13,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import fmpq, fmpq_mpoly
+from flint import ctx, fmpq, fmpq_mpoly
 
 from lyapcheck.check.expressions.domain import Comparison
-from lyapcheck.check.expressions.expression import LEAVES, Tree, Unsupported
+from lyapcheck.check.expressions.expression import LEAVES, Tree, Unsupported, ball
+from lyapcheck.check.kinds.for_small import (
+    ForSmall,
+    LeadingTerm,
+    SmallWitness,
+    at,
+    leading_term,
+    sign_for_small,
+)
+from lyapcheck.check.kinds.for_small import signs_of as small_signs
 from lyapcheck.check.kinds.implies import (
     Exponents,
     Implies,
@@ -27,13 +36,25 @@ from lyapcheck.check.kinds.implies import (
     gaps_of,
     signs_of,
 )
+from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Variable
+from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures.descents import lowest_points
-from lyapcheck.claims.procedures.search import Failure, first_refutation, rounder, witness_data, witness_of
+from lyapcheck.claims.procedures.search import (
+    BITS,
+    Failure,
+    Point,
+    first_refutation,
+    point_of,
+    round_points,
+    rounder,
+    witness_data,
+    witness_of,
+)
 from lyapcheck.claims.procedures.squares import NEEDED, by_equations, by_squares
-from lyapcheck.claims.search_result import SearchResult, broken, procedure, shown, still_open
+from lyapcheck.claims.search_result import SearchResult, broken, failing, procedure, shown, still_open
+from lyapcheck.control.judgement import refutes
 from lyapcheck.errors import PACKAGES, installed, repair
 
 # --- The search for identities of signs: negative terms of the conclusion are cancelled one after the other.
@@ -254,3 +275,84 @@ def _identity(signs: Signs | None, statement: Implies, depth: int, nodes: int) -
     if signs is None:
         return None
     return Cancellation(signs, nodes).identity(signs.conclusion, statement.conclusion.strict, depth)
+
+
+# --- Relations for every small enough ε: a leading term of known sign, or a point at which they fail.
+#
+# See ``check.kinds.for_small`` for why these decide.
+
+SMALL = "small parameter"
+BELOW = (Fraction(1), Fraction(1, 2**10))
+
+
+@procedure(ForSmall)
+def find_for_small(statement: ForSmall) -> SearchResult:
+    """Search an identity of signs for the leading term, then a point at which the relation fails."""
+    proved = _leading(statement)
+    if proved.is_proof:
+        return proved
+    return _against(statement) or proved
+
+
+def _leading(statement: ForSmall) -> SearchResult:
+    """An identity of signs for the leading term."""
+    try:
+        signs = small_signs(statement)
+        limit = leading_term(signs, statement)
+    except Unsupported as problem:
+        return still_open(f"{problem}; write the relation between polynomials", SMALL)
+    if limit is None:
+        return still_open("the leading term depends on a bounded variable; state the claim without it", SMALL)
+    depth, nodes = EFFORT[-1]
+    identity = Cancellation(signs, nodes).identity(limit, True, depth)
+    if identity is not None:
+        return shown(
+            LeadingTerm(identity),
+            f"{SMALL}: the leading term is positive by an identity with terms of known sign",
+        )
+    return still_open(
+        "the leading term is not shown to be positive; add the hypothesis that makes it so", SMALL
+    )
+
+
+def _against(statement: ForSmall) -> SearchResult | None:
+    """A point of small rationals at which the relation fails for all small ε."""
+    method = f"{SMALL}: a point at which it fails for all small {statement.small}"
+    for point in _points(statement):
+        if _breaks(statement, point):
+            for below in BELOW:
+                proof = SmallWitness(point_of(point), below)
+                if refutes(statement, proof):
+                    return broken(proof, method, _data(statement, point, below))
+    return None
+
+
+def _points(statement: ForSmall) -> Iterator[Point]:
+    """Round points; variables that run over (0, 1] are 1 at most."""
+    unit = [Variable(name, Fraction(0)) for name in statement.bounded]
+    for point in round_points([*statement.variables, *unit]):
+        yield point | {name: min(point[name], Fraction(1)) for name in statement.bounded}
+
+
+def _breaks(statement: ForSmall, point: Point) -> bool:
+    """Whether the conclusion fails for all small ε and every hypothesis holds."""
+    try:
+        fails = not _holds(statement.conclusion, point)
+        return fails and all(_holds(hypothesis, point) for hypothesis in statement.hypotheses)
+    except (Refused, Unsupported, ZeroDivisionError):
+        return False
+
+
+def _holds(relation: Relation, point: Point) -> bool:
+    sign = sign_for_small(at(point, relation.gap))
+    return sign > 0 or (sign == 0 and not relation.strict)
+
+
+def _data(statement: ForSmall, point: Point, below: Fraction) -> dict[str, object]:
+    """The point, and both sides at one small value."""
+    whole = point | {statement.small: below / 2**20}
+    balls = {name: ball_of(value) for name, value in whole.items()}
+    claim = statement.conclusion
+    with ctx.workprec(BITS):
+        left, right = (Enclosure.from_arb(ball(side, balls)) for side in (claim.left, claim.right))
+    return failing(dict(sorted(whole.items())), left, claim.operator, right)
