@@ -277,6 +277,8 @@ def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
     try:
         gravity = tuple(tuple(to_terms(torque)) for torque in arm.gravity)
     except TooManyTerms:
+        if arm.chain is None:
+            raise
         return AllOf(tuple((f"g{i}", _of_links(f"k_g{i}", arm, k)) for i, k in enumerate(k_g, 1)))
     ranges = arm.ranges
     parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]

@@ -20,6 +20,7 @@ from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.gravity import GravityBelow, Levers
+    from lyapcheck.check.statement import Proof, Statement
     from lyapcheck.robots import RobotModel
 
 Point = tuple[Fraction, ...]
@@ -93,6 +94,19 @@ def levers(model: RobotModel) -> tuple[Levers, ...] | None:
     shares = tuple(tuple(map(Fraction.__sub__, unit, none)) for unit in units)
     links = tuple(replace(link, mass=mass) for link, mass in zip(heavy.links, none, strict=True))
     return tuple(Levers(links, shares, heavy.fall, i, least_along(heavy, i)) for i in range(model.n))
+
+
+def bounding(bound: Statement, model: RobotModel, i: int) -> Iterator[Proof]:
+    """What may show a bound of |g_i|, i from 0: of g written out, or of the links."""
+    from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
+    from lyapcheck.check.kinds.gravity import GravityBelow
+    from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
+
+    known = (levers(model) or ())[i : i + 1]
+    if isinstance(bound, GravityBelow):
+        yield from (HarmonicSizes(), *known, *([Bisection()] if model.n <= FEW_JOINTS else []))
+    else:
+        yield from (NoTorque(), *(OwnLevers(one.along) for one in known))
 
 
 def least_along(chain: Chain, i: int) -> tuple[int, ...]:

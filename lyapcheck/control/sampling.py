@@ -214,13 +214,12 @@ def judged_sampled(statement: SampledStable) -> JudgedStatement:
     return judged_statement(statement, [sampled_proof(statement)])
 
 
-def largest_period(statement: SampledStable) -> Fraction | None:
-    """The supremum of the periods, s, that (S) shows; ``None``: none.
+def largest_periods(statement: SampledStable) -> list[Fraction]:
+    """The supremum of the periods, s, that (S) shows of each joint; not positive where it shows none.
 
     Soundness: (S) is strict, and linear in T.
     """
     k_g = statement.k_g or sampled_proof(statement).k_g
     still, now = (statement.needed(k_g, T) for T in (Fraction(0), statement.period))
     rows = zip(statement.viscous_min, still, now, strict=True)
-    most = min(statement.period * (b - low) / (high - low) for b, low, high in rows)
-    return most if most > 0 else None
+    return [statement.period * (b - low) / (high - low) for b, low, high in rows]

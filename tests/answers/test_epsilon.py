@@ -86,7 +86,7 @@ def test_a_planted_certificate_raises_the_alarm(case):
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_seconds_are_there_where_they_were_asked_for(case, name):
-    timed = EpsilonResults((case[1],), seconds=(1.5,))
+    timed = EpsilonResults((replace(case[1], seconds=1.5),))
     assert "seconds" in timed.written(name)
     assert timed.data()["results"][0]["seconds"] == 1.5
     assert "seconds" not in case[1].data()["results"][0]

@@ -31,8 +31,7 @@ BESIDE_PROOF = {
 }
 """Functions with a word of proof and a number that is not proved, or is on the safe side before."""
 SEEN = {
-    "answers/epsilon/__init__.py:data": "seconds of computing",
-    "answers/epsilon/__init__.py:_every": "seconds of computing",
+    "answers/epsilon/__init__.py:module": "seconds of computing",
     "answers/robot/numbers.py:data": "the gap of numeric ends",
     "answers/robot/numbers.py:states": "the angles of a witness, whole in the data",
     "answers/tune/trial.py:__post_init__": "the largest value that may be asked",

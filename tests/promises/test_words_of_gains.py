@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.answers.gate.promises import shown_gravity
 from lyapcheck.answers.gate.stability import positive
+from lyapcheck.check.kinds.gate_accepted import GateAccepted
+from lyapcheck.control.judgement import judged_statement, resting
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -87,6 +88,17 @@ def undecided(*words):
     return text
 
 
+def judge_another(monkeypatch, **fields):
+    """Have the gate judge its statement about numbers with other fields than were asked about."""
+
+    def judged(asked, proofs):
+        return judged_statement(
+            replace(asked, **fields) if isinstance(asked, GateAccepted) else asked, proofs
+        )
+
+    monkeypatch.setattr("lyapcheck.answers.gate.promises.judged_statement", judged)
+
+
 RANGED = ("gate", "passes.toml", "--vary", "payload=0..2")
 
 
@@ -99,17 +111,15 @@ def passes():
 @pytest.mark.usefixtures("passes")
 def test_limits_of_the_nominal_arm_answer_no_question_about_ranges(monkeypatch):
     assert invoke(*RANGED).exit_code == 0
-    nominal = (((F(1), F(1)),), ((F(2), F(2)),), (F(60),))
-    monkeypatch.setattr("lyapcheck.answers.gate.promises.numbers_of", lambda *_: nominal)
+    judge_another(monkeypatch, parameters=((F(1), F(1)),))
     assert "does not answer the question (GateAccepted.parameters" in undecided(*RANGED)
 
 
 @pytest.mark.usefixtures("passes")
 def test_larger_motors_and_more_friction_answer_nothing(monkeypatch):
-    for field, (viscous, torque) in {"limits": (2, 61), "viscous": (3, 60)}.items():
-        stronger = (((F(1), F(3)),), ((F(viscous), F(viscous)),), (F(torque),))
+    for field, stronger in {"limits": (F(61),), "viscous": ((F(3), F(3)),)}.items():
         with monkeypatch.context() as patch:
-            patch.setattr("lyapcheck.answers.gate.promises.numbers_of", lambda *_, s=stronger: s)
+            judge_another(patch, **{field: stronger})
             assert f"GateAccepted.{field}" in undecided(*RANGED)
 
 
@@ -139,11 +149,10 @@ def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(monkeypatch, 
 def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch):
     assert "leaves at most" in invoke(*RANGED).stdout
 
-    def of_less(gains, model):
-        coulomb = tuple(x and replace(x, low=x.value, high=x.value) for x in model.coulomb)
-        return rest_errors(gains, replace(model, coulomb=coulomb))
-
-    monkeypatch.setattr("lyapcheck.answers.gate.friction.rest_errors", of_less)
+    monkeypatch.setattr(
+        "lyapcheck.answers.gate.friction.judged_resting",
+        lambda gains, friction: resting(gains, [f / 2 for f in friction]),
+    )
     assert "leaves at most" not in invoke(*RANGED).stdout
 
 

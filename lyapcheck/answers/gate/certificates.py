@@ -13,9 +13,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.friction import held, resting
-from lyapcheck.answers.gate.promises import DIGITS, is_stated, numbers_of, shown_gravity, stated
+from lyapcheck.answers.gate.promises import DIGITS, is_stated, shown_gravity
 from lyapcheck.answers.gate.words import RULES, Row
 from lyapcheck.answers.running.sampled import SampledCheck
+from lyapcheck.asked import gate_accepted
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.judgement import LARGEST
@@ -27,6 +28,7 @@ from lyapcheck.check.kinds.gate_accepted import (
     GateParts,
     SaturatingState,
 )
+from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import weakest
@@ -193,9 +195,10 @@ def _statement(result: GateResult) -> GateAccepted | None:
     torques = {"10", *TORQUES} & set(result.deciding)
     if not is_stated(gains, limits) or (torques and None in limits.torque):
         return None
-    numbers = numbers_of(limits, result.file.bounds.viscous_min)
+    k_g = tuple(map(Fraction, limits.gravity))
     its = tuple(statement for statement, _ in _stability(result))
-    return replace(stated(gains, limits, numbers, result.deciding), stability=its)
+    asked = gate_accepted(gains, limits.model, result.file.bounds, k_g, result.deciding)
+    return replace(asked, stability=its)
 
 
 def _stability(result: GateResult) -> Iterator[tuple[Statement, Proof]]:
@@ -210,9 +213,12 @@ def _with_gravity(result: GateResult, statement: GateAccepted) -> tuple[GateAcce
     """With the gravity of the model; where it does not serve, k_g is a premise."""
     model = result.limits.model
     shown = None if model is None else shown_gravity(model, statement.k_g)
-    if shown is None:
+    if shown is None or not isinstance(shown.statement, AllOf) or not isinstance(shown.proof, EveryPart):
         return statement, ()
-    return replace(statement, gravity=shown.gravity, potential=shown.potential), shown.proofs
+    (_, slope), *_ = shown.statement.parts
+    if not isinstance(slope, GravityOfPotential):  # g of these links is too long to be written out
+        return statement, ()
+    return replace(statement, gravity=slope.gravity, potential=slope.potential), shown.proof.parts[1:]
 
 
 def _refutations(result: GateResult, statement: GateAccepted) -> Iterator[Proof]:

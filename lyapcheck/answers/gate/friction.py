@@ -27,9 +27,9 @@ from lyapcheck.control.judgement import (
     DEGREES,
     JudgedStatement,
     dry_friction,
-    judged_statement,
     rest_error,
 )
+from lyapcheck.control.judgement import resting as judged_resting
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.errors import installed
 from lyapcheck.family.base import named
@@ -152,17 +152,14 @@ def resting(gains: GainSet, model: RobotModel) -> Rest | None:
     friction = dry_friction(model)
     if not any(friction) or not named(gains.family, gains.m).bounded or gains.angle_unit == "deg":
         return None
-    errors = tuple(rest_errors(gains, model))
-    if all(e is None for e in errors):
+    _ = named(gains.family, gains.m).checked  # or say that the checker does not know the function
+    judged = judged_resting(gains, friction)
+    if judged is None:
         return None
-    from lyapcheck.check.kinds.resting import AtBounds, Resting
-
-    judged = judged_statement(
-        Resting(gains.family, gains.m, tuple(gains.kp), tuple(friction), errors), [AtBounds()]
-    )
+    errors = judged.statement.errors  # type: ignore[attr-defined]
     degrees = tuple(None if e is None else significant_up(e * DEGREES, 4) for e in errors)
     printed = [None if angle is None else angle / DEGREES for angle in degrees]
-    promise, _ = promised(asked_resting(gains, dry_friction(model), printed), judged)
+    promise, _ = promised(asked_resting(gains, friction, printed), judged)
     return Rest(judged, promise, degrees)
 
 

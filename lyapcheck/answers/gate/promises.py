@@ -15,23 +15,21 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.gate.stability import friction_of, unknown_function
+from lyapcheck.answers.gate.stability import unknown_function
 from lyapcheck.asked import gate_accepted, gravity_kept
 from lyapcheck.check.judgement import MAX_ARM
-from lyapcheck.check.kinds.all_of import AllOf, EveryPart
-from lyapcheck.check.kinds.gate_accepted import TORQUES, GateAccepted, GateParts
-from lyapcheck.check.kinds.gravity import GravityBelow, GravityOfPotential, Levers
+from lyapcheck.check.kinds.all_of import EveryPart
+from lyapcheck.check.kinds.gate_accepted import TORQUES, GateParts
+from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.kinds.identity import SameHarmonics
-from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes
-from lyapcheck.check.statement import Ends, Monomials, Proof
+from lyapcheck.check.statement import Proof
 from lyapcheck.control.conditions import CONDITIONS, Check
-from lyapcheck.control.gravity import levers
+from lyapcheck.control.gravity import bounding
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, proves
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
-from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
-from lyapcheck.robots.trig import to_terms
+from lyapcheck.robots.dynamics import TooManyTerms
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile, GainSet
@@ -40,8 +38,6 @@ if TYPE_CHECKING:
 
 DIGITS = (30, 120, 1000)
 """Of γ, in turn."""
-Numbers = tuple[tuple[Ends, ...], tuple[Ends, ...], tuple[Fraction | None, ...]]
-"""Ranges of parameters and of viscous friction, and torque limits."""
 SAMPLED = "sampled"
 """It counts together with a condition by which no motor saturates."""
 NEEDS_GRAVITY = frozenset(("10", *TORQUES))
@@ -89,7 +85,7 @@ class GateQuestions:
             return Gravity(k_g)
         shown = shown_gravity(arm, k_g)
         if shown is not None:
-            promise, self._why_not = promised(gravity_kept(arm, k_g), shown.judged)
+            promise, self._why_not = promised(gravity_kept(arm, k_g), shown)
             return None if promise is None else Gravity(k_g, promise)
         premises = (
             f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, which nothing shows" for i, k in enumerate(k_g, 1)
@@ -105,8 +101,8 @@ class GateQuestions:
         if None in proofs:
             return Grounds(missing="a proof of stability is about another arm")
         known = tuple(one for one in proofs if one is not None)
-        asked = (*deciding, *([] if SAMPLED not in deciding or set(TORQUES) & set(deciding) else ["10i"]))
-        numbers = tuple(name for name in CONDITIONS if name in asked)
+        names = (*deciding, *([] if SAMPLED not in deciding or set(TORQUES) & set(deciding) else ["10i"]))
+        numbers = tuple(name for name in CONDITIONS if name in names)
         if not numbers:
             return Grounds(known)
         if not self._stated(gains):
@@ -116,21 +112,16 @@ class GateQuestions:
         gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else Gravity(tuple(self.limits.gravity))
         if gravity is None:
             return Grounds(missing=self._why_not)
-        one, missing = self._gains(gains, numbers)
+        asked = gate_accepted(
+            gains, self.limits.model, self.file.bounds, tuple(map(Fraction, self.limits.gravity)), numbers
+        )
+        one, missing = promised(
+            asked, judged_statement(asked, (GateParts((), digits, ()) for digits in DIGITS))
+        )
         if one is None:
             return Grounds(missing=missing)
         promises = (one,) if gravity.promise is None else (gravity.promise, one)
         return Grounds((*promises, *known), gravity.premises)
-
-    def _gains(self, gains: GainSet, numbers: tuple[str, ...]) -> tuple[Promise | None, str]:
-        statement = stated(gains, self.limits, self._arm, numbers)
-        judged = judged_statement(statement, (GateParts((), digits, ()) for digits in DIGITS))
-        asked = gate_accepted(gains, self.limits.model, self.file.bounds, statement.k_g, numbers)
-        return promised(asked, judged)
-
-    @cached_property
-    def _arm(self) -> Numbers:
-        return numbers_of(self.limits, self.file.bounds.viscous_min)
 
     def _stated(self, gains: GainSet) -> bool:
         """The same, once a function."""
@@ -140,89 +131,24 @@ class GateQuestions:
         return self._known[key]
 
 
-# --- The statements behind both.
-
-
-def numbers_of(limits: Limits, viscous_min: Fraction | None) -> Numbers:
-    """What the gate takes from an arm beside its gravity."""
-    least = limits.viscous_min or Fraction(0)
-    friction: tuple[Ends, ...] = ((least, least),) * limits.n
-    model = limits.model
-    if model is not None:
-        friction = friction_of(model, viscous_min, True) or tuple(b.bounds for b in model.viscous)
-    parameters = () if model is None else model.ranges
-    return parameters, friction, limits.torque
-
-
 def is_stated(gains: GainSet, limits: Limits) -> bool:
     """Whether a statement can speak of a set: the checker knows its h."""
     known = named(gains.family, gains.m).bounded and limits.n <= MAX_ARM
     return known and not unknown_function(gains)
 
 
-def stated(gains: GainSet, limits: Limits, numbers: Numbers, conditions: Sequence[str]) -> GateAccepted:
-    """That a set meets conditions on numbers, so far without gravity and stability."""
-    parameters, friction, torque = numbers
-    return GateAccepted(
-        joints=limits.n,
-        gravity=(),
-        potential=(),
-        parameters=parameters,
-        k_g=tuple(map(Fraction, limits.gravity)),
-        viscous=friction,
-        limits=tuple(None if limit is None else Fraction(limit) for limit in torque),
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(map(Fraction, gains.kp)),
-        kv=tuple(map(Fraction, gains.kv)),
-        conditions=tuple(name for name in CONDITIONS if name in conditions),
-        stability=(),
-    )
-
-
-@dataclass(frozen=True)
-class ShownGravity:
-    """g and the potential of an arm, where they are written out, with what shows bounds of g."""
-
-    gravity: tuple[Monomials, ...]
-    potential: Monomials
-    proofs: tuple[Proof, ...]
-    judged: JudgedStatement
-
-
 @lru_cache(maxsize=16)
-def shown_gravity(model: RobotModel, k_g: tuple[Fraction, ...]) -> ShownGravity | None:
-    """What shows these bounds of gravity; ``None`` where nothing does."""
-    known = levers(model) or ()
+def shown_gravity(model: RobotModel, k_g: tuple[Fraction, ...]) -> JudgedStatement | None:
+    """What the checker says of these bounds of gravity; ``None`` where nothing shows one of them."""
     try:
-        gravity = tuple(tuple(to_terms(torque)) for torque in model.gravity)
-        potential = tuple(to_terms(model.potential))
+        asked = gravity_kept(model, k_g)
     except TooManyTerms:
-        return _along_links(model.chain, k_g, known)
-    ranges = model.ranges
-    bounds = [GravityBelow(model.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
-    proofs: list[Proof] = []
-    for i, bound in enumerate(bounds):
-        ways = [HarmonicSizes(), *known[i : i + 1], *([Bisection()] if model.n <= FEW_JOINTS else [])]
-        proof = next((way for way in ways if proves(bound, way)), None)
+        return None
+    slope = [SameHarmonics() for _, part in asked.parts if isinstance(part, GravityOfPotential)]
+    proofs: list[Proof] = [*slope]
+    for i, (_, bound) in enumerate(asked.parts[len(slope) :]):
+        proof = next((way for way in bounding(bound, model, i) if proves(bound, way)), None)
         if proof is None:
             return None
         proofs.append(proof)
-    slope = GravityOfPotential(gravity, potential, ranges)
-    parts = AllOf((("potential", slope), *((f"g{i}", part) for i, part in enumerate(bounds, 1))))
-    judged = judged_statement(parts, [EveryPart((SameHarmonics(), *proofs))])
-    return ShownGravity(gravity, potential, tuple(proofs), judged)
-
-
-def _along_links(
-    chain: Chain | None, k_g: tuple[Fraction, ...], known: tuple[Levers, ...]
-) -> ShownGravity | None:
-    """Of exact links whose g is too long to be written out."""
-    if chain is None:
-        return None
-    from lyapcheck.check.kinds.chain import ChainGravityBelow, OwnLevers
-
-    bounds = [ChainGravityBelow(chain.links, chain.fall, (i,), k) for i, k in enumerate(k_g, 1)]
-    parts = AllOf(tuple((f"g{i}", bound) for i, bound in enumerate(bounds, 1)))
-    judged = judged_statement(parts, [EveryPart(tuple(OwnLevers(one.along) for one in known))])
-    return ShownGravity((), (), (), judged) if judged.shown == "proved" else None
+    return judged_statement(asked, [EveryPart(tuple(proofs))])

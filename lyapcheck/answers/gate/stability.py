@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
@@ -30,8 +29,10 @@ from lyapcheck.promise import promised
 from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from lyapcheck.check.certificate import Certificate
-    from lyapcheck.check.statement import Ends, Statement
+    from lyapcheck.check.statement import Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
     from lyapcheck.search.controlled_arm import ChainProof, ControlledArm, DecreaseProof
@@ -76,29 +77,18 @@ def small(fixed: RobotModel) -> bool:
         return False
 
 
-def friction_of(model: RobotModel, viscous_min: Fraction | None, ranges: bool) -> tuple[Ends, ...] | None:
-    """Every B between a λmin(B) that replaces the arm's and the most of its own; ``None`` where none does."""
-    if viscous_min is None:
-        return None
-    most = (number.bounds[1] if ranges else number.value for number in model.viscous)
-    return tuple((viscous_min, max(viscous_min, own)) for own in most)
-
-
 @lru_cache(maxsize=8)
 def positive(arm: RobotModel) -> JudgedStatement:
     """What the checker says of M(q) ≻ 0."""
-    from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
+    from lyapcheck.check.kinds.chain import OwnMoments
     from lyapcheck.check.kinds.inertia import MassAbove
     from lyapcheck.search.controlled_arm import mass_proof, remember
 
-    try:
-        mass = arm.mass_terms
-    except TooManyTerms:
-        if arm.chain is None:
-            raise
-        return judged_statement(ChainAbove(arm.chain.links, Fraction(0)), [OwnMoments()])
+    asked = definite(arm)
+    if not isinstance(asked, MassAbove):
+        return judged_statement(asked, [OwnMoments()])
     remember(arm)
-    return judged_statement(MassAbove(mass, arm.ranges, Fraction(0)), [mass_proof(mass)])
+    return judged_statement(asked, [mass_proof(asked.mass)])
 
 
 class Prover:
@@ -185,15 +175,14 @@ class Prover:
 
         gains, model = controlled.gains, self.model or controlled.model
         proof: DecreaseProof | ChainProof | None = None
+        viscous = viscous_of(model, self.viscous_min, nominal=not self.ranges)
         if not controlled.too_long:
-            friction = friction_of(model, self.viscous_min, self.ranges)
             proof, reason = (
-                norm_epsilon(controlled, friction) if name == SCALAR else self._global(controlled, progress)
+                norm_epsilon(controlled, viscous) if name == SCALAR else self._global(controlled, progress)
             )
         elif (chain := controlled.ranged.chain) is None:
             reason = _TOO_LONG
         elif not (reason := without("needs", "numpy", "scipy", "clarabel")):
-            viscous = viscous_of(model, self.viscous_min, nominal=not self.ranges)
             proof, reason = chain_epsilon(gains, chain, viscous)
         if proof is None or proof.judged is None:
             return Check(name, reason=reason)

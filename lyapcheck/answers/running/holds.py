@@ -26,14 +26,12 @@ from flint import arb
 
 from lyapcheck.asked import gravity_kept, resting
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
-from lyapcheck.check.kinds.chain import NoTorque, OwnLevers
-from lyapcheck.check.kinds.gravity import GravityBelow
-from lyapcheck.check.kinds.inertia import Bisection, HarmonicSizes, PostureWitness
+from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import Check
-from lyapcheck.control.gravity import computed_bounds, exceeded, levers
+from lyapcheck.control.gravity import bounding, computed_bounds, exceeded
 from lyapcheck.control.judgement import (
     DEGREES,
     JudgedStatement,
@@ -46,10 +44,10 @@ from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.output.digits import at_least, at_most
 from lyapcheck.promise import all_say, promised
-from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
+from lyapcheck.robots.dynamics import Chain, TooManyTerms
 
 if TYPE_CHECKING:
-    from lyapcheck.check.statement import Proof, Statement
+    from lyapcheck.check.statement import Proof
     from lyapcheck.control.gains import GainSet
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
@@ -201,19 +199,11 @@ def _stated(gains: GainSet, i: int, parts: Sequence[_Part], total: Fraction, err
 def _judged(stated: AllOf, i: int, parts: Sequence[_Part]) -> JudgedStatement:
     proofs: list[Proof] = []
     for (_, bound), part in zip(stated.parts, parts, strict=False):
-        known = judged_statement(bound, _ways(bound, part.arm, i))
+        known = judged_statement(bound, bounding(bound, part.arm, i))
         if known.proof is None:
             return replace(known, statement=stated)
         proofs.append(known.proof)
     return judged_statement(stated, [EveryPart((*proofs, AtBounds()))])
-
-
-def _ways(bound: Statement, arm: RobotModel, i: int) -> Iterator[Proof]:
-    known = (levers(arm) or ())[i : i + 1]
-    if isinstance(bound, GravityBelow):
-        yield from (HarmonicSizes(), *known, *([Bisection()] if arm.n <= FEW_JOINTS else []))
-    else:
-        yield from (NoTorque(), *(OwnLevers(one.along) for one in known))
 
 
 def _payload(record: LoopRecord, i: int, parts: Sequence[_Part], room: Fraction) -> Fraction | None:

@@ -26,8 +26,8 @@ from lyapcheck.control.sampling import (
     ONE,
     LoopRecord,
     judged_sampled,
+    largest_periods,
     require_sampled,
-    sampled_proof,
     time_text,
 )
 from lyapcheck.errors import without
@@ -231,14 +231,11 @@ def largest(
     asked: SampledStable, joints: Sequence[str]
 ) -> tuple[tuple[Fraction, Fraction] | None, int | None, str]:
     """The largest period to state and the supremum of those shown, s; the tightest joint; or why not."""
-    k_g = asked.k_g or sampled_proof(asked).k_g
-    still, now = (asked.needed(k_g, T) for T in (Fraction(0), asked.period))
-    rows = list(zip(asked.viscous_min, still, now, strict=True))
-    short = [i for i, (b, low, _) in enumerate(rows) if low >= b]
+    ends = largest_periods(asked)
+    short = [i for i, end in enumerate(ends) if end <= 0]
     if short:
         names = ", ".join(joints[i] for i in short)
         return None, short[0], f"(S) shows no period: L k_v is not below the friction of {names}"
-    ends = [asked.period * (b - low) / (high - low) for b, low, high in rows]
     most = min(ends)
     stated = significant_down(most, 4)
     if stated == most:  # (S) is strict

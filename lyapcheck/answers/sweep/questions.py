@@ -225,7 +225,7 @@ def _gate(questions: Sequence[Question], known: UncertainArm, options: Options) 
 
 def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answered:
     """The four ε₀, over all ranges where there are some: ``proved`` if one is certified."""
-    from lyapcheck.answers.epsilon import FIELDS, exact
+    from lyapcheck.answers.epsilon import FIELDS
     from lyapcheck.answers.epsilon.compute import Options as Asked
     from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
     from lyapcheck.output.fields import data
@@ -233,11 +233,12 @@ def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answe
     assert question.gains is not None
     asked = Asked(ranges=bool(known.ranges), weights=False, **options)
     result = kept_epsilon(question.gains, known.model, asked)
-    found = {"eps0": exact(result.certified), "falsified": exact(result.falsified)}
+    row = data(FIELDS, result)
+    found = {"eps0": row["certified"], "falsified": row["falsified"]}
     reason = "" if result.proof else result.reasons.get("certified", "")
     made = tuple(certificates(result).values())
     verdict = _said(result.promise)
-    return answered(question, verdict, data(FIELDS, result), made, reason, **found)
+    return answered(question, verdict, row, made, reason, **found)
 
 
 def _bounds(question: Question, known: UncertainArm, options: Options) -> Answered:

@@ -39,7 +39,7 @@ from lyapcheck.claims.search_result import (
     still_open,
 )
 from lyapcheck.control.judgement import proves, refutes
-from lyapcheck.control.sampling import largest_period, sampled_proof
+from lyapcheck.control.sampling import largest_periods, sampled_proof
 from lyapcheck.errors import installed
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.robots import Number
@@ -193,7 +193,7 @@ DIGITS = 4
 def find_sampled(statement: SampledStable) -> SearchResult:
     """By (S) or an unstable goal; else up to which period (S) holds, and with how much friction it would."""
     proof = sampled_proof(statement)
-    reach = _milliseconds(largest_period(statement))
+    reach = _milliseconds(min(largest_periods(statement)))
     if proves(statement, proof):
         return shown(proof, SAMPLED, largest_period=reach)
     if statement.conclusion == GOAL and not statement.k_g and installed("numpy") and installed("scipy"):
@@ -226,9 +226,9 @@ def find_from_rest(statement: SampledFromRest) -> SearchResult:
     )
 
 
-def _milliseconds(period: Fraction | None) -> str:
+def _milliseconds(period: Fraction) -> str:
     """A period that (S) shows, in four digits; empty if there is none."""
-    return "" if period is None else f"{decimal_text(significant_down(1000 * period, DIGITS))} ms"
+    return "" if period <= 0 else f"{decimal_text(significant_down(1000 * period, DIGITS))} ms"
 
 
 # --- Where an arm may come to rest: decided by h at the bounds, or by a state of rest beyond one of them.

@@ -94,10 +94,11 @@ def run(
     ranges = ranges or spread is not None or bool(ranged)
     options = Options(ranges=ranges, weights=weights or None, **numbers)
     with progress("epsilon") as advance:
-        results, times = _each(chosen, own, model, options, advance)
+        results = _each(chosen, own, model, options, advance)
     if folder is not None:
         write_certificates(folder, *map(certificates_of, results))
-    show(EpsilonResults(tuple(results), gain_file, times if timings else None), format)
+    shown = [one if timings else replace(one, seconds=None) for one in results]
+    show(EpsilonResults(tuple(shown), gain_file), format)
     missing = any(result.certified is None for result in results)
     return Exit.UNDECIDED if missing else Exit.PROVED
 
@@ -125,8 +126,8 @@ def _chosen(gain_file: GainFile, m: str | None) -> list[GainSet]:
 
 def _each(
     gains: list[GainSet], own: RobotModel, model: RobotModel, options: Options, advance: Progress
-) -> tuple[list[EpsilonResult], list[float]]:
-    """The result of every gain set and the seconds it took.
+) -> list[EpsilonResult]:
+    """The result of every gain set, with the seconds it took.
 
     Args:
         gains: the sets.
@@ -139,7 +140,6 @@ def _each(
     from lyapcheck.robots.vary import outside
 
     results: list[EpsilonResult] = []
-    seconds: list[float] = []
     nominal = replace(options, ranges=False, weights=False)
     left_out = outside(own, model)
     for done, gain_set in enumerate(gains):
@@ -151,6 +151,5 @@ def _each(
         if result.corner and not left_out:  # something ranges: what that costs is asked too
             found = kept_epsilon(gain_set, own, nominal, part(advance, middle, high, about))
             result = replace(result, unvaried=found.promise)
-        results.append(result)
-        seconds.append(perf_counter() - began)
-    return results, seconds
+        results.append(replace(result, seconds=perf_counter() - began))
+    return results
