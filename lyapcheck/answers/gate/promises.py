@@ -44,15 +44,6 @@ NEEDS_GRAVITY = frozenset(("10", *TORQUES))
 
 
 @dataclass(frozen=True)
-class Gravity:
-    """Bounds k_gi, N·m, with the promise that the arm keeps them, or the premise that it does."""
-
-    k_g: tuple[Fraction, ...]
-    promise: Promise | None = None
-    premises: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
 class Grounds:
     """What a gain set is accepted on; ``missing`` says why it is not."""
 
@@ -74,23 +65,21 @@ class GateQuestions:
 
     def __init__(self, file: GainFile, limits: Limits) -> None:
         self.file, self.limits = file, limits
-        self._why_not = ""
         self._known: dict[tuple[str, int | None], bool] = {}
 
     @cached_property
-    def gravity(self) -> Gravity | None:
-        """The bounds of the limits; ``None`` where what is shown of them answers another question."""
+    def gravity(self) -> Grounds:
+        """The promise that the arm keeps its bounds k_gi, or the premise that it does."""
         arm, k_g = self.limits.model, tuple(self.limits.gravity)
         if arm is None:
-            return Gravity(k_g)
+            return NO_GROUNDS
         shown = shown_gravity(arm, k_g)
-        if shown is not None:
-            promise, self._why_not = promised(gravity_kept(arm, k_g), shown)
-            return None if promise is None else Gravity(k_g, promise)
-        premises = (
-            f"premise: |g_{i}| ≤ {decimal_text(k)} N·m, which nothing shows" for i, k in enumerate(k_g, 1)
-        )
-        return Gravity(k_g, None, tuple(premises))
+        if shown is None:
+            unshown = "premise: |g_{}| ≤ {} N·m, which nothing shows"
+            premises = (unshown.format(i, decimal_text(k)) for i, k in enumerate(k_g, 1))
+            return Grounds(premises=tuple(premises))
+        promise, why_not = promised(gravity_kept(arm, k_g), shown)
+        return Grounds(missing=why_not) if promise is None else Grounds((promise,))
 
     def grounds(self, gains: GainSet, deciding: Sequence[str], checks: Sequence[Check]) -> Grounds:
         """The promises by which a set that passes its checks is accepted.
@@ -109,9 +98,9 @@ class GateQuestions:
             # an h that the checker does not know: each check by itself
             own = [check for check in checks if check.id in numbers]
             return Grounds((*known, *(check.own_promise for check in own)))
-        gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else Gravity(tuple(self.limits.gravity))
-        if gravity is None:
-            return Grounds(missing=self._why_not)
+        gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else NO_GROUNDS
+        if gravity.missing:
+            return gravity
         asked = gate_accepted(
             gains, self.limits.model, self.file.bounds, tuple(map(Fraction, self.limits.gravity)), numbers
         )
@@ -120,8 +109,7 @@ class GateQuestions:
         )
         if one is None:
             return Grounds(missing=missing)
-        promises = (one,) if gravity.promise is None else (gravity.promise, one)
-        return Grounds((*promises, *known), gravity.premises)
+        return Grounds((*gravity.promises, one, *known), gravity.premises)
 
     def _stated(self, gains: GainSet) -> bool:
         """The same, once a function."""
