@@ -6,7 +6,7 @@ References: ``lyapcheck.check.loop.sampled_energy``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any
@@ -15,10 +15,14 @@ import numpy as np
 from flint import arb
 
 from lyapcheck._types import SEED, Array
-from lyapcheck.check.kinds.for_all import Boxes, Pieces
-from lyapcheck.check.kinds.sampled_from_rest import TANH, FallingEnergy, SampledFromRest, arm_bounds
+from lyapcheck.check.kinds.sampled_from_rest import (
+    FallingEnergy,
+    SampledFromRest,
+    arm_bounds,
+    bounded_gains,
+)
 from lyapcheck.check.loop.sampled_energy import PIECES, ArmBounds, Gains, SampledEnergy, Splits, form_of
-from lyapcheck.check.numbers.members import Member, member
+from lyapcheck.check.numbers.members import member
 from lyapcheck.control.judgement import proves
 from lyapcheck.convex import Ended, solved
 from lyapcheck.robots.numeric import NumericModel
@@ -27,7 +31,6 @@ from lyapcheck.search.sampled import corners, plant_of
 SAMPLES, WORST = 3000, 40
 SPARE, SHARE, SPEED = 0.98, 0.2, 1.001
 REACHES = (2.0, 1.5, 3.0)
-DIGITS, CUT = 200, 128
 LEAST_WEIGHT, LARGEST_WEIGHT, STIFFEST, TINY = 1e-4, 50.0, 1.1, 1e-9
 
 
@@ -43,39 +46,14 @@ def falling_energy(statement: SampledFromRest) -> FallingEnergy | None:
     if not least.min() > 0:
         return None
     arm = arm_bounds(statement, tuple(map(_fraction, least)))
-    angle = math.radians(float(statement.within))
-    h = _bounds(statement)
-    stored = float(h.member.potential(arb(angle)).upper())
-    speed = SPEED * math.sqrt(2 * STIFFEST * kp.sum() * stored / (1 - SHARE))
+    potential = member(statement.family, statement.m).potential
+    stored = float(potential(arb(math.radians(float(statement.within))))) * kp.sum()
+    speed = SPEED * math.sqrt(2 * STIFFEST * stored / (1 - SHARE))
     for reach in REACHES:
-        proof = _Program(statement, arm, h, least, speed, reach, weight).proof()
+        proof = _Program(statement, arm, least, speed, reach, weight).proof()
         if proof is not None and proves(statement, proof):
             return proof
     return None
-
-
-@dataclass(frozen=True)
-class _Bounds:
-    """h with its bounds, and c of U ≥ ½ c h² with its proof."""
-
-    member: Member
-    tanh: bool
-    steep: Fraction = Fraction(1)
-    shown: Pieces | None = None
-
-
-def _bounds(statement: SampledFromRest) -> _Bounds:
-    """What the program needs to know of h; the boxes show U ≥ ½ c h² to about m = 12."""
-    known, m = member(statement.family, statement.m), statement.m
-    if (statement.family, m) in TANH:
-        return _Bounds(known, True)
-    assert m is not None
-    x = np.linspace(0.01, 8, 4000)
-    s = np.sinh(x)
-    h = s ** (2 * m - 1) * np.cosh(x) / (1 + s ** (2 * m))
-    steep = Fraction(math.floor(DIGITS * (np.log1p(s ** (2 * m)) / m / h**2).min()) - 1, DIGITS)
-    cuts = tuple(Fraction(k, CUT) for k in range(CUT // 2, 4 * CUT + 1))
-    return _Bounds(known, False, steep, Pieces((Boxes(cuts, from_zero=True, to_infinity=True, bits=128),)))
 
 
 def _fraction(x: Any) -> Fraction:
@@ -114,7 +92,6 @@ class _Program:
     Args:
         statement: the loop.
         arm: its bounds.
-        h: the function, with its bounds.
         least: u of them.
         speed: that motions are to keep.
         reach: λ.
@@ -123,7 +100,6 @@ class _Program:
 
     statement: SampledFromRest
     arm: ArmBounds
-    h: _Bounds
     least: Array
     speed: float
     reach: float
@@ -137,24 +113,26 @@ class _Program:
         self.mass, self.slope, self.symbols = (
             np.array(x, dtype=float) for x in (self.arm.mass, self.arm.slope, self.arm.symbols)
         )
+        known = bounded_gains(self.statement, _row(self.least), _fraction(self.speed))
+        self.gains = replace(
+            known,
+            **{name: float(getattr(known, name)) for name in ("period", "rho", "least_slope", "L", "gamma")},
+            **{name: tuple(map(float, getattr(known, name))) for name in ("kp", "kv", "sector")},
+        )
         self.turning = np.array(self.arm.turning(_fraction(self.speed)), dtype=float)
-        self.scale, known = np.sqrt(np.diag(self.mass)), self.h.member
+        self.scale = np.sqrt(np.diag(self.mass))
         self.c, self.margin = cp.Variable(), cp.Variable()
         self.eps, self.slow, self.stiff, self.moved, self.mean = (cp.Variable(n) for _ in range(5))
         self.kept, self.late = cp.Variable((n, d + 1)), cp.Variable((n, max(d, 1)))
         self.pays: dict[str, list[Any]] = {letter: [0.0] * n for letter in "whyr"}
         self.unit = {"w": self.weight, "h": self.kp, "y": self.least / T, "r": self.weight / T**2}
         self.shares: dict[tuple[str, int, int], tuple[Any, Any, float]] = {}
-        self.rho, self.L, self.gamma = (float(x) for x in (known.rho, known.L, known.gamma))
-        rows = [(self.mass[i] * self.scale[i] / self.scale).sum() for i in range(n)]
+        rho, rows = self.gains.rho, [(self.mass[i] * self.scale[i] / self.scale).sum() for i in range(n)]
         self.rules: list[Any] = [
             *(self.c >= LEAST_WEIGHT, self.c <= LARGEST_WEIGHT, self.margin <= 1),
             *(self.slow >= 0, self.slow <= self.eps, self.moved >= 0, self.mean >= 0),
             *(self.kept >= 0, self.late >= 0, self.stiff >= 0.5 * self.kp, self.stiff <= STIFFEST * self.kp),
-            *(
-                cp.square(self.eps[i]) * rows[i] <= 0.999 * SHARE * float(self.h.steep) * self.stiff[i]
-                for i in range(n)
-            ),
+            *(rho * cp.square(self.eps[i]) * rows[i] <= 0.999 * SHARE * self.stiff[i] for i in range(n)),
             *(cp.sum(self.kept[i]) <= 0.999999 * self.c * (self.reach - 1) for i in range(n)),
         ]
         for i, j in product(range(n), repeat=2):
@@ -162,11 +140,11 @@ class _Program:
 
     def _couple(self, i: int, j: int) -> None:
         """What joint j does to joint i."""
-        eps, c, turning = self.eps[i], self.c, self.turning
+        eps, c, turning, rho = self.eps[i], self.c, self.turning, self.gains.rho
         if i == j:
-            self._pay("w", i, "w", i, self.rho * eps * self.mass[i, i], 1.0)
+            self._pay("w", i, "w", i, rho * eps * self.mass[i, i], 1.0)
         else:
-            self._split("mass", self.rho * self.mass[i, j] * eps, ("w", i), ("w", j), self.mass[i, j])
+            self._split("mass", rho * self.mass[i, j] * eps, ("w", i), ("w", j), self.mass[i, j])
         slope = self.slope[i, j]
         self._split("gravity_w", slope, ("w", i), ("r", j), slope)
         self._split("gravity_h", slope * eps, ("h", i), ("r", j), slope)
@@ -175,7 +153,7 @@ class _Program:
         self._split("turning_y", turning[i, j] * c, ("y", i), ("w", j), turning[i, j])
         self._pay("y", i, "y", j, c * turning[i, j] / 4, math.sqrt(self.least[i] / self.least[j]))
         for k in range(self.n):
-            fast = self.gamma * (eps - self.slow[i]) * self.symbols[j, i, k]
+            fast = self.gains.gamma * (eps - self.slow[i]) * self.symbols[j, i, k]
             self._pay("w", j, "w", k, fast, math.sqrt(self.weight[j] / self.weight[k]))
 
     def _pay(self, first: str, i: int, second: str, j: int, size: Any, by: float) -> None:
@@ -207,14 +185,8 @@ class _Program:
         known += [self.pays[letter][i] for letter in "whyr"]
         rate, step = 1 / math.sqrt(self.weight[i]), math.sqrt(T / u)
         size = [1 / math.sqrt(self.kp[i]), rate, step, rate, *[step] * (d + 1), *[rate] * d, step]
-        fastest = self.speed / np.sqrt(self.least)
-        sector = 0.999999 * np.tanh(fastest) / fastest if self.h.tanh else np.zeros(self.n)
-        falling = 0.0 if self.h.tanh else -self.rho
-        numbers = (falling, self.rho, self.L, self.gamma, tuple(sector))
-        gains = Gains(tuple(self.kp), tuple(self.kv), T, d, *numbers)  # type: ignore[arg-type]
-        for at in product(
-            {sector[i], self.L}, (falling, self.rho), set(map(float, self.statement.viscous[i]))
-        ):
+        gains, friction = self.gains, set(map(float, self.statement.viscous[i]))
+        for at in product({gains.sector[i], gains.L}, (gains.least_slope, gains.rho), friction):
             for constant, *parts in _controls(i, self.n, d, self.reach, self.least, gains, at, len(known)):
                 form = constant + sum(x * part for x, part in zip(known, parts, strict=True) if part.any())
                 scaled = cp.multiply(np.outer(size, size), form)
@@ -248,8 +220,7 @@ class _Program:
             ),
         )
         return FallingEnergy(
-            *(_row(self.least), _fraction(self.speed), _fraction(SHARE), _row(self.scale), energy),
-            *(self.h.steep, self.h.shown),
+            _row(self.least), _fraction(self.speed), _fraction(SHARE), _row(self.scale), energy
         )
 
     def _square(self, name: str, usual: Array) -> tuple[tuple[Fraction, ...], ...]:

@@ -25,7 +25,7 @@ GAINS = {
     "reyes-kelly2": ("41.089 5.618", "17.610 2.112"),
 }
 """Gains that targets at infinite rate suggest."""
-GAMMA = Gains((), (), F(1), 1, F(0), F(1), F(1), F(1), ())
+GAMMA = Gains((), (), F(1), 1, F(1), F(0), F(1), F(1), ())
 """Bounds of tanh."""
 ARM_OF = {tuple(map(F, kp.split())): name for name, (kp, _) in GAINS.items()}
 
@@ -106,7 +106,7 @@ def test_of_one_joint_the_form_is_the_rate_of_the_energy_itself(d, seed, m):
         De = (h(m, e + behind)[0] - h(m, e)[0]) / behind
         slope = (h(m, e + 1e-6)[0] - h(m, e - 1e-6)[0]) / 2e-6
         pays = {"w": eps * slope * M, "h": 0.0, "y": 0.0, "r": 0.0}
-        gains = Gains((kp,), (kv,), T, d, 0.0, 1.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
+        gains = Gains((kp,), (kv,), T, d, 1.0, 0.0, 1.0, 1.0, (0.0,))  # type: ignore[arg-type]
         form = np.array(form_of(0, V, M, pays, gains, (z, D, De, b)), dtype=float)  # type: ignore[arg-type]
         x = [h(m, e)[0], w, (w - w_now) / z, (q - q_now) / (z * reach * T)]
         x += [back[j][1] - back[j + 1][1] for j in range(d + 1)]

@@ -321,7 +321,6 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
     rules = {
         "asks for the arm itself: name one with robot = …": arm is not None,
         f"speaks of arms to {FEW_JOINTS} joints": arm is None or arm.n <= FEW_JOINTS,
-        "speaks of the hyperbolic family": gains.family in ("tanh", "hyperbolic"),
         "speaks of differences without a filter": (record.velocity, record.filter) == ("difference", ONE),
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,

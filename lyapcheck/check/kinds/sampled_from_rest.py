@@ -5,15 +5,13 @@ References: ``lyapcheck.check.loop.sampled_energy``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
 
 from flint import arb
 
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.expressions.text import number_text
-from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.inertia import (
     law_text,
     mass_text,
@@ -31,15 +29,15 @@ from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import dyadic, root_above
-from lyapcheck.check.refusal import Refused, require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Relation, Total
-from lyapcheck.check.verify import Accepted, require_proved, rule
+from lyapcheck.check.refusal import require
+from lyapcheck.check.statement import Ends, Monomials, Proof, Total
+from lyapcheck.check.verify import Accepted, rule
 
 MOST_DELAY = 6
 FARTHEST = 3600
 """Degrees."""
-TANH = (("tanh", None), ("hyperbolic", 1))
-"""What rises, has h(x)/x falling, and U ≥ ½h²."""
+CONCAVE = {("tanh", None), ("hyperbolic", 1), ("algebraic", None), ("arctan", None)}
+"""h for which h' ≥ 0 and h(x)/x falls away from 0."""
 
 
 @dataclass(frozen=True)
@@ -99,10 +97,7 @@ class SampledFromRest(Total):
 
 @dataclass(frozen=True)
 class FallingEnergy(Proof):
-    """V, with u of M ≽ diag(u), a speed that motions keep, ν and weights of rows of |M_ij|.
-
-    ``steep`` is c in U ≥ ½ c h², and ``shown`` proves that; for tanh it is known with c = 1.
-    """
+    """V, with u of M ≽ diag(u), a speed that motions keep, ν and weights of rows of |M_ij|."""
 
     rule = "falling sampled energy"
     least: Numbers
@@ -110,28 +105,20 @@ class FallingEnergy(Proof):
     share: Fraction
     scale: Numbers
     energy: SampledEnergy
-    steep: Fraction = field(default=Fraction(1), metadata={"left_out": True})
-    shown: Proof | None = field(default=None, metadata={"left_out": True})
 
 
 @rule(SampledFromRest, FallingEnergy)
 def by_falling_energy(statement: SampledFromRest, proof: FallingEnergy) -> Accepted:
     """Soundness: V falls at least as fast as some multiple of |h(e)|² + |w|² while wᵀMw ≤ speed².
 
-    By ε_i²Σ_j|M_ij|scale_i/scale_j ≤ ν c k̂_i and U ≥ ½ c h², V ≥ ½(1 − ν) wᵀMw + Σ k̂_i (U − ½ c h²)(e_i), and
-    at the start V ≤ Σ k̂_i U(within) < ½(1 − ν) speed²: so wᵀMw stays below, all |w_i| below w̄_i, and so do
-    the means of w that differences are. V never rises, also as steps end. The integral of |h|² + |w|² is
-    finite, and h(e) and w are uniformly continuous: both tend to 0, and so does e, as h_m(x) → 1 for x → ∞.
+    For x > 0 the slope h(1 − h'/ρ) of U − h²/2ρ is not negative: U ≥ h²/2ρ. By it and ρε_i²Σ_j|M_ij|scale_i/
+    scale_j ≤ ν k̂_i, V ≥ ½(1 − ν) wᵀMw + Σ k̂_i (U − h²/2ρ)(e_i), and at the start, as U rises with |e_i|,
+    V ≤ Σ k̂_i U(within) < ½(1 − ν) speed²: so wᵀMw stays below, all |w_i| below w̄_i, and so do the means of w
+    that differences are. V never rises, also as steps end. The integral of |h|² + |w|² is finite, and h(e)
+    and w are uniformly continuous: both tend to 0; so does e, since h stays away from 0.
     """
     known, n = member(statement.family, statement.m), len(statement.mass)
     V, d = proof.energy, statement.delay
-    if tanh := (statement.family, statement.m) in TANH:
-        require(proof.steep == 1 and proof.shown is None, "steep", proof.steep, "must be 1 for tanh")
-    elif statement.family != "hyperbolic" or statement.m is None or proof.shown is None:
-        raise Refused("h", statement.family, "must be an h_m, with a proof of U ≥ ½ c h²")
-    else:
-        require(proof.steep > 0, "steep", proof.steep, "must be positive")
-        require_proved(stored_above(statement.m, proof.steep), proof.shown, "U ≥ ½ c h²")
     _require_sizes(proof, n, d)
     inertia = inertia_of(statement.mass, statement.parameters)
     require(inertia.symmetric, "M", "", "is not symmetric")
@@ -141,27 +128,29 @@ def by_falling_energy(statement: SampledFromRest, proof: FallingEnergy) -> Accep
         row = sum(
             (x * proof.scale[i] / s for x, s in zip(arm.mass[i], proof.scale, strict=True)), Fraction(0)
         )
-        small = V.coupling[i] ** 2 * row <= proof.share * proof.steep * V.stiffness[i]
+        small = known.rho * V.coupling[i] ** 2 * row <= proof.share * V.stiffness[i]
         require(small, "coupling", V.coupling[i], "is too large for V > 0")
         spent = sum(V.kept[i], Fraction(0)) <= V.weight * (V.reach - 1)
         require(spent, "kept", "", "is more than steps leave")
     potential = known.potential(to_arb(statement.within) * arb.pi() / 180)
     stored = to_arb(sum(V.stiffness, Fraction(0))) * potential
     require(stored * 2 < to_arb((1 - proof.share) * proof.speed**2), "speed", proof.speed, "may be exceeded")
-    fastest = [root_above(proof.speed**2 / u) for u in proof.least]
-    sector = tuple(dyadic((known.h(to_arb(w)) / to_arb(w)).lower()) if tanh else Fraction(0) for w in fastest)
-    bounds = (Fraction(0) if tanh else -known.rho, known.rho, known.L, known.gamma)
-    gains = Gains(statement.kp, statement.kv, statement.period, d, *bounds, sector)
+    gains = bounded_gains(statement, proof.least, proof.speed)
     shown = falls(V, arm, proof.speed, statement.viscous, gains)
     require(shown, "energy", "", "is not shown to fall")
     return Accepted("proved", "enclosure")
 
 
-def stored_above(m: int, steep: Fraction) -> ForAll:
-    """U_m(x) ≥ ½ c h_m(x)²; both sides are even."""
-    x: Tree = ("var", "x")
-    square: Tree = ("mul", ("num", str(steep / 2)), ("pow", ("h", m, x), 2))
-    return ForAll(Relation(square, "<=", ("potential", m, x)), Fraction(0))
+def bounded_gains(statement: SampledFromRest, least: Numbers, speed: Fraction) -> Gains:
+    """The controller, with the bounds of h at rates with Σ u_i w_i² ≤ speed², u = ``least``."""
+    known = member(statement.family, statement.m)
+    if (statement.family, statement.m) in CONCAVE:
+        fastest = [to_arb(root_above(speed**2 / u)) for u in least]
+        slope, sector = Fraction(0), [dyadic((known.h(w) / w).lower()) for w in fastest]
+    else:  # h_m is flat at 0 and falls towards 1 in the end
+        slope, sector = -known.rho, [Fraction(0)] * len(least)
+    bounds = known.rho, slope, known.L, known.gamma, tuple(sector)
+    return Gains(statement.kp, statement.kv, statement.period, statement.delay, *bounds)
 
 
 def arm_bounds(statement: SampledFromRest, least: Numbers) -> ArmBounds:

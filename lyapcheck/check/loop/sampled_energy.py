@@ -11,9 +11,8 @@ With F the torque less g(q) and Bw, and by Ṁ = C + Cᵀ,
           + Σ Q_i/T' [r_i²/(2T'z²) − (1/z − 1) r_i w_i] + Σ credits,
     F = K_p h(e) + (K_p D_e − G) r̂ − K_v D (w − η) − Bw,   r̂ = q − q_κ,   η = w − v,
 
-D from s_i to L, with s_i = h(w̄_i)/w̄_i where h(x)/x falls and 0 elsewhere, D_e from 0 to ρ where h rises and
-from −ρ elsewhere, |G_ij| at most sup |∂g_i/∂q_j|. With δ = z y, r = z T' x,
-Δ_j = w_{k−j+1} − w_{k−j}, Tρ_j = q_{k−j+1} − q_{k−j} and μ the mean of δ over step κ − 1
+D from s_i ≤ h(v)/v, |v| ≤ w̄_i, to L, D_e from inf h' to ρ, |G_ij| at most sup |∂g_i/∂q_j|. With δ = z y,
+r = z T' x, Δ_j = w_{k−j+1} − w_{k−j}, Tρ_j = q_{k−j+1} − q_{k−j} and μ the mean of δ over step κ − 1
 
     η = z y + Δ_1 + … + Δ_{d+1} − μ,   r̂ = z T' x + T (ρ_1 + … + ρ_d).
 
@@ -101,14 +100,14 @@ class SampledEnergy(Piece):
 
 @dataclass(frozen=True)
 class Gains:
-    """K_p, K_v, T, d, and bounds of h: the least slope, ρ, L, γ and s_i."""
+    """K_p, K_v, T, d, and bounds of h: ρ ≥ sup |h'|, the least slope, L, γ and s_i."""
 
     kp: Numbers
     kv: Numbers
     period: Fraction
     delay: int
-    falling: Fraction
     rho: Fraction
+    least_slope: Fraction
     L: Fraction
     gamma: Fraction
     sector: Numbers
@@ -200,7 +199,7 @@ def falls(
     pays = shared(V, arm, arm.turning(speed), gains)
     places = [Fraction(k, PIECES) / V.reach for k in range(PIECES + 1)]
     for i, u in enumerate(arm.least):
-        ends = product({gains.sector[i], gains.L}, {gains.falling, gains.rho}, set(friction[i]))
+        ends = product({gains.sector[i], gains.L}, {gains.least_slope, gains.rho}, set(friction[i]))
         for at in ends:
             of = {z: form_of(i, V, u, pays[i], gains, (z, *at)) for z in places}
             forms = list(of.values())

@@ -32,7 +32,9 @@ class Functions:
 
 @dataclass(frozen=True)
 class Member(Functions):
-    """An odd, bounded h, positive for x > 0 and once continuously differentiable, with its bounds from above.
+    """An odd, bounded h, once continuously differentiable, positive for x > 0, with its bounds from above.
+
+    It does not tend to 0 as x grows: U is unbounded, and h(x) → 0 only as x → 0.
 
     Args:
         gamma: at least sup h.
