@@ -1,4 +1,4 @@
-"""V and dV/dt in balls at exact states: against the oracle's, by a step along the motion, and in limit cases."""
+"""V and dV/dt in balls at exact states: against those of the oracle, and in limit cases."""
 
 from fractions import Fraction
 

@@ -8,9 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.check.run import paper_case_data
+from lyapcheck.check.expressions.domain import Interval
 from lyapcheck.check.expressions.expression import ball, derivative, taylor
 from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.scales import sign_beside, sign_from
+from lyapcheck.check.kinds.for_all import without_abs
 from lyapcheck.check.kinds.trigonometric import extent
 from lyapcheck.check.numbers.polynomials import count_roots, nonnegative_on, positive_on
 from lyapcheck.claims import (
@@ -89,6 +91,11 @@ PROVED = {
     "√(1 + x) ≤ 1 + x/2": for_all(sqrt(1 + x) <= 1 + x / 2, 0, 100),
     "h_2 stays below 1.0536": for_all(h(2, x) <= "1.0536"),
     "h_8 is continuous up to 96 orders at 0": for_all(expr(0) <= x * h(8, x)),
+    "|h| and |x|": for_all(abs(h(2, x)) <= abs(x)),
+    "|h| < |x| but at 0": for_all(abs(h(2, x)) < abs(x), low=0, open_low=True),
+    "|h|, a smaller slope": for_all(abs(h(2, x)) <= Fraction(9, 10) * abs(x)),
+    "|tanh x| on the left": for_all(abs(tanh(x)) <= -x, high=0),
+    "|x| as one factor": for_all(x * abs(x) <= x**2),
     "addition theorem": identity(sinh(x + y), sinh(x) * cosh(y) + cosh(x) * sinh(y)),
     "sin² + cos²": identity(sin(x) ** 2 + cos(x) ** 2, 1),
     "U' = h": identity(diff(potential(5, x), "x"), h(5, x)),
@@ -146,6 +153,10 @@ REFUTED = {
     "a square minus a little": for_all((x - 1) ** 2 >= expr("0.001")),
     "√(1 + x) ≤ 1 + x/3": for_all(sqrt(1 + x) <= 1 + x / 3, 0, 100),
     "h_2 stays below 1.05": for_all(h(2, x) <= "1.05"),
+    "|h| < |x| at 0": for_all(abs(h(2, x)) < abs(x)),
+    "|h|, too small a slope": for_all(abs(h(2, x)) <= Fraction(86, 100) * abs(x)),
+    "a sign that changes": for_all(abs(x - 1) <= abs(x) + Fraction(9, 10)),
+    "|tanh x|, the other sign": for_all(abs(tanh(x)) <= x),
     "addition theorem with a sign": identity(sinh(x + y), sinh(x) * cosh(y) - cosh(x) * sinh(y)),
     "h'' is not h'": identity(diff(h(2, x), "x"), 2 * dh(2, x)),
     "U' is not 2 h": identity(diff(potential(5, x), "x"), 2 * h(5, x)),
@@ -242,6 +253,17 @@ def test_equality_of_values_is_not_taken_for_a_proof():
     assert sign_from((x - x).tree, "x", Fraction(4)) == 0
     assert sign_from((tanh(x) - 1).tree, "x", Fraction(4)) < 0
     assert not is_zero((log(x * y) - log(x) - log(y)).tree)
+
+
+def test_only_a_sign_that_is_seen_is_used():
+    to_right, both = {"x": Interval(Fraction(0))}, {"x": Interval(Fraction(-1), Fraction(1))}
+    for tree, where, plain in (
+        (abs(x).tree, to_right, x.tree),
+        (abs(x).tree, both, abs(x).tree),
+        (abs(x - 1).tree, to_right, abs(x - 1).tree),
+        (abs(-x).tree, to_right, ("neg", (-x).tree)),
+    ):
+        assert without_abs(tree, where) == plain
 
 
 def test_an_undefined_expression_proves_and_refutes_nothing():

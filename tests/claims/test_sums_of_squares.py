@@ -1,17 +1,18 @@
 """Polynomial facts: strictness comes from a hypothesis or from the form, and is never invented."""
 
 from collections import Counter
+from fractions import Fraction
 from random import Random
 
 import pytest
 
-from lyapcheck.claims import expr, implies, nonnegative, positive, reals, var
+from lyapcheck.claims import cos, expr, implies, nonnegative, positive, reals, sin, var
 from lyapcheck.claims.procedures import implication, propose
 from lyapcheck.verdicts import Verdict
 from tests.helpers.polynomial_facts import fact
 from tests.helpers.shares import one_in
 
-x, y, a, b, c = map(var, "xyabc")
+x, y, z, a, b, c = map(var, "xyzabc")
 OF_REALS = reals("x", "y")
 
 STRICT = {
@@ -63,6 +64,13 @@ TEXTBOOK = {
     "two means": implies(nonnegative("a", "b", "c"), [], a**3 + b**3 + c**3 >= 3 * a * b * c),
     "gains": implies(positive("a", "b"), [], a**2 - a * b + b**2 > 0),
     "Motzkin": implies(OF_REALS, [], x**4 * y**2 + x**2 * y**4 + 1 >= 3 * x**2 * y**2),
+    "Pythagoras": implies(reals("x"), [], sin(x) ** 2 + cos(x) ** 2 <= 1),
+    "a bound": implies(reals("x"), [], sin(x) * cos(x) <= Fraction(1, 2)),
+    "a sum": implies(reals("x"), [], (sin(x) + cos(x)) ** 2 <= 2),
+    "strict": implies(reals("x"), [], sin(x) < Fraction(3, 2)),
+    "with a variable": implies(reals("x", "y"), [y**2 <= 1], y * sin(x) <= 1),
+    "an equation": implies(reals("x", "y"), [x * y <= 1, x * y >= 1, x <= y, x >= y], x**2 + y**2 <= 2),
+    "of odd degree": implies(reals("x", "y", "z"), [x <= y**2, x >= y**2], z * x <= z * y**2),
     "a shift": implies([*OF_REALS, *positive("a")], [a >= 2], x**2 + a * x * y + a**2 * y**2 >= 0),
 }
 PLANTED = {
@@ -75,6 +83,22 @@ PLANTED = {
     "a large region": implies(OF_REALS, [AWAY, V <= 3], RATE < 0),
     "the wrong side": implies(OF_REALS, [x + y <= 1], x**2 + y**2 >= expr("1/2")),
 }
+
+
+BEYOND = {
+    "too small a bound": implies(reals("x"), [], sin(x) * cos(x) <= Fraction(49, 100)),
+    "a strict bound that is met": implies(reals("x"), [], sin(x) < 1),
+    "half of an equation": implies(reals("x", "y", "z"), [x <= y**2], z * x <= z * y**2),
+    "strict from an equation": implies(reals("x", "y"), [x <= y, x >= y], x < y),
+    "zero of a sine": implies(reals("x"), [x**2 > 0], sin(x) ** 2 > 0),
+    "zero of 1 − cos": implies(reals("x"), [x**2 > 0], 1 - cos(x) > 0),
+    "the origin": implies(reals("x"), [], 1 - cos(x) > 0),
+}
+
+
+@pytest.mark.parametrize("name", BEYOND)
+def test_what_is_false_of_sines_or_equations_is_not_proved(name):
+    assert propose(BEYOND[name]).verdict is not Verdict.PROVED
 
 
 @pytest.mark.parametrize("name", one_in(2, TEXTBOOK))

@@ -1,4 +1,4 @@
-"""Statements as a certificate has them: decided, read again from their text, with parts exchanged."""
+"""Statements as a certificate has them: decided, and read again from their text."""
 
 import json
 
@@ -7,8 +7,6 @@ from lyapcheck.check.codec import from_json
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
-
-OPERATIONS = ("num", "var", "add", "mul", "neg", "pow", "sin", "cos")
 
 
 def verdict(statement):
@@ -26,20 +24,3 @@ def why(statement):
     result = propose(statement)
     assert result.verdict.value != "proved"
     return result.reason
-
-
-def trees(value, path=()):
-    """All parts of expressions, with their places."""
-    if isinstance(value, tuple):
-        if value and value[0] in OPERATIONS:
-            yield path, value
-        for index, part in enumerate(value):
-            yield from trees(part, (*path, index))
-
-
-def put(value, path, new):
-    """The same with another part at a place."""
-    if not path:
-        return new
-    first, *rest = path
-    return (*value[:first], put(value[first], rest, new), *value[first + 1 :])

@@ -7,7 +7,7 @@ parameters. The same formulas take doubles in arrays, exact points of the circle
 from fractions import Fraction
 from itertools import product
 
-from mpmath import mp, mpf
+from mpmath import mpf
 
 DIGITS = 60
 CERTAIN = mpf(10) ** -40
@@ -89,14 +89,6 @@ def solved(rows, right):
     for k in reversed(range(n)):
         x[k] = (a[k][n] - sum(a[k][j] * x[j] for j in range(k + 1, n))) / a[k][k]
     return x
-
-
-def accurately(q, parameters):
-    """One place in many digits, at exact angles."""
-    angles = [many(angle) for angle in q]
-    return Place(
-        [mp.sin(a) for a in angles], [mp.cos(a) for a in angles], [many(p) for p in parameters], many
-    )
 
 
 def many(x):

@@ -1,6 +1,5 @@
 """What should vanish for all angles: exactly, at points of the circle with rational sines and cosines."""
 
-from dataclasses import fields, is_dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -8,7 +7,7 @@ from mpmath import mp
 
 from tests import oracle
 from tests.oracle import Objection
-from tests.oracle.arm import CERTAIN, DIGITS, accurately, derivative, many, some_places, within
+from tests.oracle.arm import DIGITS, derivative, many, some_places
 from tests.oracle.bounds import Bound
 
 PLACES = 8
@@ -73,33 +72,6 @@ def _vanishes(statement, random):
                 "false", f"sines, cosines, parameters {list(map(str, place.generators))}, rates {w}"
             )
     return None
-
-
-@oracle.judges(*GAPS)
-def _differs(statement, point):
-    """Whether a difference is not 0 at the posture of a witness, at its rates if it has some."""
-    n = _joints(statement)
-    place = within(statement, point, n, "w") or within(statement, point, n, "")
-    if place is None:
-        return False
-    q, free, *rates = place
-    with mp.workdps(2 * DIGITS):
-        w = np.array([many(x) for x in (rates[0] if rates else [1] * n)])
-        gap = GAPS[type(statement).__name__](statement, accurately(q, free), w)
-        size = max(many(x) for x in _coefficients(statement)) * max(1, *map(abs, w))
-        return bool((abs(gap) > CERTAIN**2 * size).any())
-
-
-def _coefficients(data):
-    """The sizes of all fractions in nested data."""
-    if isinstance(data, Fraction):
-        yield abs(data)
-    elif is_dataclass(data):
-        for field in fields(data):
-            yield from _coefficients(getattr(data, field.name))
-    elif isinstance(data, tuple):
-        for part in data:
-            yield from _coefficients(part)
 
 
 @oracle.objections_to("ChainIdentity")

@@ -95,7 +95,8 @@ class Entries(Evaluation):
         moved = dict(self.values)
         for letter, speed in self.rates.items():
             if letter in moved:
-                moved[letter] = _each(Dual, moved[letter], self.of(speed))
+                nothing = _times(moved[letter], Fraction(0))  # an empty sum is of any shape
+                moved[letter] = _each(Dual, moved[letter], nothing if speed == ("sum",) else self.of(speed))
         return Entries(moved, self.n, {})
 
     def __str__(self):
@@ -282,7 +283,7 @@ def _bound_every_n(statement, random):
                 for sort, name in _letters_of(statement)
             }
             try:
-                at = _at_the_border(statement, values, n)
+                at = _at_the_border(statement, values, n, random)
                 found = None if at is None else _wrong(statement, at, "<=")
             except Undefined as why:
                 found = Objection("undefined", f"{Entries(values, n, ())} ({why})")
@@ -293,15 +294,16 @@ def _bound_every_n(statement, random):
     return None
 
 
-def _at_the_border(statement, values, n):
-    """The letters as large as the norms allow; ``None`` where something that is given fails."""
+def _at_the_border(statement, values, n, random):
+    """The letters as large as the norms allow, or half; ``None`` where something that is given fails."""
     for known, size in statement.norms:
         allowed, total = Entries(values, n, statement.rates).of(size), prod(_norms(values, known))
         if sign(allowed) < 0:
             return None
         if known and not isinstance(allowed, Num) and total:
             key = ("vec" if known[0][0] == "diag" else known[0][0], known[0][1])
-            values = {**values, key: _times(values[key], allowed / total)}
+            share = random.choice((1, 1, 1, Fraction(1, 2)))
+            values = {**values, key: _times(values[key], share * allowed / total)}
     values = _solved(statement, values, n)
     if values is None:
         return None
