@@ -98,10 +98,10 @@ def test_the_nonlinear_loop_leaves_a_refuted_goal(name):
     size, near = start.shape[1], 1e-4 * float(proof.period)
     light = name == "xarm6"  # friction stops its wrist within 0.1 ms
     both = np.concatenate([np.eye(size), -np.eye(size)]) * near
-    moved = states_after(statement, arm, proof, both, 1, 100 if light else 4)
+    moved = states_after(statement, arm, proof, both, 1, 50 if light else 4)
     step = (moved[:size] - moved[size:]).T / (2 * near)
     assert np.abs(np.linalg.eigvals(step)).max() > float(proof.growth)
-    if not light:
+    if statement.n < 4:
         samples = int(np.log(1000) / np.log(float(proof.growth)))
         assert np.abs(states_after(statement, arm, proof, near * start, samples)).max() > 30 * near
 
