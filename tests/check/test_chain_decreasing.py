@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 from flint import arb
 
 from lyapcheck.check.loop.chain import Posture
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.vectors import Algebra
-from tests.arena.links import LINKS
-from tests.arena.run import ARENA
+from tests.helpers.committed import read
+
+STATED, _ = read("good/decreasing-links.ranges")
 
 
 def planar(q):
@@ -46,14 +45,12 @@ def test_dv_dt_by_finite_differences_is_negative_where_it_is_proved_to_be():
         slope = rate(state)
         change = (value(state + step * slope) - value(state - step * slope)) / (2 * step)
         assert change < 1e-7
-    stated = json.loads((ARENA / "good/decreasing-links.ranges.json").read_text(encoding="utf-8"))[
-        "statement"
-    ]
-    assert (stated["kp"], stated["kv"], stated["eps0"]) == (["3", "1"], ["1", "1/4"], "1/100")
+    assert [[*map(float, row)] for row in (STATED.kp, STATED.kv)] == [[*kp], [*kv]]
+    assert float(STATED.eps0) == eps0
 
 
 def test_the_arm_of_the_arena_is_the_one_worked_out_by_hand():
     for q in ([0.3, 0.0], [0.1, 1.2], [2.0, -2.5]):
         turns = [arb(float(x)) for x in np.sin(q)], [arb(float(x)) for x in np.cos(q)]
-        rows = Posture(LINKS, *turns, Algebra(to_arb)).mass()
+        rows = Posture(STATED.links, *turns, Algebra(to_arb)).mass()
         assert np.allclose([[float(x.mid()) for x in row] for row in rows], planar(q), atol=1e-12)

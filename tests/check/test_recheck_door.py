@@ -177,26 +177,12 @@ def test_a_name_that_is_no_unicode_is_printed_as_an_escape(folder):
 # Content ----------------------------------------------------------------------------------------------------
 
 
-def number(text):
-    return same(["num", text])
-
-
 def test_what_no_certificate_contains_is_refused_each_for_its_reason():
     """The certificates ``door.*`` of the arena, which says what is in each and the reason."""
     rows = [row for row in json.loads((ARENA / "expected.json").read_text()) if "/door." in row["path"]]
     assert len(rows) > 30
     for row in rows:
         assert row["why"].partition(": ")[2] in judged((ARENA / row["path"]).read_bytes()).reason, row
-
-
-def test_a_certificate_cannot_be_among_its_own_uses(folder):
-    data = json.loads(sealed(GOOD))
-    data["uses"] = {"a": data["digest"]}
-    (folder / "x.json").write_text(sealed(GOOD, uses=data["uses"]), encoding="utf-8")
-    (folder / "y.json").write_text(json.dumps(data), encoding="utf-8")
-    result = statuses(folder)
-    assert result["x.json"][0] == "accepted", "the digest it names is that of good.json"
-    assert result["y.json"][1].startswith("digest")
 
 
 def test_only_the_classes_of_the_checker_are_read():

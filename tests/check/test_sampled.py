@@ -31,10 +31,16 @@ from lyapcheck.control.sampling import (
 )
 from lyapcheck.robots import load
 from tests import oracle
-from tests.arena.sampled import BOTH, NOTHING, ONE, PRINTED, SHOWN, TWO
+from tests.helpers.committed import read
 from tests.helpers.shares import one_in
 from tests.oracle.numbers import supremum
 
+PRINTED, NOTHING = read("good/printed.sam")
+"""The paper's, from printed numbers: b_2 > 0.233 + T/2·(60 + 40.28 + 1.81)."""
+ONE, SHOWN = read("good/potential.sam")
+"""g = p sin q, p in [1, 2], read with jitter: 5 > 2·(1 + ½·T·(6 + 2)), so that T < 3/8 is enough."""
+TWO, BOTH = read("good/links.sam")
+"""|g_1| ≤ 3 and |g_2| ≤ 1: 12 > 1 + 3/2·T·(6 + 3 + 1), so that T < 11/15 is enough."""
 GAINS = {1: ((28, 60, 5), "0.233"), 2: ((27, 50, 5), "0.223"), 3: ((25, 50, 5), "0.223")}
 LONGEST = {(1, 0): 3.389, (2, 0): 3.379, (3, 0): 2.185, (1, 1): 1.129, (2, 1): 1.126, (3, 1): 0.7283}
 """ms, of the paper's gains without and with a sample of delay, rounded down."""

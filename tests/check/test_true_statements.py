@@ -15,11 +15,12 @@ from lyapcheck.check.codec import from_json
 from lyapcheck.check.kinds.all_of import AllOf, EveryPart
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.refusal import Refused
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import rule_for, verify
 from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
 from tests.arena.run import ARENA
+from tests.helpers.committed import read
 
 FALSE = json.loads(Path(__file__).with_name("without_hypothesis.json").read_text(encoding="utf-8"))
 OF_ARMS = (
@@ -37,13 +38,8 @@ OF_ARMS = (
 """Kinds that the search is asked about elsewhere, since it takes longer for them."""
 
 
-def read(path):
-    data = json.loads(path.read_text(encoding="utf-8"))
-    return from_json(Statement, data["statement"], "statement"), from_json(Proof, data["proof"], "proof")
-
-
-CASES = {path.name[9:-5]: read(path) for path in (ARENA / "bad").glob("true.tru.*.json")}
-ARMS = {path.name[9:-5]: read(path) for path in (ARENA / "bad").glob("arms.tru.*.json")}
+CASES = {path.name[9:-5]: read(f"bad/{path.stem}") for path in (ARENA / "bad").glob("true.tru.*.json")}
+ARMS = {path.name[9:-5]: read(f"bad/{path.stem}") for path in (ARENA / "bad").glob("arms.tru.*.json")}
 
 
 def outcome(statement, proof):
@@ -68,7 +64,7 @@ def test_without_the_hypothesis_the_same_proof_refutes_and_every_rule_that_refut
     here = {rule_for(type(one), type(CASES[name][1])) for name, one in false.items()}
     for path in (ARENA / "good").glob("**/*.json"):
         if json.loads(path.read_text(encoding="utf-8"))["verdict"] == "refuted":
-            statement, proof = read(path)
+            statement, proof = read(path.relative_to(ARENA).with_suffix(""))
             assert rule_for(type(statement), type(proof)) in here, path.name
 
 
@@ -88,7 +84,7 @@ def test_parts_about_two_arms_are_refused_together():
 
 def test_an_argument_for_one_arm_says_which_arm_it_is():
     path = next((ARENA / "good").glob("*sca.arm.stable.m1*"))
-    stable, _ = read(path / "0.json")
+    stable, _ = read(path.relative_to(ARENA) / "0")
     assert isinstance(stable, StableArm)
     AllOf((("a", stable), ("b", stable))).require_well_formed()
     rubbed = (*stable.arm.viscous[1:], stable.arm.viscous[0])

@@ -1,8 +1,11 @@
-"""The certificates that the repository has, as they are written."""
+"""The certificates that the repository has, as they are written and as they are read."""
 
 import json
 from functools import cache
 from pathlib import Path
+
+from lyapcheck.check.codec import from_json
+from lyapcheck.check.statement import Proof, Statement
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = "reports/certificates", "tests/arena/good", "tests/kernel/certificates"
@@ -24,3 +27,9 @@ def certificates(kinds, verdict):
             if data["statement"]["kind"] in kinds and data["verdict"] == verdict:
                 result[place] = data
     return result
+
+
+def read(name):
+    """The statement and the proof of a file of the arena."""
+    data = json.loads((ROOT / "tests" / "arena" / f"{name}.json").read_text(encoding="utf-8"))
+    return from_json(Statement, data["statement"], "statement"), from_json(Proof, data["proof"], "proof")

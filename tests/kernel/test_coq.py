@@ -45,8 +45,7 @@ from lyapcheck.kernel.coq import (
 )
 from lyapcheck.kernel.gate import sampled_script
 from lyapcheck.kernel.statements import proposition
-from tests.arena.sampled import ONE as ONE_JOINT
-from tests.arena.sampled import PRINTED, not_shown
+from tests.helpers.committed import read
 from tests.helpers.once import once
 from tests.kernel.test_statements import GOOD, OWN
 
@@ -364,7 +363,6 @@ def test_gains_on_a_computer_are_theorems_of_coqs_and_those_beyond_the_border_ar
     ours = Coq(folder, 600)
     for name in ("printed", "printed-border", "printed-rest", "potential"):
         ours.accept("runs", theorem_file(certificate_of((GOOD / f"{name}.sam.json").read_bytes())[0]))
-    refused = {name: (statement, proof) for name, statement, proof in not_shown()}
     for name in (
         "equality",
         "late",
@@ -374,8 +372,9 @@ def test_gains_on_a_computer_are_theorems_of_coqs_and_those_beyond_the_border_ar
         "low-k_g",
         "an-angle-twice",
     ):
-        statement, proof = refused[name]
-        script = sampled_script(PRINTED if statement.k_g else ONE_JOINT, proof)
+        statement, proof = read(f"bad/{name}.sam")
+        shown, _ = read(f"good/{'printed' if statement.k_g else 'potential'}.sam")
+        script = sampled_script(shown, proof)
         with pytest.raises(CoqRefused, match="eq_refl"):
             ours.accept(
                 "runs_not", f"{HEAD}Theorem claim : {proposition(statement)}.\nProof.\n{script}\nQed.\n"
