@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction as F
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.control.judgement import judged_statement, resting
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary
+from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.arm_texts import ONE_LINK
 from tests.helpers.command import invoke
@@ -41,10 +43,49 @@ FILES = {
     f"kp = [{', '.join(['1'] * 6)}]\nkv = [{', '.join(['0.1'] * 6)}]\n",
     "wrong.toml": f'robot = "wrong_arm.toml"{GAINS}',
     "wrong_arm.toml": ARM + "gravity_bound = 1\n",
-    "plan.toml": 'robots = ["arm.toml"]\nvariations = [[], ["payload=0..2"]]\nquestions = ["gate"]\n' + GAINS,
+    "gates.toml": 'robots = ["arm.toml"]\nvariations = [[], ["payload=0..2"]]\nquestions = ["gate"]\n'
+    + GAINS,
+    "pendulum.toml": 'robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [5]\nkv = [0.2]\n',
+    "two.toml": """
+robot = "reyes-kelly2"
+[[gains]]
+name = "stiff"
+m = 1
+kp = [60, 9]
+kv = [0.1, 0.1]
+[[gains]]
+name = "weak"
+m = 2
+kp = [60, 1.7]
+kv = [0.1, 0.1]
+""",
+    "wave.toml": 'kind = "sine"\namplitude = [20, 30]\nfrequency = [0.5, 0.25]\n',
+    "plan.toml": """
+robots = ["reyes-kelly2"]
+variations = [[], ["coulomb=-10%..+20%"]]
+questions = ["epsilon", "bounds", "simulate"]
+[[gains]]
+name = "stiff"
+m = 1
+kp = [60, 9]
+kv = [0.1, 0.1]
+[epsilon]
+max_boxes = 60
+starts = 1
+[bounds]
+time = 0.1
+target = [45, 90]
+[simulate]
+time = 0.1
+target = [45, 90]
+""",
 }
 TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
 TARGETS = ("--overshoot", "5", "--settle", "2.5", "--goal", "45")
+EPSILON = ("epsilon", "pendulum.toml", "--starts", "2", "--max-boxes", "60")
+BOUNDS = ("bounds", "two.toml", "--target", "45,90", "--time", "0.1")
+SIMULATE = ("simulate", "two.toml", "--time", "0.2")
+TARGET = ("--target", "45,90")
 ASKED = {
     "export": ("export", "gains.toml", "--out", "c", "--rate", "1000", "--longest", "3 ms"),
     "gate": ("gate", TABLE2),
@@ -63,7 +104,26 @@ ASKED = {
     "tune what cannot be": ("tune", "arm.toml", "--m", "1", "--kv-share", "1", "--viscous-min", "70"),
     "tune to targets": ("tune", "arm.toml", "--m", "1", *TARGETS),
     "tune to targets that are missed": ("tune", "arm.toml", "--m", "1", "--settle", "0.01", "--goal", "45"),
-    "sweep": ("sweep", "plan.toml", "--jobs", "1", "--out", "swept"),
+    "sweep": ("sweep", "gates.toml", "--jobs", "1", "--out", "swept"),
+    "epsilon": EPSILON,
+    "epsilon over ranges": (*EPSILON, "--vary", "viscous=-20%..+20%"),
+    "epsilon with weights": (*EPSILON, "--weights"),
+    "bounds": BOUNDS,
+    "bounds over ranges": (*BOUNDS, "--vary", "coulomb=-10%..+20%"),
+    "bounds of nothing": ("bounds", "pendulum.toml", "--target", "45", "--time", "0.1"),
+    "simulate": (*SIMULATE, *TARGET),
+    "simulate what breaks a promise": (*SIMULATE, *TARGET, "--eps0", "100"),
+    "simulate the experiment": (*SIMULATE, *TARGET, "--experiment"),
+    "simulate over ranges": (*SIMULATE, *TARGET, "--vary", "viscous=-20%..+20%"),
+    "simulate many": (*SIMULATE, *TARGET, "--runs", "3"),
+    "simulate along a reference": (*SIMULATE, "--reference", "wave.toml"),
+    "sweep all else": ("sweep", "plan.toml", "--jobs", "1", "--out", "sweep"),
+    "robot": ("robot", "pendulum1"),
+    "robot with ranges": ("robot", "buap3", "--max-boxes", "200"),
+    "table": ("table", "--m", "1:3"),
+    "check": ("check", "scalar.py", "--m", "1"),
+    "check of some": ("check", "scalar.py", "--m", "1", "--only", "arm.theta"),
+    "derive": ("derive", "--m", "1,2", "--n", "2"),
 }
 
 
@@ -74,7 +134,16 @@ def in_a_folder_with_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("name", but([name for name in ASKED if "targets" not in name], ASKED))
+SLOW = {
+    "tune to targets",
+    "tune to targets that are missed",
+    "epsilon with weights",
+    "sweep all else",
+    "check",
+}
+
+
+@pytest.mark.parametrize("name", but(set(ASKED) - SLOW, ASKED))
 def test_every_word_of_proof_is_a_promise(name, monkeypatch):
     assert not left_over(ASKED[name], monkeypatch)
 
@@ -154,6 +223,30 @@ def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch):
         lambda gains, friction: resting(gains, [f / 2 for f in friction]),
     )
     assert "leaves at most" not in invoke(*RANGED).stdout
+
+
+def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(monkeypatch):
+    def nominal(controlled, *rest, **more):
+        return certified_epsilon(replace(controlled, ranges=False), *rest, **more)
+
+    monkeypatch.setattr("lyapcheck.answers.epsilon.compute.certified_epsilon", nominal)
+    done = invoke(*EPSILON, "--vary", "viscous=-20%..+20%")
+    assert done.exit_code == 3
+    assert done.stdout.startswith("? no ε₀ is certified for one")
+    assert "what is proved does not answer the question" in " ".join(done.stdout.split())
+
+
+def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bounds(monkeypatch):
+    def easier(gains, dry):
+        return resting(gains, [F(9, 10) * f for f in dry])
+
+    words = (*BOUNDS, "--friction", "1,0.5")
+    assert invoke(*words).exit_code == 0
+    monkeypatch.setattr(import_module("lyapcheck.answers.bounds.compare"), "resting", easier)
+    done = invoke(*words)
+    assert done.exit_code == 3
+    assert done.stdout.startswith("? not all errors at rest are proved")
+    assert "what is proved does not answer the question (Resting.torque" in " ".join(done.stdout.split())
 
 
 def test_the_words_are_found():
