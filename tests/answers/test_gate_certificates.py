@@ -1,7 +1,6 @@
 """Certificates as conditions, and what the gate says where they and (19) disagree."""
 
 import json
-import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -16,7 +15,6 @@ from lyapcheck.check.certificate import read
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.cli import main as cli
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.judgement import JudgedStatement, degrees_above
@@ -348,20 +346,6 @@ def test_json_tells_what_establishes_stability(everywhere):
         assert Fraction(row["stable_otherwise"]["eps0"]) == Fraction(row["checks"][-1]["value"]) > 0
         assert row["checks"][-1]["limit"] is None
         assert row["checks"][-1]["line"] is not None
-
-
-# --- strict ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("words", "code"), [((), 3), (("--strict",), 1), (("--strict", "--condition=19"), 0)]
-)
-def test_the_command_takes_strict(monkeypatch, tmp_path, words, code):
-    path = gain_file(tmp_path / "g.toml", "robot = 'pelican2'", "[0.01, 0.01]")
-    monkeypatch.setattr(sys, "argv", ["lyapcheck", "gate", str(path), *words])
-    with pytest.raises(SystemExit) as left:
-        cli.main()
-    assert left.value.code == code
 
 
 # --- written down ------------------------------------------------------------------------------

@@ -275,8 +275,9 @@ READERS = {
 }
 
 
-@pytest.mark.parametrize("text", UNPRINTABLE)
-@pytest.mark.parametrize("key", PLACES)
+@pytest.mark.parametrize(
+    ("key", "text"), [*(("name", text) for text in UNPRINTABLE), *((key, "\u202egnp") for key in PLACES)]
+)
 def test_what_does_not_print_is_refused_where_it_is_read(key, text, tmp_path, monkeypatch, capsys):
     name, content = PLACES[key]
     (tmp_path / "arm.urdf").write_text(URDF.format(robot='"r"', link='"l"', joint='"j"'))
@@ -290,8 +291,13 @@ def test_what_does_not_print_is_refused_where_it_is_read(key, text, tmp_path, mo
     assert "must be one line of text that prints" in err
 
 
-@pytest.mark.parametrize("text", [text for text in UNPRINTABLE if text[0] not in "\x1b\x07"])
-@pytest.mark.parametrize("key", ["robot", "link", "joint"])
+@pytest.mark.parametrize(
+    ("key", "text"),
+    [
+        *(("joint", text) for text in UNPRINTABLE if text[0] not in "\x1b\x07"),
+        *((key, "\u202egnp") for key in ("robot", "link")),
+    ],
+)
 def test_what_does_not_print_is_refused_in_urdf_files(key, text, tmp_path, monkeypatch, capsys):
     names = {"robot": '"r"', "link": '"l"', "joint": '"j"'} | {key: xml(text)}
     (tmp_path / "arm.urdf").write_text(URDF.format(**names))

@@ -12,7 +12,6 @@ from flint import arb
 from lyapcheck.answers.table import LIMITS, build_table, slope_at_zero
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.cli.values import parse_m
-from lyapcheck.errors import InputError
 from tests.helpers.command import invoke
 from tests.oracle.numbers import supremum
 
@@ -152,12 +151,6 @@ def symbolic_slope(sp, m, x):
 
 def test_printing_a_table_prints_what_the_command_prints():
     assert f"{build_table((1, 2), 12)}\n" == run("--m", "1,2", "--digits", "12").stdout
-
-
-def test_a_folder_that_cannot_be_is_refused(tmp_path):
-    (tmp_path / "file").write_text("", encoding="utf-8")
-    with pytest.raises(InputError, match="--certificates"):
-        raise run("--certificates", str(tmp_path / "file")).exception
 
 
 def test_certificates_bound_gamma_and_rho_as_they_are_shown(tmp_path):

@@ -87,6 +87,7 @@ BAD = [
     ("recheck", ["the following arguments are required: CERTIFICATE"]),
     ("recheck none.json", ["none.json: CERTIFICATE: cannot be read"]),
     ("recheck TABLE2", ["TABLE2: CERTIFICATE: is not JSON"]),
+    ("table --certificates TABLE2", ["--certificates = TABLE2: cannot be made"]),
     ("table --clean", ["--clean: is not an option here"]),
     ("explain 99 --proof scalar.py", ["scalar.py: id = 99: no claim has this id"]),
     ("explain 7a --proof none.py", ["none.py: PROOF = none.py: no such proof script"]),
@@ -254,8 +255,9 @@ def test_a_proof_script_cannot_choose_the_exit_code(script, run, tmp_path, monke
     assert "SystemExit" in err
 
 
-@pytest.mark.parametrize("arguments", [("table", "--m", "1:2"), ("gate", TABLE2), ("table", "--m", "1:300")])
+@pytest.mark.parametrize("arguments", [("gate", TABLE2), ("table", "--m", "1:300"), ("epsilon", TABLE2)])
 def test_a_reader_that_went_away_is_no_verdict_and_no_traceback(arguments):
+    """And nothing is begun for it: ``epsilon`` takes minutes."""
     reader, writer = os.pipe()
     os.close(reader)
     try:
@@ -265,13 +267,6 @@ def test_a_reader_that_went_away_is_no_verdict_and_no_traceback(arguments):
     finally:
         os.close(writer)
     assert (done.returncode, done.stderr) == (CLOSED_PIPE, "")
-
-
-def test_head_gets_its_line_and_no_noise():
-    both = subprocess.run(
-        ["sh", "-c", f"'{SCRIPT}' table --m 1:100 | head -1"], capture_output=True, text=True, check=False
-    )
-    assert (both.returncode, both.stderr, both.stdout.count("\n")) == (0, "", 1)
 
 
 def test_the_same_bytes_in_every_locale():
@@ -320,15 +315,6 @@ def test_a_full_output_is_named(words, unbuffered):
     assert done.returncode == 2
     (line,) = done.stderr.splitlines()  # and no progress: nothing was begun
     assert line.startswith("error: argument: standard output: cannot be written (No space left on device); ")
-
-
-@pytest.mark.parametrize("words", [["gate", TABLE2], ["epsilon", TABLE2]])
-def test_where_nobody_reads_nothing_is_begun(words):
-    reader, writer = os.pipe()
-    os.close(reader)
-    done = subprocess.run([SCRIPT, *words], stdout=writer, stderr=subprocess.PIPE, check=False)
-    os.close(writer)
-    assert (done.returncode, done.stderr) == (141, b"")
 
 
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs a folder that takes no file")

@@ -201,7 +201,13 @@ BROKEN = {
     "no gain sets": ("gains = []\n", 1, "gains", "array of tables", "[[gains]]"),
     "unknown key": (GOOD + "kk = [1, 1, 1]\n", 8, "gains[1].kk", "not a known key", "use one of: angle"),
     "misspelt key": (changed("name", "nmae"), 4, "gains[1].nmae", "not a known key", "did you mean name?"),
-    "key of other letters": (changed("kp", "Kp"), 6, "gains[1].Kp", "is not a key here", "write kp"),
+    "key of other letters": (
+        changed("kp", "Kp"),
+        6,
+        "gains[1].Kp",
+        "the gain of the error is kp",
+        "write kp",
+    ),
     "misspelt family": (
         changed("m = 2", 'family = "linaer"'),
         5,

@@ -1,11 +1,8 @@
 """CasADi and NumPy forms of a model: all from the same polynomials, and all the same numbers."""
 
-import math
-
 import casadi as ca
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from lyapcheck import robots
 from lyapcheck.lyapunov import graph
@@ -58,22 +55,3 @@ def test_casadi_agrees_with_numpy(arm):
         np.testing.assert_allclose(coriolis, fast.coriolis(state, rate), rtol=1e-12, atol=1e-13)
         np.testing.assert_allclose(gravity[:, 0], fast.gravity(state), rtol=1e-12, atol=1e-13)
         assert float(potential.item()) == pytest.approx(float(fast.potential(state)), abs=1e-12)
-
-
-def test_free_motion_conserves_energy(arm):
-    """Without friction and torque ½q̇ᵀMq̇ + U stays what it was; a C with a wrong sign would leak."""
-    fast, n = NumericModel(arm), arm.n
-
-    def energy(state):
-        q, w = state[:n], state[n:]
-        return float(w @ fast.mass(q) @ w / 2 + fast.potential(q))
-
-    def motion(_, state):
-        q, w = state[:n], state[n:]
-        return np.concatenate([w, np.linalg.solve(fast.mass(q), -fast.coriolis(q, w) @ w - fast.gravity(q))])
-
-    start = np.concatenate([np.linspace(0.4, 1.1, n), np.linspace(2, -3, n)])
-    run = solve_ivp(motion, (0, 1.0), start, method="DOP853", rtol=1e-11, atol=1e-11)
-    assert run.success
-    assert abs(energy(run.y[:, -1]) - energy(start)) < 1e-8 * (1 + abs(energy(start)))
-    assert math.dist(run.y[:n, -1], start[:n]) > 0.1

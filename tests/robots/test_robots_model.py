@@ -64,27 +64,6 @@ def test_mass_is_positive_definite(data):
     assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
 
 
-def test_a_wrong_coriolis_matrix_would_be_noticed(arm):
-    """Negative control: lumping the velocity products into one column keeps the torque and breaks (3)."""
-    if all(c == 0 for table in arm.christoffel for row in table for c in row):
-        return
-    n, c = arm.n, arm.christoffel
-    lumped = [
-        [[c[i][j][k] * 2 if j < k else c[i][j][k] * (j == k) for k in range(n)] for j in range(n)]
-        for i in range(n)
-    ]
-    same_torque = all(
-        lumped[i][j][k] + lumped[i][k][j] == c[i][j][k] + c[i][k][j]
-        for i, j, k in product(range(n), repeat=3)
-    )
-    keeps_rate = all(
-        trig.derivative(arm.mass[i][j], k) == lumped[i][j][k] + lumped[j][i][k]
-        for i, j, k in product(range(n), repeat=3)
-    )
-    assert same_torque
-    assert not keeps_rate
-
-
 def test_pickle_brings_the_same_model_back(arm):
     copy = pickle.loads(pickle.dumps(arm))
     assert (copy.name, copy.mass, copy.gravity, copy.numbers) == (
