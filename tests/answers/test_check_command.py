@@ -89,8 +89,13 @@ def test_lines_fit_a_terminal(tmp_path):
     assert max(map(len, run.stdout.splitlines())) <= 102, "combining accents take no column"
 
 
-def test_a_theorem_whose_argument_fails_is_looked_for_elsewhere():
-    answer = run_proof("published.py", (1, 2), only=("P", "16.6"))
+@pytest.fixture(scope="module")
+def answer(in_this_process):
+    """About the theorem of the paper, and a step of its argument that fails."""
+    return run_proof("published.py", (1, 2), only=("P", "16.6"))
+
+
+def test_a_theorem_whose_argument_fails_is_looked_for_elsewhere(answer):
     said = "theorem P still holds, proved by F.family of every_function.py"
     assert str(answer).splitlines()[1] == f"  {said}"
     rows = answer.data()["theorems"]
@@ -103,8 +108,8 @@ def test_a_theorem_whose_argument_fails_is_looked_for_elsewhere():
     assert "open here: P" in replace(answer, elsewhere=some).document().lead[0]
 
 
-def test_another_theorem_counts_only_with_the_same_conclusion_and_no_more_conditions():
-    asked = run_proof("published.py", (1,), only=("P",)).theorems[0].stated
+def test_another_theorem_counts_only_with_the_same_conclusion_and_no_more_conditions(answer):
+    asked = answer.theorems[0].stated
     rows = run_proof("every_function.py", (1,), only=("F.family", "F.family.tracking", "F.tanh")).claims
     stated = {row.id: row.stated for row in rows}
     family = stated["F.family"]

@@ -218,7 +218,7 @@ def test_words_about_what_ranges_cost(case, share, said):
 def test_the_arm_of_the_file_is_spoken_of_only_where_it_is_in_the_ranges(tmp_path, vary, outside):
     path = tmp_path / "gains.toml"
     path.write_text('robot = "pendulum1"\n[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [2]\n')
-    words = ("epsilon", str(path), "--starts", "2", "--max-boxes", "50", "--no-store", "--vary", vary)
+    words = ("epsilon", str(path), "--starts", "1", "--max-boxes", "1", "--no-store", "--vary", vary)
     text = invoke(*words).stdout
     (data,) = json.loads(invoke(*words, "--format", "json").stdout)["results"]
     assert data["outside"] == outside
