@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
 from flint import ctx
@@ -44,11 +44,11 @@ from lyapcheck.claims.letters import Matrix, Vector, vector
 from lyapcheck.claims.statements import bounded, for_all, identity, norm_bound
 from lyapcheck.control import limits as arm_limits
 from lyapcheck.files.decimals import significant_up
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 
 if TYPE_CHECKING:
+    from lyapcheck.check.loop.chain import RigidLink
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.dynamics import Chain
     from lyapcheck.robots.trig import ArmAtAngles
 
 
@@ -124,6 +124,7 @@ class ArmBounds:
     """M(q) ≻ 0, β_M, k_c, λmin(B) and λmax(B) of a robot at its nominal numbers, with their statements.
 
     ‖M(q)‖ is at most its largest row sum of absolute values. ‖C(q,x)y‖ is at most (Σ c_ijk²)^½ ‖x‖‖y‖.
+    Where M(q) is too long to be written out, bounds along the links take their place.
     """
 
     def __init__(self, robot: RobotModel) -> None:
@@ -141,15 +142,36 @@ class ArmBounds:
         """M(q) as the checker bounds it."""
         return _inertia(self.robot)
 
+    @cached_property
+    def links(self) -> Chain | None:
+        """The links where M(q) is too long to be written out."""
+        try:
+            return None if self.mass else self.robot.chain
+        except TooManyTerms:
+            if self.robot.chain is None:
+                raise
+            return self.robot.chain
+
     @property
     def beta(self) -> Fraction:
         """β_M, kg·m²."""
-        return above(self.inertia.largest_row)
+        return above(self.inertia.largest_row) if self.links is None else self._shown("lambda_max")[1]
 
     @property
     def kc(self) -> Fraction:
         """k_c, kg·m²."""
-        return above(sqrt(self.inertia.squares_of_symbols))
+        return above(sqrt(self.inertia.squares_of_symbols)) if self.links is None else self._shown("k_c")[1]
+
+    def _shown(self, name: str) -> tuple[Statement, Fraction]:
+        """A bound along the links, and its number.
+
+        Raises:
+            Lacking: none was found.
+        """
+        found = None if self.links is None else _of_chain(self.links.links, self.links.fall, name)
+        if found is None:
+            raise lacking(f"no bound of {name} was found along the links")
+        return found
 
     def guessed_floor(self) -> Fraction:
         """Half of λmin(M) at a few postures, down to a power of two, kg·m²: a proposal for ``mass_above``."""
@@ -162,17 +184,18 @@ class ArmBounds:
         result = float(np.linalg.eigvalsh(model.mass(postures)).min())
         return Fraction(2) ** math.floor(math.log2(result / 2)) if result > 0 else Fraction(1, 2**20)
 
-    def mass_above(self, low: object = 0) -> MassAbove:
+    def mass_above(self, low: object = 0) -> MassAbove | ChainAbove:
         """M(q) − low·I is positive definite for all q."""
-        return MassAbove(self.mass, (), exact_value(low))
+        least = exact_value(low)
+        return MassAbove(self.mass, (), least) if self.links is None else ChainAbove(self.links.links, least)
 
-    def mass_below(self) -> MassBelow:
+    def mass_below(self) -> Statement:
         """‖M(q)‖ <= β_M for all q."""
-        return MassBelow(self.mass, (), self.beta)
+        return MassBelow(self.mass, (), self.beta) if self.links is None else self._shown("lambda_max")[0]
 
-    def coriolis_below(self) -> CoriolisBelow:
+    def coriolis_below(self) -> Statement:
         """‖C(q, x)y‖ <= k_c ‖x‖ ‖y‖ for all q, x and y."""
-        return CoriolisBelow(self.mass, (), self.kc)
+        return CoriolisBelow(self.mass, (), self.kc) if self.links is None else self._shown("k_c")[0]
 
 
 @lru_cache(maxsize=4)
@@ -292,15 +315,8 @@ def mass_bounded(robot: RobotModel) -> Statement:
 
 
 def coriolis_bounded(robot: RobotModel) -> Statement:
-    """‖C(q, x)y‖ ≤ k_c ‖x‖ ‖y‖ at the robot's nominal numbers.
-
-    Raises:
-        Lacking: M(q) is too long to be written out.
-    """
-    try:
-        return _along_links(robot, "k_c") or ArmBounds(robot).coriolis_below()
-    except TooManyTerms as error:
-        raise lacking(str(error)) from None
+    """‖C(q, x)y‖ ≤ k_c ‖x‖ ‖y‖ at the robot's nominal numbers."""
+    return _along_links(robot, "k_c") or ArmBounds(robot).coriolis_below()
 
 
 def gravity_bounded(robot: RobotModel) -> Statement:
@@ -309,16 +325,28 @@ def gravity_bounded(robot: RobotModel) -> Statement:
 
 
 def _along_links(robot: RobotModel, name: str) -> Statement | None:
-    """A bound of a constant of an arm of many joints: a thousandth larger than was shown, in four digits.
+    """A bound of a constant of an arm of many joints."""
+    chain = _chain(robot.fixed())
+    found = None if chain is None else _of_chain(chain.links, chain.fall, name)
+    return None if found is None else found[0]
+
+
+@lru_cache(maxsize=8)
+def _of_chain(
+    links: tuple[RigidLink, ...], fall: tuple[Fraction, ...], name: str
+) -> tuple[Statement, Fraction] | None:
+    """A bound and its number: a thousandth larger than was shown, in four digits.
 
     Its proof is looked for again by who decides the claim, maybe in a process with other threads of BLAS,
     where the semidefinite program may end at a slightly larger bound.
     """
     from lyapcheck.constants.storage import storage_proof
 
-    chain = _chain(robot.fixed())
-    shown = None if chain is None else storage_proof(chain, name)
-    return None if shown is None else shown.at_end(significant_up(shown.bound * Fraction(1001, 1000), 4))
+    shown = storage_proof(Chain(links, fall), name)
+    if shown is None:
+        return None
+    number = significant_up(shown.bound * Fraction(1001, 1000), 4)
+    return shown.at_end(number), number
 
 
 def _of_links(robot: RobotModel, identity: str) -> ChainIdentity | None:

@@ -31,6 +31,7 @@ from lyapcheck.claims.handover import (
 from lyapcheck.claims.script import check_ids, line_of, load_proof, raised, repair_of
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.process_tree import GROUPS, end_below, end_own_group
+from lyapcheck.robots.dynamics import TooManyTerms
 
 Lines = dict[Statement, tuple[int, str]]
 """The number and the line of each statement."""
@@ -109,7 +110,7 @@ def _answer(claim: Claim, case_data: CaseData, statements: Lines, request: Scrip
         statement = _statement(claim, case, request)
         if statement not in statements:
             statements[statement] = len(statements), statement_json(statement)
-    except Lacking as lack:
+    except (Lacking, TooManyTerms) as lack:
         return ScriptAnswer(None, str(lack), tuple(sorted(case.read)))
     except RecursionError:
         return ScriptAnswer(None, f"its statement {TOO_DEEP}", tuple(sorted(case.read)))

@@ -9,7 +9,8 @@ import pytest
 
 from lyapcheck import epsilon, robots
 from lyapcheck.answers.gate import gate
-from lyapcheck.control.gains import one_gain_set
+from lyapcheck.claims import run_proof
+from lyapcheck.control.gains import one_gain_set, read_gain_file
 from lyapcheck.control.gravity import computed_bounds
 from lyapcheck.family import named
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
@@ -74,3 +75,12 @@ def test_such_an_arm_has_a_certified_epsilon_and_v_falls_with_it(tmp_path: Path)
     proofs = str(tmp_path / "proofs")
     command = ("gate", str(tmp_path / "g.toml"), "--condition", "scalar", "--certificates", proofs)
     assert invoke(*command).exit_code == invoke("recheck", proofs).exit_code == 0
+
+
+def test_claims_of_norms_are_proved_along_the_links_and_those_of_M_in_full_are_open(tmp_path: Path) -> None:
+    """Where one statement needs M(q) written out, the others of its script are decided."""
+    own, gains = arm(tmp_path, "0"), read_gain_file(tmp_path / "g.toml")
+    only = ["arm.properties", "arm.M", "arm.C", "arm.theta"]
+    rows = {row.id: row for row in run_proof("scalar.py", (1,), own, gains=gains, only=only).claims}
+    assert [rows[name].verdict.value for name in only] == ["undecided", "proved", "proved", "proved"]
+    assert "too many to write out" in rows["arm.properties"].decision.reason
