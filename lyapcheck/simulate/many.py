@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress, silent
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.lyapunov.numeric import LyapunovNumeric, arm_digest
 from lyapcheck.simulate.breach import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.integrate import MAX_STEPS
@@ -70,10 +70,17 @@ class Runs:
     V: Array | None = None
     """(R, points) J for the ε₀ given, where motions were asked for."""
 
+    def part(self, start: int, stop: int) -> Runs:
+        """Some of the runs, one after the other."""
+        of_a_run = {
+            one.name: getattr(self, one.name) for one in fields(self) if one.name not in ("t", "engine")
+        }
+        return replace(self, **{name: x[start:stop] for name, x in of_a_run.items() if x is not None})
+
 
 def simulate_many(
     gain_set: GainSet | Sequence[GainSet],
-    model: RobotModel,
+    model: RobotModel | Sequence[RobotModel],
     q_d: Any,
     starts: Any,
     T: float = 5.0,
@@ -94,7 +101,8 @@ def simulate_many(
 
     Args:
         gain_set: the controller, or R of them, of any families.
-        model: the arm, at its nominal numbers.
+        model: the arm, at its nominal numbers, or R arms of n joints; those that differ in friction alone
+            move together.
         q_d: goals in rad, (n,) or (R, n).
         starts: initial positions in rad, (n,) or (R, n).
         T: seconds.
@@ -119,28 +127,35 @@ def simulate_many(
     References: (6), (11), (12), (20) of ``reyes2019family``; ``hairer1993solving``.
     """
     sets = list(gain_set) if isinstance(gain_set, Sequence) else [gain_set]
-    n = model.n
-    count = max(len(sets), *(len(np.atleast_2d(x)) for x in (q_d, starts, w0)))
+    models = list(model) if isinstance(model, Sequence) else [model]
+    n = models[0].n
+    count = max(len(sets), len(models), *(len(np.atleast_2d(x)) for x in (q_d, starts, w0)))
     goals, first, speeds = (np.broadcast_to(np.asarray(x, float), (count, n)) for x in (q_d, starts, w0))
     gains = [gains_for(one, n) for one in sets] * (count if len(sets) == 1 else 1)
     control = [np.array([gain.kp for gain in gains]), np.array([gain.kv for gain in gains])]
-    arm = [float(number.value) for number in (*model.viscous, *model.parameters.values())]
-    numbers = np.column_stack([goals, *control, np.tile([*arm, eps0], (count, 1))])
+    arms = models * (count if len(models) == 1 else 1)
     y0 = np.hstack([first, speeds, np.zeros((count, 2))])
 
-    families: dict[Any, list[int]] = {}
-    for i, gain in enumerate(gains):
-        families.setdefault(gain.family, []).append(i)
+    digests, numbers = {}, {}
+    for arm in {id(arm): arm for arm in models}.values():
+        digests[id(arm)] = arm_digest(arm)
+        of_arm = (*arm.viscous, *arm.parameters.values())
+        numbers[id(arm)] = [*(float(number.value) for number in of_arm), eps0]
+    alike: dict[Any, list[int]] = {}
+    for i, (gain, arm) in enumerate(zip(gains, arms, strict=True)):
+        alike.setdefault((gain.family, digests[id(arm)]), []).append(i)
     most = min(max(1, _NUMBERS_AT_ONCE // (points * y0.shape[1])), _RUNS_AT_ONCE)
     columns: dict[str, Any] = {}
     engines: list[str] = []
     done = 0
-    for family, places in families.items():
-        side = RightSide(model, family)
+    for (family, _), places in alike.items():
+        side = RightSide(arms[places[0]], family)
         engines.append(side.engine)
         for start in range(0, len(places), most):
             chosen = places[start : start + most]
-            goal, own, begin = (np.ascontiguousarray(x[chosen]) for x in (goals, numbers, y0))
+            goal, begin = (np.ascontiguousarray(x[chosen]) for x in (goals, y0))
+            known = [numbers[id(arms[i])] for i in chosen]
+            own = np.column_stack([goal, *(x[chosen] for x in control), known])
             settling = bands(goal - begin[:, :n])
             march = March(side, begin, own, settling, T, points, tolerance, max_steps)
             part = _indices(T, goal, march, energy=not eps0)

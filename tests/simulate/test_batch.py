@@ -1,6 +1,6 @@
 """Many runs at once: the same motions as one at a time, by two engines, whatever their company."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from fractions import Fraction
 
 import numpy as np
@@ -143,6 +143,18 @@ def test_a_run_does_not_depend_on_its_company(monkeypatch):
         assert np.array_equal(alone.settling[0], together.settling[k], equal_nan=True)
     monkeypatch.setattr(batch_module, "_NUMBERS_AT_ONCE", 10_000)
     assert_same(simulate_many(sets, model, q_d, first, 1.0, w0=w0, motions=True), together)
+
+
+def test_arms_beside_each_other_move_as_each_alone():
+    """One that differs in friction, which goes with the others, and one that differs in its links."""
+    model, one = robots.load("reyes-kelly2"), gains(2)
+    damped = replace(model, viscous=tuple(replace(b, value=3 * b.value) for b in model.viscous))
+    arms, first = [model, damped, robots.load("pelican2"), model, damped], starts(2, 5)
+    together = simulate_many([one] * 5, arms, [0.5, -1.0], first, 1.0, motions=True)
+    assert not np.array_equal(together.w[0], together.w[1])
+    for k, arm in enumerate(arms):
+        alone = simulate_many(one, arm, [0.5, -1.0], first[k], 1.0, motions=True)
+        assert_same(replace(together.part(k, k + 1), engine=alone.engine), alone)
 
 
 def test_v_is_that_of_the_certificate_and_falls():
