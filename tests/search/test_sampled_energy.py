@@ -9,9 +9,23 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.kinds.sampled import SampledStable
-from lyapcheck.check.kinds.sampled_from_rest import FallingEnergy, SampledFromRest
-from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, SampledEnergy, Splits, form_of, shared
+from lyapcheck.check.kinds.sampled_from_rest import (
+    FallingEnergy,
+    SampledFromRest,
+    arm_bounds,
+    bounded_gains,
+)
+from lyapcheck.check.loop.sampled_energy import (
+    ArmBounds,
+    Gains,
+    SampledEnergy,
+    Splits,
+    falls,
+    form_of,
+    shared,
+)
 from lyapcheck.check.verify import Accepted, verify
+from lyapcheck.family.base import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import to_terms
@@ -25,8 +39,8 @@ GAINS = {
     "reyes-kelly2": ("41.089 5.618", "17.610 2.112"),
 }
 """Gains that targets at infinite rate suggest."""
-GAMMA = Gains((), (), F(1), 1, F(1), F(0), F(1), F(1), ())
-"""Bounds of tanh."""
+STEEP = Gains((), (), F(1), 1, F(2), F(0), F(1), F(3), ())
+"""Of an h with |h'| ≤ 2 and |h| ≤ 3."""
 ARM_OF = {tuple(map(F, kp.split())): name for name, (kp, _) in GAINS.items()}
 
 
@@ -128,22 +142,52 @@ def test_what_joints_do_to_each_other_is_paid_for():
         mass, slope, symbols = (mass + mass.T) * sizes[0], (slope + slope.T) * sizes[1], symbols * sizes[2]
         eps, slow, c, speed, z = draw(n), random.uniform(0, 1, n), *draw(2), random.uniform(0, 1)
         h, y, r = (random.normal(size=n) for _ in range(3))
-        h, w = np.tanh(h), random.normal(size=n)
+        h, w = 3 * np.tanh(h), random.normal(size=n)
         w *= speed / np.sqrt((u * w * w).sum())
         splits = Splits(*(1.3 ** random.normal(size=(n, n)) for _ in fields(Splits)))
         V = SampledEnergy(c, 2.0, eps, None, None, None, None, None, slow, splits)  # type: ignore[arg-type]
         turning = np.sqrt((symbols**2 / u).sum(-1)) * speed
-        pays = shared(V, ArmBounds(u, mass, slope, symbols), turning, GAMMA)  # type: ignore[arg-type]
+        pays = shared(V, ArmBounds(u, mass, slope, symbols), turning, STEEP)  # type: ignore[arg-type]
         paid = sum(
             own["w"] * w[i] ** 2 + own["h"] * h[i] ** 2 + own["y"] * y[i] ** 2 + own["r"] * r[i] ** 2
             for i, own in enumerate(pays)
         )
         now, push = c * (1 - z), w - h * eps + c * (1 - z) * y
         both = np.outer(w, h * eps) + now * np.outer(y, w - z * y)  # what C_ij is a factor of
-        worst = -(eps * np.abs(w)) @ mass @ np.abs(w) - np.abs(push) @ slope @ np.abs(r)
+        worst = -2 * (eps * np.abs(w)) @ mass @ np.abs(w) - np.abs(push) @ slope @ np.abs(r)
         worst -= (symbols * np.abs(both[:, :, None] * w)).sum()
         least = min(least, 1 + worst / paid)
     assert 0 < least < 0.2
+
+
+@pytest.mark.parametrize(
+    ("family", "m"),
+    [("tanh", None), ("algebraic", None), ("arctan", None), *(("hyperbolic", m) for m in (1, 2, 3, 9))],
+)
+def test_h_keeps_its_bounds_at_rates_up_to_the_speed(family, m):
+    known, asked = named(family, m), replace(question("reyes-kelly2"), family=family, m=m)
+    least, speed = (F(1, 2), F(2)), F(5)
+    gains, rate = bounded_gains(asked, least, speed), np.linspace(1e-3, 5, 20000)
+    for u, sector in zip(least, gains.sector, strict=True):
+        inside = rate[rate <= 5 / np.sqrt(float(u))]
+        secant = known.h(inside) / inside
+        assert sector <= secant.min() + 1e-12
+        assert secant.max() <= gains.L + 1e-12
+    x = np.linspace(0, 12, 20000)
+    slope = known.dh(x)
+    assert gains.least_slope <= slope.min()
+    assert slope.max() <= gains.rho + 1e-12
+    assert (known.potential(x) >= known.h(x) ** 2 / (2 * float(gains.rho)) - 1e-12).all()
+    assert (0 in gains.sector) == (gains.least_slope < 0) == (m not in (None, 1))
+
+
+def test_both_ends_of_the_slope_count():
+    asked = question("reyes-kelly2")
+    proof = shown(asked)
+    gains, arm = bounded_gains(asked, proof.least, proof.speed), arm_bounds(asked, proof.least)
+    assert falls(proof.energy, arm, proof.speed, asked.viscous, gains)
+    for steeper in ({"rho": F(60)}, {"least_slope": F(-60)}):
+        assert not falls(proof.energy, arm, proof.speed, asked.viscous, replace(gains, **steeper))
 
 
 def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, goal: np.ndarray, samples: int):
