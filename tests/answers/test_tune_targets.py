@@ -309,7 +309,8 @@ def test_every_number_of_a_trial_has_words(
 
 
 def test_an_error_at_rest_is_not_met_without_a_known_dry_friction() -> None:
-    answer = tune_for("pendulum1", Trials(Wishes(rest_error=5), (task_for(1, [0.8], None, None, 5.0),)), [1])
+    bench = Trials(Wishes(rest_error=5), (task_for(1, [0.8], None, None, 5.0),), ("proof",))
+    answer = tune_for("pendulum1", bench, [1])
     assert answer.exit == Exit.UNDECIDED
     assert not answer.good
     assert answer.document().title.startswith("? simulated:")
