@@ -9,8 +9,9 @@ from pathlib import Path
 
 from lyapcheck.check.certificate import judged
 from lyapcheck.check.codec import from_json
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Statement
 from tests.arena.run import ARENA
+from tests.helpers.committed import read
 from tests.oracle import confirms, objection
 from tests.statement_fuzz.judge import decide
 
@@ -22,7 +23,7 @@ def test_the_oracle_objects_and_neither_search_nor_checker_says_it_again():
     assert len(FAULTS) >= 38
     for path in FAULTS:
         data = json.loads(path.read_text(encoding="utf-8"))
-        statement, proof = from_json(Statement, data["statement"], ""), from_json(Proof, data["proof"], "")
+        statement, proof = read(f"bad/{path.stem}")
         if data["verdict"] == "proved":
             assert objection(statement, 0) is not None, path.name
         else:
