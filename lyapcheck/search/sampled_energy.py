@@ -6,7 +6,7 @@ References: ``lyapcheck.check.loop.sampled_energy``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any
@@ -113,12 +113,11 @@ class _Program:
         self.mass, self.slope, self.symbols = (
             np.array(x, dtype=float) for x in (self.arm.mass, self.arm.slope, self.arm.symbols)
         )
-        known = bounded_gains(self.statement, _row(self.least), _fraction(self.speed))
-        self.gains = replace(
-            known,
-            **{name: float(getattr(known, name)) for name in ("period", "rho", "least_slope", "L", "gamma")},
-            **{name: tuple(map(float, getattr(known, name))) for name in ("kp", "kv", "sector")},
-        )
+        exact = vars(bounded_gains(self.statement, _row(self.least), _fraction(self.speed)))
+        numbers: dict[str, Any] = {
+            name: tuple(map(float, x)) if isinstance(x, tuple) else float(x) for name, x in exact.items()
+        }
+        self.gains = Gains(**numbers | {"delay": d})
         self.turning = np.array(self.arm.turning(_fraction(self.speed)), dtype=float)
         self.scale = np.sqrt(np.diag(self.mass))
         self.c, self.margin = cp.Variable(), cp.Variable()
@@ -186,7 +185,8 @@ class _Program:
         rate, step = 1 / math.sqrt(self.weight[i]), math.sqrt(T / u)
         size = [1 / math.sqrt(self.kp[i]), rate, step, rate, *[step] * (d + 1), *[rate] * d, step]
         gains, friction = self.gains, set(map(float, self.statement.viscous[i]))
-        for at in product({gains.sector[i], gains.L}, (gains.least_slope, gains.rho), friction):
+        slopes, sectors = (gains.least_slope, gains.rho), {gains.sector[i], gains.L}
+        for at in product(map(float, sectors), map(float, slopes), friction):
             for constant, *parts in _controls(i, self.n, d, self.reach, self.least, gains, at, len(known)):
                 form = constant + sum(x * part for x, part in zip(known, parts, strict=True) if part.any())
                 scaled = cp.multiply(np.outer(size, size), form)
