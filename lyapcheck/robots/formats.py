@@ -8,7 +8,9 @@ of MuJoCo's doubles. Gravity, damping, dry friction and the limits of the motors
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import redirect_stderr
 from fractions import Fraction
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -243,13 +245,15 @@ def expanded(path: Path, shown: str, choice: Choice) -> bytes:
         rule = "is a xacro file, and no package that expands it is installed"
         raise file_error(shown, rule, f'pip install "lyapcheck[xacro]", or {by_hand}')
     try:
-        if installed("xacrodoc"):
-            from xacrodoc import XacroDoc
+        with redirect_stderr(StringIO()):  # its warnings would be told at each reading of the file
+            if installed("xacrodoc"):
+                from xacrodoc import XacroDoc
 
-            return str(XacroDoc.from_file(str(path), subargs=dict(choice.xacro)).to_urdf_string()).encode()
-        import xacro
+                document = XacroDoc.from_file(str(path), subargs=dict(choice.xacro))
+                return str(document.to_urdf_string()).encode()
+            import xacro
 
-        return bytes(xacro.process_file(str(path), mappings=dict(choice.xacro)).toxml(encoding="utf-8"))
+            return bytes(xacro.process_file(str(path), mappings=dict(choice.xacro)).toxml(encoding="utf-8"))
     except (Exception, SystemExit) as error:  # whatever its macros do
         said = " ".join(str(error).split())[:200] or type(error).__name__
         repair = f"give its arguments by --xacro NAME:=VALUE, or {by_hand}"
