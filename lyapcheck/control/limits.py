@@ -61,6 +61,13 @@ class Limits:
         return len(self.joints)
 
     @property
+    def nominal(self) -> bool:
+        """Whether proofs of stability are about one arm out of ranges."""
+        if self.varied or self.model is None:
+            return False
+        return any(number.ranged for number in (*self.model.parameters.values(), *self.model.viscous))
+
+    @property
     def ranges(self) -> tuple[str, ...]:
         """What the ranges of --vary cost."""
         return tuple(text for text in self.assumptions if text.startswith("--vary "))

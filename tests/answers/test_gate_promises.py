@@ -140,3 +140,21 @@ def test_stability_is_said_only_while_no_motor_saturates(tmp_path):
     assert result["standing"] == "rejected"
     assert all("stable" not in line or "no motor saturates" in line or "none does" in line
                for line in result["remarks"])  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("low", "vary", "where"),
+    [
+        (1, (), "stable (scalar)"),
+        (0.9, (), "stable (scalar) at nominal numbers"),
+        (0.9, ("--vary", "mass=-5%..+5%"), "stable (scalar)"),
+    ],
+)
+def test_the_headline_tells_that_stability_is_shown_at_nominal_numbers(tmp_path, low, vary, where):
+    path = files(tmp_path, number(1, low, 1, "kg"), 2, "", "kp = [5]\nkv = [1]")
+    done = invoke("gate", path, "--condition", "10i", "--condition", "scalar", *vary)
+    assert done.exit_code == 0
+    assert f"no motor saturates (10i), {where}, proved for arm" in said(done)
+    broken = invoke("gate", files(tmp_path, number(1, low, 1, "kg"), 2, "", "kp = [5]\nkv = [3]"), *vary)
+    nominal = " at nominal numbers" if "nominal" in where else ""
+    assert f"proved stable by scalar{nominal}, ε₀" in said(broken)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.answers.gate import GateResult, gate
+from lyapcheck.answers.gate import GateResult, accepting, gate
 from lyapcheck.answers.running.holds import HoldsCheck
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import Check
@@ -24,7 +24,7 @@ from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, varied
-from tests.helpers.arm_texts import arm_of
+from tests.helpers.arm_texts import ONE_JOINT, arm_of
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in
 from tests.helpers.words_of_proof import left_over
@@ -283,6 +283,20 @@ def test_without_a_record_one_sentence_says_what_is_supposed(tmp_path: Path) -> 
 
 MS, DRY = Fraction(1, 1000), r"\[joints\.coulomb\]\n(?:\w.*\n)*"
 RANGE = r"\n(?:assumed|low|high|note) = .*"
+
+
+@pytest.mark.parametrize(("period", "advised"), [("0.001", True), ("0.05", False)])
+def test_no_conditions_are_advised_by_which_the_gate_would_reject_again(
+    tmp_path: Path, period: str, advised: bool
+) -> None:
+    """An unstable loop is rejected whatever decides: here by (10p) and (19), which fails."""
+    (tmp_path / "arm.toml").write_text(ONE_JOINT.format(viscous="0.3", torque=40, more=""))
+    file = tmp_path / "gains.toml"
+    file.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [10]\nkv = [3]\n')
+    answer = gate(read_gain_file(file), loop=LoopEntry(period=Fraction(period)))
+    assert answer[0].verdict == "rejected"
+    assert bool(accepting(answer[0])) is advised
+    assert ("--condition" in str(answer)) is advised
 
 
 def by_proof(folder: Path, removed: str) -> Path:

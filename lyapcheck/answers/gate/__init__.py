@@ -211,9 +211,10 @@ def proved_otherwise(result: GateResult) -> str:
     known = result.stable
     assert known is not None
     eps0 = "" if known.value is None else f", ε₀ = {at_least(known.value)}"
+    nominal = " at nominal numbers" if result.limits.nominal else ""
     options = accepting(result)
     accepted = f"; accepted with {' '.join(options)}" if options else ""
-    return known.own_promise.says(f"proved stable by {known.id}{eps0}{accepted}")
+    return known.own_promise.says(f"proved stable by {known.id}{nominal}{eps0}{accepted}")
 
 
 def _proof(known: Check, where: str) -> str:
@@ -229,8 +230,8 @@ def _accepts(result: GateResult) -> str:
 
 def accepting(result: GateResult) -> list[str]:
     """The options with which the gate would accept, by what this run has shown; none where it has not."""
-    if result.verdict == ACCEPTED or result.verdict_of((GRAVITY, DAMPED)) == REJECTED:
-        return []  # a false bound of gravity is rejected whatever decides
+    if result.verdict == ACCEPTED or result.verdict_of((GRAVITY, DAMPED, *result.broken)) == REJECTED:
+        return []  # a false bound of gravity and an unstable loop are rejected whatever decides
     known = result.stable
     instead = {"10p": "10i"} if result.verdict_of(("10p",)) == REJECTED else {}
     if known is not None and result.verdict_of(("19",)) == REJECTED:

@@ -111,7 +111,7 @@ def _holds(result: GateResult, name: str) -> str:
         if isinstance(check, SampledCheck) and check.id == name:
             end = f", {check.narrow} only" if check.narrow else ""
             return f"{'comes to rest as run' if check.rests else 'stable as run'} (sampled){end}"
-    return RULES[name].holds
+    return RULES[name].holds + " at nominal numbers" * (name in CERTIFICATES and result.limits.nominal)
 
 
 def _title(answer: GateAnswer) -> str:
