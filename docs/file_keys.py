@@ -193,7 +193,7 @@ FILES = {
             Key("target", "numbers, one per joint", "°", "that of the arm", "[45, 45, 90]", "Desired joint angles."),
             Key("start", "numbers, one per joint", "°", "0", "[0, 0, 0]", "Initial joint angles."),
         ),
-        "[robot]": (Key("max_boxes", "whole number > 0", "boxes", "20000", "20000", "Limit of branch and bound."),),
+        "[robot]": (Key("max_boxes", "whole number > 0", "boxes", "2000", "20000", "Limit of boxes for each bound."),),
     },
     "reference": {
         'kind = "sine"': (

@@ -1,10 +1,9 @@
-"""Constants of any arm enclosed from both sides in floating point, wider where the budget of boxes ends.
+"""Constants of an arm: the end that a posture shows, in balls, and the end that the checker accepts for all.
 
     λmin(M), λmax(M) = β_M,     k_g = sup ‖g(q)‖,     k_gi = sup |g_i(q)|,     k_c = sup ‖C(q,x)y‖ / (‖x‖‖y‖).
 
-Over a box each of these is bounded at the corners of a linear part, because eigenvalues and norms are convex
-functions of the entries (λmin is concave); near an extremum that leaves an error of second order. For more
-than three joints bounds along the chain of links take their place.
+For few joints the end for all angles is shown by the sizes of harmonics, by boxes, or by storage forms along
+the links where these show more; for more joints by such forms. k_c is reached with x = y.
 
 References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 """
@@ -12,7 +11,7 @@ References: properties 2.1, 2.2, 2.6 and 2.8 of reyes2019family.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -20,28 +19,60 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from lyapcheck._types import SEED, Array, Progress, silent
+from lyapcheck._types import SEED, Array, Progress
+from lyapcheck.asked import bound_of_constant
 from lyapcheck.check.kinds.chain import ChainAbove, ChainCoriolisBelow
-from lyapcheck.check.kinds.inertia import PostureWitness
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
+from lyapcheck.check.kinds.inertia import Bisection, Bound, HarmonicSizes, MassAbove, PostureWitness
 from lyapcheck.check.numbers.balls import precision, to_arb
-from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.constants.constant import ConstantResult, SupremumTask
-from lyapcheck.constants.spectrum import (
-    ArmHarmonics,
-    coriolis_task,
-    gravity_task,
-    lambda_max_task,
-    lambda_min_task,
-)
-from lyapcheck.constants.storage import Bound, joints_of, storage_proof, zero_bound
+from lyapcheck.check.numbers.polynomials import Enclosure, root_above
+from lyapcheck.check.statement import Statement
+from lyapcheck.constants.storage import BoundWithProof, joints_of, storage_proof
 from lyapcheck.errors import argument_error
 from lyapcheck.lyapunov.scalar import RobotBounds
+from lyapcheck.output.digits import decimals
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain
+from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.plant import RobotModel
 
-GAP = 1e-3
-GAP_OF_MANY = 2e-2
-MAX_BOXES = 60_000
+MAX_BOXES = 2000
+"""How many boxes the checker's rule may cut for one bound."""
+MARGINS = tuple(map(Fraction, ("1e-4", "1e-3", "0.02", "0.5")))
+"""How far from what is reached a bound may be, relative to it; the smallest that is shown counts."""
+MARGINS_OF_CORIOLIS = tuple(map(Fraction, ("0.005", "0.05")))
+"""The same for k_c, from the norms that boxes can show, as its boxes cost more."""
+SAMPLES = 4096
+"""Postures at which these norms are taken."""
+NEAR = Fraction(1, 10**4)
+"""Where a bound is so near what is reached, relative to it, forms along the links are not asked."""
+DIGITS_SHOWN = 6
+
+
+@dataclass(frozen=True)
+class ConstantResult:
+    """One constant of an arm.
+
+    Args:
+        name: ``lambda_min``, ``lambda_max``, ``k_c``, ``k_g`` or ``k_g1`` and so on.
+        unit: SI unit.
+        enclosure: the end that a posture reaches, and the end for all angles.
+        state: the posture, angles in rad; but for gravity followed by the components of x.
+        shown: the bound for all angles and the proof that the checker has accepted, where there is one.
+        boxes: the budget of the proof, where that is by boxes.
+    """
+
+    name: str
+    unit: str
+    enclosure: Enclosure
+    state: tuple[float, ...]
+    shown: BoundWithProof | None = None
+    boxes: int = 0
+
+    @property
+    def gap(self) -> float:
+        """Width of the enclosure relative to its larger end."""
+        size = max(abs(self.enclosure.lower), abs(self.enclosure.upper))
+        return float(self.enclosure.width / size) if size else 0.0
 
 
 def arm_constants(
@@ -54,21 +85,13 @@ def arm_constants(
 
     Args:
         model: the arm, of any number of joints.
-        max_boxes: how many boxes each constant may take; k_c of n joints, whose boxes cost more, an nth of
-            that.
+        max_boxes: how many boxes a bound may take.
         names: of the constants wanted; by default all.
 
-    Returns:
-        The constants; where the budget did not suffice their enclosures are wider than ``GAP``.
-
-    Soundness: floating point with residuals and bounds of its error beforehand, see
-        `lyapcheck.constants.constant` and `lyapcheck.constants.spectrum`; along the chain rational arithmetic
-        and balls, see `lyapcheck.constants.storage`; the inside ends are bounds at the state given.
+    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts. Of
+        λmin(M) without a proof it is −‖M‖, by the sizes of harmonics.
     """
     fixed = model.fixed()
-    along = model.n > FEW_JOINTS and fixed.chain is not None
-    arm = None if along else ArmHarmonics(fixed)
-    enough = GAP if model.n <= FEW_JOINTS else GAP_OF_MANY
     every = ("lambda_min", "lambda_max", "k_c", "k_g", *(f"k_g{i + 1}" for i in range(model.n)))
     wanted = [name for name in every if names is None or name in names]
     result = []
@@ -78,24 +101,13 @@ def arm_constants(
             if on_progress is not None:
                 on_progress((step + fraction) / len(wanted), f"{name}: {note}")
 
-        if arm is None:
-            result.append(chain_constant(fixed, name, progress))
-        else:
-            progress(0.0, "sampling")
-            result.append(_task(arm, name).solve(max_boxes, enough, progress))
+        result.append(_constant(fixed, name, max_boxes, progress))
     return tuple(result)
-
-
-def _task(arm: ArmHarmonics, name: str) -> SupremumTask:
-    tasks = {"lambda_min": lambda_min_task, "lambda_max": lambda_max_task, "k_c": coriolis_task}
-    return tasks[name](arm) if name in tasks else gravity_task(arm, name, joints_of(name, arm.n))
 
 
 # --- The constants that certificates of stability need, once an arm.
 
 
-BOUNDS_MAX_BOXES = 40_000
-"""Over the square of the number of joints: the budget that takes a second or so."""
 _NEEDED = ("lambda_min", "lambda_max", "k_c")
 
 
@@ -110,9 +122,9 @@ class RobotConstants:
     lambda_max_at: tuple[float, ...]
 
 
-def robot_bounds(model: RobotModel, max_boxes: int | None = None) -> RobotBounds:
+def robot_bounds(model: RobotModel) -> RobotBounds:
     """The outside bounds that the scalar forms need; see ``robot_constants``."""
-    result = robot_constants(model, max_boxes)
+    result = robot_constants(model)
     viscous = [number.value for number in model.viscous]
     return RobotBounds(
         result.lambda_max.upper, result.k_c.upper, min(viscous), max(viscous), result.lambda_min.lower
@@ -120,20 +132,16 @@ def robot_bounds(model: RobotModel, max_boxes: int | None = None) -> RobotBounds
 
 
 @lru_cache(maxsize=64)
-def robot_constants(model: RobotModel, max_boxes: int | None = None) -> RobotConstants:
+def robot_constants(model: RobotModel, max_boxes: int = MAX_BOXES) -> RobotConstants:
     """Enclose λmin(M), λmax(M) = β_M and k_c of an arm at its nominal parameters.
 
     Args:
         model: the arm, of any number of joints.
-        max_boxes: budget of each constant; by default fewer for more joints, whose boxes cost more.
-
-    Returns:
-        The enclosures. They are wide if the number of boxes did not suffice.
+        max_boxes: how many boxes a bound may take.
 
     Soundness: see `lyapcheck.constants.arm_constants`.
     """
-    budget = BOUNDS_MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
-    smallest, largest, coriolis = arm_constants(model, budget, names=_NEEDED)
+    smallest, largest, coriolis = arm_constants(model, max_boxes, names=_NEEDED)
     return RobotConstants(
         lambda_min=smallest.enclosure,
         lambda_max=largest.enclosure,
@@ -143,7 +151,7 @@ def robot_constants(model: RobotModel, max_boxes: int | None = None) -> RobotCon
     )
 
 
-# --- The posture at which a constant of a chain is reached, as local searches find it; its value in balls.
+# --- The posture at which a constant is reached, as local searches find it; its value in balls.
 
 
 STARTS = 24
@@ -153,7 +161,7 @@ BITS = 128
 
 
 def extreme(plant: RobotModel, name: str) -> tuple[PostureWitness, Fraction]:
-    """Where λmin(M), λmax(M), k_c, k_g or a k_gi of a chain is reached, and its value, rounded safely.
+    """Where λmin(M), λmax(M), k_c, k_g or a k_gi of an arm is reached, and its value, rounded safely.
 
     By quasi-Newton steps from many starts; there is no direction x for gravity.
 
@@ -161,8 +169,6 @@ def extreme(plant: RobotModel, name: str) -> tuple[PostureWitness, Fraction]:
     """
     from scipy.optimize import minimize
 
-    chain = plant.dynamics
-    assert isinstance(chain, Chain)
     n, directed, merit = plant.n, not name.startswith("k_g"), _merit(plant, name)
     rng = np.random.default_rng(SEED)
     turns = rng.uniform(-np.pi, np.pi, (STARTS, n))
@@ -177,7 +183,7 @@ def extreme(plant: RobotModel, name: str) -> tuple[PostureWitness, Fraction]:
     q = best[:n] - 2 * np.pi * np.round(best[:n] / (2 * np.pi))
     x = best[n:] / np.linalg.norm(best[n:])
     at = PostureWitness(_short(q), (), _short(x) if directed else ())
-    return at, _in_balls(zero_bound(chain, name), at)
+    return at, _in_balls(_state(plant, name, isinstance(plant.dynamics, Chain))(Fraction(0)), at)
 
 
 def _merit(plant: RobotModel, name: str) -> Callable[..., tuple[float, Array]]:
@@ -212,34 +218,98 @@ def _merit(plant: RobotModel, name: str) -> Callable[..., tuple[float, Array]]:
 def _in_balls(statement: Bound, at: PostureWitness) -> Fraction:
     """The constant there, on the safe side, from how far a bound of 0 fails."""
     with precision(BITS):
-        excess, square = statement.excess(at), sum((to_arb(x) ** 2 for x in at.x), arb(int(not at.x)))
-        if isinstance(statement, ChainAbove):
+        excess = statement.excess(witness_of(statement, at))
+        square = sum((to_arb(x) ** 2 for x in at.x), arb(int(not at.x)))
+        if isinstance(statement, MassAbove | ChainAbove):
             return Enclosure.from_arb(-excess / square).upper
-        size = excess / (square**2 if isinstance(statement, ChainCoriolisBelow) else square)
+        size = excess / (square**2 if isinstance(statement, CoriolisBelow | ChainCoriolisBelow) else square)
         return Enclosure.from_arb(size.lower().max(arb(0)).sqrt()).lower
+
+
+def witness_of(statement: Statement, at: PostureWitness) -> PostureWitness:
+    """The posture as a witness against a bound; of C as a bilinear map with x = y."""
+    return replace(at, y=at.x) if isinstance(statement, CoriolisBelow) else at
 
 
 def _short(values: Array) -> tuple[Fraction, ...]:
     return tuple(Fraction(round(float(x) * DIGITS), DIGITS) for x in values)
 
 
-def chain_constant(plant: RobotModel, name: str, on_progress: Progress = silent) -> ConstantResult:
-    """λmin(M), λmax(M), k_c, k_g or a k_gi of a chain of exact links.
+def _state(arm: RobotModel, name: str, along_links: bool) -> Callable[[Fraction], Any]:
+    """A bound of a constant as a statement, by its number."""
+    return lambda end: bound_of_constant(name, arm, end, along_links)
 
-    Soundness: the inside end is taken in balls at a posture; the outside end is what the checker accepts.
-    """
+
+# --- The end for all angles: what the checker's own bounds show, or forms along the links.
+
+
+def _constant(arm: RobotModel, name: str, max_boxes: int, on_progress: Progress) -> ConstantResult:
+    """A constant of an arm without uncertain parameters."""
     on_progress(0.0, "posture")
-    (at, inner), chain = extreme(plant, name), plant.chain
-    assert chain is not None
-    still = name.startswith("k_g") and inner == 0
-    shown = storage_proof(chain, name, still=True) if still else None
-    if shown is None:
+    at, inner = extreme(arm, name)
+    if arm.n > FEW_JOINTS and arm.chain is not None:
         on_progress(0.1, "forms along the links")
-        shown = storage_proof(chain, name)
-    if shown is None and name != "lambda_min":
+        shown = _along_links(arm.chain, name, inner)
+        # bodies without mass may leave nothing to show, but that M(q) of links is never negative
+        outer = Fraction(0)
+    else:
+        on_progress(0.1, "boxes")
+        shown, outer = _by_sizes_and_boxes(arm, name, inner, max_boxes)
+    low, high = sorted((inner, shown.bound if shown else outer))
+    boxes = max_boxes if shown and isinstance(shown.proof, Bisection) else 0
+    unit = "N·m" if name.startswith("k_g") else "kg·m²"
+    return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*at.q, *at.x))), shown, boxes)
+
+
+def _along_links(chain: Chain, name: str, inner: Fraction) -> BoundWithProof | None:
+    """The best bound that storage forms show; only of λmin(M) there may be none."""
+    still = name.startswith("k_g") and inner == 0
+    found = storage_proof(chain, name, still=True) if still else None
+    found = found or storage_proof(chain, name)
+    if found is None and name != "lambda_min":
         rule = "has no bound along the links that the checker accepts"
         raise argument_error(name, "", rule, "correct the masses and inertias")
-    # bodies without mass may leave nothing to show, but that M(q) of links is never negative
-    low, high = sorted((inner, shown.bound if shown else Fraction(0)))
-    unit = "N·m" if name.startswith("k_g") else "kg·m²"
-    return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*at.q, *at.x))), 0, shown)
+    return found
+
+
+def _by_sizes_and_boxes(
+    arm: RobotModel, name: str, inner: Fraction, max_boxes: int
+) -> tuple[BoundWithProof | None, Fraction]:
+    """The best bound that is shown, and one that the sizes of harmonics give without a proof."""
+    state, sign = _state(arm, name, along_links=False), -1 if name == "lambda_min" else 1
+    best: BoundWithProof | None = None
+    zero = state(Fraction(0))
+    if isinstance(zero, MassAbove):
+        coarse = -zero.inertia.largest_row
+    else:
+        coarse = root_above(zero.square_by_sizes())
+        value = rounded(coarse, sign)
+        best = BoundWithProof(state(value), HarmonicSizes())
+    # forms along the links take less time than the boxes that they spare
+    if arm.chain is not None and (best is None or best.bound > inner * (1 + NEAR)):
+        found = storage_proof(arm.chain, name)
+        if found is not None and (best is None or sign * found.bound < sign * best.bound):
+            best = found
+    start, margins = (_unfolded(arm), MARGINS_OF_CORIOLIS) if name == "k_c" else (inner, MARGINS)
+    for margin in margins:
+        value = rounded(start * (1 + sign * margin), sign)
+        if value <= 0 or (best is not None and sign * best.bound <= sign * value):
+            break
+        statement = state(value)
+        if statement.shown_by_boxes(max_boxes):
+            return BoundWithProof(statement, Bisection()), coarse
+    return best, coarse
+
+
+def _unfolded(arm: RobotModel) -> Fraction:
+    """About the least bound of ‖C(q, x)y‖ that boxes can show: that of the better unfolding of the c_ijk."""
+    states = np.random.default_rng(SEED).uniform(-np.pi, np.pi, (SAMPLES, arm.n))
+    c = NumericModel(arm).christoffel(states)
+    both = (np.einsum("bijk,bijl->bkl", c, c), np.einsum("bijk,bljk->bil", c, c))
+    tops = [np.linalg.eigvalsh(square)[:, -1] for square in both]
+    return Fraction(float(np.sqrt(max(np.max(np.minimum(*tops)), 0.0))))
+
+
+def rounded(value: Fraction, sign: int) -> Fraction:
+    """The nearest decimal number of a few digits that is not below (sign > 0), or not above."""
+    return Fraction(decimals(Enclosure.exact(value), DIGITS_SHOWN)[1 if sign > 0 else 0])

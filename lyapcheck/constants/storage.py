@@ -33,6 +33,9 @@ from lyapcheck.check.kinds.chain import (
     RateBounds,
     StorageForms,
 )
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
+from lyapcheck.check.kinds.gravity import GravityBelow
+from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.loop.storage import (
     FALL,
@@ -45,6 +48,7 @@ from lyapcheck.check.loop.storage import (
     stored_at_base,
     weight,
 )
+from lyapcheck.check.statement import Proof
 from lyapcheck.control.judgement import proves
 from lyapcheck.convex import Block, solved_cones
 from lyapcheck.files.decimals import significant_up
@@ -250,7 +254,16 @@ def _shares(rates: Sequence[Shown]) -> tuple[tuple[Fraction, ...], tuple[Fractio
 # --- From a chain to certified bounds: doubles propose the storage forms, the checker decides.
 
 
-Bound = ChainAbove | ChainBelow | ChainGravityBelow | ChainCoriolisBelow
+Bound = (
+    ChainAbove
+    | ChainBelow
+    | ChainGravityBelow
+    | ChainCoriolisBelow
+    | MassAbove
+    | MassBelow
+    | CoriolisBelow
+    | GravityBelow
+)
 _MARGINS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
 _DIGITS = 7
 """Significant digits of a bound; coefficients are kept as the doubles that they are."""
@@ -261,12 +274,12 @@ class BoundWithProof:
     """A bound as a statement, and its proof."""
 
     statement: Bound
-    proof: StorageForms | NoTorque | RateBounds
+    proof: Proof
 
     @property
     def bound(self) -> Fraction:
-        """λmin(M) from below, the others from above."""
-        return self.statement.low if isinstance(self.statement, ChainAbove) else self.statement.high
+        """Its number."""
+        return end_of(self.statement)
 
     def at_end(self, value: Fraction) -> Bound:
         return with_end(self.statement, value)
@@ -324,9 +337,14 @@ def zero_bound(chain: Chain, name: str) -> Bound:
     return ChainGravityBelow(chain.links, chain.fall, counted, Fraction(0))
 
 
+def end_of(statement: Bound) -> Fraction:
+    """The number of a bound: of λmin(M) from below, of the others from above."""
+    return statement.low if isinstance(statement, ChainAbove | MassAbove) else statement.high
+
+
 def with_end(statement: Bound, value: Fraction) -> Bound:
     """The statement with another bound."""
-    if isinstance(statement, ChainAbove):
+    if isinstance(statement, ChainAbove | MassAbove):
         return replace(statement, low=value)
     return replace(statement, high=value)
 

@@ -15,14 +15,15 @@ from lyapcheck._types import Array
 from lyapcheck.check.loop.closed_loop import ClosedLoop
 from lyapcheck.check.loop.field import Ring, ball
 from lyapcheck.check.loop.schur import Errors, Value, form
-from lyapcheck.check.numbers.harmonics import Uncertain, derivative, largest
-from lyapcheck.constants.constant import Torus
+from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative, largest
 from lyapcheck.search.boxes import Interval, norm, of_sides, positive_definite, unit_vector
 
 RING = Ring(float, Interval.square)
 """Intervals beside exact numbers."""
 NEAR = 0.05
 """rad: harmonics that turn by more are bounded by their ranges, with which trees have the fewest boxes."""
+SLACK = 1e-12
+"""Times the sizes of all coefficients: far more than the rounding of sines, products and sums amounts to."""
 BEYOND = 1 + 1e-12
 """As a multiple of the radius of the tail: doubles are not balls."""
 ANGLES = 0.25
@@ -30,6 +31,48 @@ ANGLES = 0.25
 
 Trees for 0.99 of the falsified ε₀ and beyond have a tenth to all of the boxes that they have with 1.
 """
+
+
+class Reach:
+    """What trigonometric polynomials of n joints reach on boxes of angles, in doubles.
+
+    Over a box with half widths r a harmonic cos(k·q) or sin(k·q) turns by at most d = Σ |k_i| r_i from its
+    value in the middle, and by at most d²/2 from its linear part. Harmonics that turn far are bounded by
+    their exact range, those that hardly turn by their slope and what is sharper than the square.
+    """
+
+    def __init__(self, entries: Sequence[Harmonics], n: int) -> None:
+        sums = [
+            {(k, odd): x for k, ab in entry.items() for odd, x in enumerate(ab) if x} for entry in entries
+        ]
+        keys = sorted({key for entry in sums for key in entry}) or [((0,) * n, 0)]
+        coefficients = np.array([[float(entry.get(key, 0)) for entry in sums] for key in keys])
+        self._coefficients: Array = coefficients.reshape(len(keys), len(entries))
+        self._sizes: Array = np.abs(self._coefficients)
+        self._slack: Array = SLACK * self._sizes.sum(axis=0)
+        self._multiples: Array = np.array([k for k, _ in keys], dtype=np.float64)
+        self._sine = np.array([sine for _, sine in keys]) > 0
+
+    def on(self, middle: Array, half: Array) -> tuple[Array, Array]:
+        """Both ends over boxes, given by their middles and half widths (boxes, n), each (boxes, entries)."""
+        angle, turn = middle @ self._multiples.T, half @ np.abs(self._multiples).T
+        sine, cosine = np.sin(angle), np.cos(angle)
+        values, turned = np.where(self._sine, sine, cosine), np.where(self._sine, cosine, -sine)
+        near, far = turn < NEAR, np.minimum(turn, np.pi)
+        along, across = np.cos(far), turned * np.sin(far)
+        ends = values * along + across, values * along - across
+        low = np.where(-values >= along, -1.0, np.minimum(*ends))
+        high = np.where(values >= along, 1.0, np.maximum(*ends))
+        # v cos d + u sin d at the distance d, v the value and u the slope: what is left of it without u d
+        most = np.minimum(turn, NEAR)
+        least = np.cos(most)
+        bent = np.abs(values) * 0.5 * (1 - least) + np.abs(turned) * (most - np.sin(most))
+        middles = np.where(near, values * 0.5 * (1 + least), 0.5 * (low + high)) @ self._coefficients
+        radius = (np.where(near, bent, 0.5 * (high - low)) @ self._sizes + self._slack) * (1.0 + 1e-9)
+        for multiples, width in zip(self._multiples.T, half.T, strict=True):
+            slope = np.where(near, turned * multiples, 0.0) @ self._coefficients
+            radius = radius + np.abs(slope) * width[:, None]
+        return middles - radius, middles + radius
 
 
 class SchurProblem:
@@ -44,7 +87,7 @@ class SchurProblem:
         member, joints = loop.member, range(loop.n)
         entries = {(i, j): loop.mass[i][j] for i in joints for j in range(i + 1)} | loop.symbols
         self.parts = [(place, powers, x) for place, entry in entries.items() for powers, x in entry.items()]
-        self.torus = Torus([x for _, _, x in self.parts], loop.n, sheared=False, near=NEAR)
+        self.reach = Reach([x for _, _, x in self.parts], loop.n)
         self.of_error = of_sides(lambda side: (member.h(ball(side)), member.dh(ball(side))))
 
     def proved(self, boxes: Array) -> NDArray[np.bool_]:
@@ -114,7 +157,7 @@ class _Boxes:
         middle, half = np.zeros((2, count, self.loop.n))
         for joint, x in zip(self.loop.angles, self.angles, strict=True):
             middle[:, joint], half[:, joint] = x.middle, x.radius
-        low, high = self.problem.torus.on(middle, half).reach
+        low, high = self.problem.reach.on(middle, half)
         values: dict[tuple[int, ...], Value] = {}
         for k, (place, powers, _) in enumerate(self.problem.parts):
             part = Interval(low[:, k], high[:, k])

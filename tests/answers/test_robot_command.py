@@ -71,11 +71,12 @@ def test_what_is_wide_comes_with_a_word_about_it(tmp_path, name, advice):
     path = {"ur5": ARMS / "ur5.urdf", "generic8": tmp_path / "generic8.urdf"}.get(name, name)
     arm = robots.load(path)
     wide, narrow = (
-        ConstantResult(of, "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 2 * arm.n, 0)
+        ConstantResult(of, "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 2 * arm.n)
         for of, low in (("k_c", "1"), ("lambda_max", "1.9"))
     )
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
-    text = plain.render(RobotReport(arm, (row,), (wide, narrow)).document())
+    ends = {one.name: CertifiedBounds(one.enclosure.lower, one.enclosure.upper) for one in (wide, narrow)}
+    text = plain.render(RobotReport(arm, (row,), (wide, narrow), certified=ends).document())
     assert f"k_c is wide, 50 %: {advice}" in " ".join(text.split())
     assert "λmax(M) = β_M is wide" not in text
 
@@ -86,33 +87,33 @@ def test_what_is_wide_comes_with_a_word_about_it(tmp_path, name, advice):
 )
 def test_a_gap_is_written_without_an_exponent(low, gap):
     arm = robots.load("pelican2")
-    constant = ConstantResult("k_c", "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 4, 0)
+    constant = ConstantResult("k_c", "kg·m²", Enclosure(Fraction(low), Fraction(2)), (0.0,) * 4)
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
-    text = " ".join(plain.render(RobotReport(arm, (row,), (constant,)).document()).split())
+    ends = {"k_c": CertifiedBounds(Fraction(low), Fraction(2))}
+    text = " ".join(plain.render(RobotReport(arm, (row,), (constant,), certified=ends).document()).split())
     assert f" {gap.removesuffix(' %')} " in text
     assert "e+0" not in text
 
 
-def test_the_gap_is_that_of_the_certified_ends_where_both_are_known():
-    """What users rely on; a star marks the gap of the numeric ends."""
+def test_the_gap_is_that_of_the_certified_ends_and_none_where_one_is_missing():
+    """That a norm is not negative needs no certificate, that λmin(M) is not does."""
+    names = ("lambda_min", "k_c", "k_g", "k_g1")
     constants = tuple(
-        ConstantResult(name, "N·m", Enclosure(Fraction(99), Fraction(100)), (0.0,) * 4, 0)
-        for name in ("k_c", "k_g", "k_g1")
+        ConstantResult(name, "N·m", Enclosure(Fraction(99), Fraction(100)), (0.0,) * 4) for name in names
     )
     ends = {
+        "lambda_min": CertifiedBounds(None, Fraction(100)),
         "k_c": CertifiedBounds(Fraction(90), Fraction(100)),
         "k_g": CertifiedBounds(None, Fraction(200)),
-        "k_g1": CertifiedBounds(Fraction(50), Fraction(100)),
+        "k_g1": CertifiedBounds(Fraction(50), None),
     }
     row = PropertyResult("2.1", "M(q) = M(q)ᵀ", undecided("not asked", ""))
     facts = RobotReport(robots.load("pelican2"), (row,), constants, certified=ends)
     text = plain.render(facts.document())
     rows = {line.split()[0]: line.split()[-1] for line in text.splitlines() if " N·m " in line}
-    assert rows == {"k_c": "10", "k_g": "1", "k_g1": "50"}
-    assert "k_g1 is wide, 50 %: the numeric ends are nearer" in " ".join(text.split())
-    assert "k_g is wide" not in text
-    every = " ".join(facts.written("markdown").split())
-    assert r"Marked \*: that of the numeric ends" in every or "Marked *: that of the numeric ends" in every
+    assert rows == {"λmin(M)": "–", "k_c": "10", "k_g": "100", "k_g1": "–"}
+    assert "k_g is wide, 100 %: try a larger --max-boxes" in " ".join(text.split())
+    assert "k_g1 is wide" not in text
 
 
 def test_progress_names_what_is_done_along_a_chain(tmp_path):

@@ -14,10 +14,10 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.certificate import to_json
 from lyapcheck.check.codec import from_json
-from lyapcheck.check.kinds.chain import ChainAbove, OwnMoments
+from lyapcheck.check.kinds.chain import ChainAbove, OfLinks, OwnMoments
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.constants.arm import chain_constant
+from lyapcheck.constants import arm_constants
 from lyapcheck.errors import InputError
 from lyapcheck.lyapunov import graph
 from lyapcheck.robots.numeric import NumericModel
@@ -74,7 +74,7 @@ def compare(
 def test_certified_ends_hold_the_rotors(pair: tuple[robots.RobotModel, robots.RobotModel], name: str) -> None:
     """Each side of the enclosure: a state reaches one, a certificate shows the other."""
     arm = pair[1]
-    result = chain_constant(arm, name)
+    (result,) = arm_constants(arm, names=[name])
     masses = NumericModel(arm).mass(np.random.default_rng(2).uniform(-3.2, 3.2, (20_000, 4)))
     seen = np.linalg.eigvalsh(masses)
     extreme = float(seen.min() if name == "lambda_min" else seen.max())
@@ -86,6 +86,7 @@ def test_certified_ends_hold_the_rotors(pair: tuple[robots.RobotModel, robots.Ro
     assert outer == pytest.approx(extreme, rel=0.1)
     shown = result.shown
     assert shown is not None
+    assert isinstance(shown.statement, OfLinks)
     assert verify(shown.statement, shown.proof).verdict == "proved"
     links = tuple(replace(link, rotor=Fraction(0)) for link in shown.statement.links)
     if name == "lambda_min":  # the forms lean on the rotors

@@ -11,7 +11,6 @@ from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.field import leaves
 from lyapcheck.check.loop.schur import proves
 from lyapcheck.check.verify import verify
-from lyapcheck.constants.constant import Torus
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import load
 from lyapcheck.search import certified, schur
@@ -19,7 +18,7 @@ from lyapcheck.search.boxes import EXHAUSTED, RESISTS, CoverOutcome
 from lyapcheck.search.certified import CertifiedEpsilon, certified_epsilon, certify, linked_otherwise
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.scalar_program import norm_epsilon
-from lyapcheck.search.schur import SchurProblem, _Boxes
+from lyapcheck.search.schur import Reach, SchurProblem, _Boxes
 from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 from tests.helpers.urdf_texts import generic
@@ -62,7 +61,7 @@ def test_a_wrong_sign_of_coriolis_would_be_noticed():
             for place, _, x in task.parts
         ]
         changed = problem("reyes-kelly2", 0, F(1, 4))
-        changed.torus = Torus(signed, 2, sheared=False)
+        changed.reach = Reach(signed, 2)
         entry = _Boxes(changed, np.stack([point, point])[None]).P()[1][0]
         assert bool(entry.lo[0] - 1e-12 <= exact[1, 0] <= entry.hi[0] + 1e-12) is agrees
 

@@ -8,13 +8,13 @@ import pytest
 from lyapcheck.check.loop.field import ball
 from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.check.numbers.members import member
-from lyapcheck.constants.constant import Torus
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load, trig
+from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.boxes import Interval, of_sides, positive_definite, unit_vector
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.search.schur import SchurProblem, _Boxes
+from lyapcheck.search.schur import Reach, SchurProblem, _Boxes
 from tests.helpers.schur import schur_of
 from tests.helpers.shares import one_in
 
@@ -54,14 +54,13 @@ def test_ranges_hold_h_and_its_slope(name, m):
 def test_polynomials_reach_what_they_say(robot):
     model, random = load(robot).fixed(), np.random.default_rng(5)
     entries = [harmonics(trig.to_terms(entry), model.n) for row in model.mass for entry in row]
-    for sheared in (False, True):
-        torus = Torus(entries, model.n, sheared)
-        boxes, states = boxes_and_states(random, model.n, 2000)
-        low, high = torus.on(boxes.mean(axis=1), 0.5 * (boxes[:, 1] - boxes[:, 0])).reach
-        assert holds(Interval(low, high), torus.at(states), 10)
-        # a turn and a half around the whole circle reaches all values, and no more than the sizes
-        whole = torus.on(np.zeros((1, model.n)), np.full((1, model.n), 9.0)).reach
-        assert np.all(whole[1] <= np.abs(torus._coefficients).sum(axis=0) * (1 + 1e-9))
+    reach = Reach(entries, model.n)
+    boxes, states = boxes_and_states(random, model.n, 2000)
+    ends = reach.on(boxes.mean(axis=1), 0.5 * (boxes[:, 1] - boxes[:, 0]))
+    assert holds(Interval(*ends), NumericModel(model).mass(states).reshape(len(states), -1), 10)
+    # a turn and a half around the whole circle reaches all values, and no more than the sizes
+    whole = reach.on(np.zeros((1, model.n)), np.full((1, model.n), 9.0))
+    assert np.all(whole[1] <= np.abs(reach._coefficients).sum(axis=0) * (1 + 1e-8))
 
 
 def test_the_unit_vector_holds_every_direction_of_a_box():

@@ -1,4 +1,4 @@
-"""λmin(M), λmax(M) and k_c of the arms: enclosures against dense samples, closed forms and spent budgets."""
+"""λmin(M), λmax(M) and k_c of the arms against closed forms, spent budgets and arms with errors."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.verify import verify
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.robot_cases import BUILT_IN
-from tests.helpers.shares import but, one_in
 
 F = Fraction
 
@@ -23,16 +23,16 @@ def angles(n, count=20_000):
     return np.concatenate([quarters, np.random.default_rng(n).uniform(-np.pi, np.pi, (count, n))])
 
 
-QUICK = [name for name in BUILT_IN if not name.startswith("buap3")]
-
-
-@pytest.mark.parametrize("name", but(QUICK, BUILT_IN))
-def test_gaps_are_small(name):
-    result = robot_constants(load(name))
-    for enclosure in (result.lambda_min, result.lambda_max, result.k_c):
-        assert enclosure.lower <= enclosure.upper
-        assert enclosure.width <= F(1, 1000) * enclosure.upper
-    assert result.lambda_min.lower > 0
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_gaps_are_small_and_all_is_shown(name):
+    """k_c is that of C(q, x)x; boxes show norms of the Christoffel symbols."""
+    for constant in arm_constants(load(name)):
+        low, high = constant.enclosure.lower, constant.enclosure.upper
+        assert 0 <= low <= high
+        assert high - low <= (F(1, 5) if constant.name == "k_c" else F(1, 1000)) * high
+        assert constant.shown is not None
+        assert verify(constant.shown.statement, constant.shown.proof).verdict == "proved"
+        assert constant.shown.bound == (low if constant.name == "lambda_min" else high)
 
 
 def test_a_pendulum_has_its_inertia_and_no_coriolis():
@@ -41,7 +41,7 @@ def test_a_pendulum_has_its_inertia_and_no_coriolis():
     inertia = F(int(model.mass[0][0].coefficient(0).p), int(model.mass[0][0].coefficient(0).q))
     for enclosure in (result.lambda_min, result.lambda_max):
         assert enclosure.lower <= inertia <= enclosure.upper
-        assert enclosure.width < F(1, 10**11)
+        assert enclosure.width < F(1, 10**6)
     assert result.k_c == Enclosure.exact(0)
 
 
@@ -66,6 +66,8 @@ def test_two_joints_in_closed_form(name, bend):
     for constant, value in expected.items():
         enclosure = getattr(result, constant)
         assert enclosure.lower * (1 - F(1, 10**8)) <= value <= enclosure.upper * (1 + F(1, 10**8))
+        inner = enclosure.upper if constant == "lambda_min" else enclosure.lower
+        assert float(inner) == pytest.approx(value, rel=1e-8)
 
 
 def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones():
@@ -76,14 +78,14 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones():
     assert (bounds.viscous_min, bounds.viscous_max) == (F("0.175"), F("2.288"))
 
 
-@pytest.mark.parametrize("budget", one_in(3, [0, 1, 40, 300]))
-@pytest.mark.parametrize("name", one_in(2, ["reyes-kelly2", "buap3"]))
-def test_a_small_budget_is_kept_and_its_bounds_contain_the_better_ones(name, budget):
-    known = {constant.name: constant.enclosure for constant in arm_constants(load(name))}
-    for constant in arm_constants(load(name), budget):
-        assert constant.boxes <= max(budget, 1)
-        assert constant.enclosure.lower <= known[constant.name].upper
-        assert constant.enclosure.upper >= known[constant.name].lower
+@pytest.mark.parametrize("budget", [1, 40, 300])
+def test_a_smaller_budget_shows_no_more(budget):
+    better = {constant.name: constant.enclosure for constant in arm_constants(load("buap3"))}
+    for constant in arm_constants(load("buap3"), budget):
+        assert constant.enclosure.lower <= better[constant.name].lower
+        assert constant.enclosure.upper >= better[constant.name].upper
+        assert constant.shown is not None
+        assert verify(constant.shown.statement, constant.shown.proof).verdict == "proved"
 
 
 def test_only_the_constants_asked_for():

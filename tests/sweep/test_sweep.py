@@ -181,7 +181,7 @@ def test_every_question_is_answered_as_by_its_command(tmp_path):
     )
     rows = {row["ask"]: row for row in lyapcheck.sweep(path, workers=1, out=tmp_path / "out")}
     options = {
-        "robot": ["pendulum1", "--max-boxes", 20000],
+        "robot": ["pendulum1", "--max-boxes", 2000],
         "epsilon": [gains, "--max-boxes", 300, "--starts", 2],
         "bounds": [gains, "--time", 1, "--target", 45],
         "simulate": [gains, "--time", 1, "--target", 45],

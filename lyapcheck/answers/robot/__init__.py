@@ -31,6 +31,7 @@ from lyapcheck.answers.robot.properties import (
 from lyapcheck.check.verify import each_once
 from lyapcheck.claims.decision import file_name, judge_afresh
 from lyapcheck.constants import SEED, arm_constants
+from lyapcheck.constants.arm import MAX_BOXES
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import records, table
@@ -48,8 +49,6 @@ MARKS = {Verdict.ERROR: "!", Verdict.REFUTED: "✗", Verdict.UNDECIDED: "?"}
 """From what matters most."""
 ROW_KEYS = ("id", "verdict", "grade", "statement", "method", "reason")
 MOST_REMARKS = 3
-MAX_BOXES = 200_000
-"""Over the square of the number of joints: the budget that takes a minute or so."""
 
 
 def build(
@@ -59,15 +58,14 @@ def build(
 
     Args:
         model: the arm.
-        max_boxes: budget of each constant; by default fewer for more joints, whose boxes cost more.
+        max_boxes: how many boxes a bound may take. Default: 2000.
         on_progress: receives the share of the work done.
 
     Soundness: what is called proved, refuted or certified is what a fresh process of the checker accepts.
     """
-    budget = MAX_BOXES // model.n**2 if max_boxes is None else max_boxes
     # searches ask the rules about what they find, property 2.6 about the bound of k_c; no verdict comes of it
     with each_once():
-        constants = arm_constants(model, budget, on_progress=on_progress)
+        constants = arm_constants(model, max_boxes or MAX_BOXES, on_progress)
         if on_progress is not None:
             on_progress(1.0, "properties 2.1–2.8")
         proposed = proposed_proof("published.py", [1], model, only=IDS)
@@ -101,7 +99,7 @@ class RobotReport(Answer):
     Args:
         model: the arm.
         properties: 2.1 to 2.8.
-        constants: from both sides, in floating point.
+        constants: from both sides, as a search found them.
         prints: claims about C and g as the source prints them; they do not touch the arm, whose C and g
             follow from M and the potential.
         certified: by the name of a constant its ends that a certificate shows.

@@ -12,7 +12,7 @@ from lyapcheck.answers.robot.certified import SYMBOLS, CertifiedBounds
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.digits import at_least, at_most, decimals, ends
+from lyapcheck.output.digits import at_least, at_most, ends
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, data, table
 from lyapcheck.robots.dynamics import FEW_JOINTS
@@ -23,11 +23,9 @@ if TYPE_CHECKING:
     from lyapcheck.robots import Number, RobotModel
 
 NONE = "–"
-DIGITS, DATA_DIGITS = 6, 15
-"""Of the ends in floating point, for people and for programs."""
-AT_NOMINAL = "At nominal parameters: ends that certificates show, and those of floating point."
-GAPS = "The gap is that of the ends by certificates, relative to the larger one."
-NUMERIC = "Marked *: that of the numeric ends, as a certificate is missing."
+DATA_DIGITS = 15
+"""Of what a search found, for programs."""
+AT_NOMINAL = "At nominal parameters, by certificates; the gap is relative to the larger end."
 WIDE = 0.25
 """The gap from which a word is said about it."""
 READABLE = 2000
@@ -87,19 +85,15 @@ class Constant:
         return f"{name} = β_M" if self.of.name == "lambda_max" else name
 
     @property
-    def gap(self) -> Fraction:
-        """Of the certified ends, which users rely on; where one is missing, of the numeric ones."""
+    def gap(self) -> Fraction | None:
+        """Of the ends, relative to the larger one; none where one is missing."""
         low, high = self.known.lower, self.known.upper
+        if low is None and self.of.name != "lambda_min":
+            low = Fraction(0)  # that a norm is not negative needs no certificate
         if low is None or high is None:
-            low, high = self.of.enclosure.lower, self.of.enclosure.upper
+            return None
         size = max(abs(low), abs(high))
         return (high - low) / size if size else Fraction(0)
-
-    @property
-    def star(self) -> str:
-        """Where an end is not certified; that a norm is not negative needs no certificate."""
-        zero = self.of.name != "lambda_min" and self.known.upper == 0
-        return "" if zero or None not in (self.known.lower, self.known.upper) else "*"
 
     def states(self) -> list[tuple[str, str]]:
         """The angles; of k_c also the direction x."""
@@ -109,16 +103,15 @@ class Constant:
 
     def wide(self) -> Iterator[str]:
         """How wide the ends are if they are, and what might narrow them."""
-        advice, model = "try a larger --max-boxes", self.model
-        if model.n > FEW_JOINTS and model.fixed().chain is not None:
+        if self.gap is None or self.gap <= WIDE:
+            return
+        advice = "try a larger --max-boxes"
+        if self.model.n > FEW_JOINTS and self.model.fixed().chain is not None:
             advice = "bounded by the best forms along the links, which more boxes do not change"
-        elif self.of.gap <= WIDE:
-            advice = "the numeric ends are nearer, and no certificate was found for what they say"
-        if self.gap > WIDE:
-            yield f"{self.symbol} is wide, {_percent(self.gap)} %: {advice}"
+        yield f"{self.symbol} is wide, {_percent(self.gap)} %: {advice}"
 
     def data(self) -> dict[str, Any]:
-        """``lower`` and ``upper`` are the ends in floating point, like ``numeric``, and ``gap`` is theirs."""
+        """``lower`` and ``upper`` are the ends as found, like ``numeric``; ``gap`` is theirs."""
         of, n = self.of, self.model.n
         numeric = ends(of.enclosure, DATA_DIGITS)
         known = ("lower", self.known.lower), ("upper", self.known.upper)
@@ -151,17 +144,15 @@ SHORT = (
     Field("", "of.unit", "unit", align="l"),
     Field("", "known.lower", "proved: above", _or_none(at_least)),
     Field("", "known.upper", "proved: at most", _or_none(at_most)),
-    Field("", "gap", "gap [%]", _percent),
+    Field("", "gap", "gap [%]", _or_none(_percent)),
 )
 WHOLE = (
     *SHORT[:2],
-    Field("", "known.lower", "certified: above", _or_none(decimal_text)),
+    Field("", "known.lower", "above", _or_none(decimal_text)),
     Field("", "known.upper", "at most", _or_none(decimal_text)),
-    Field("", lambda row: decimals(row.of.enclosure, DIGITS)[0], "numeric: at least"),
-    Field("", lambda row: decimals(row.of.enclosure, DIGITS)[1], "at most"),
-    Field("", lambda row: f"{_percent(row.gap)}{' %' if row.gap else ''}{row.star}", "gap"),
+    SHORT[-1],
 )
-"""The ends of a constant that certificates show: in four digits, or whole beside those of floating point."""
+"""The ends of a constant that certificates show: in four digits, or whole."""
 
 
 def constants_section(rows: Sequence[Constant]) -> Section:
@@ -170,9 +161,9 @@ def constants_section(rows: Sequence[Constant]) -> Section:
     states = Table(
         ("constant", "shown at q [rad]"), tuple(x for row in rows for x in row.states()), align="ll"
     )
-    notes = Paragraph(AT_NOMINAL), Paragraph(f"{GAPS} {NUMERIC}" if any(row.star for row in rows) else GAPS)
-    rows_ = table(WHOLE, [(row,) for row in rows])
-    return Section("Constants", (*notes, rows_, *([Bullets(said)] if said else []), states))
+    shown = table(WHOLE, [(row,) for row in rows])
+    remarks = [Bullets(said)] if said else []
+    return Section("Constants", (Paragraph(AT_NOMINAL), shown, *remarks, states))
 
 
 def numbers_table(model: RobotModel, only: bool = False) -> Table:

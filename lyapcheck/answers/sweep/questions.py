@@ -319,7 +319,7 @@ OPTIONS: Mapping[str, Options] = {
     "bounds": {"delta": 1.0, "time": 10.0, "target": (), "start": ()},
     "epsilon": {"max_boxes": 100_000, "starts": 30},
     "gate": {"condition": (), "loop": ()},
-    "robot": {"max_boxes": 20_000},
+    "robot": {"max_boxes": 2_000},
     "simulate": {"time": 5.0, "experiment": False, "target": (), "start": ()},
 }
 """The questions, with what each may be asked with, and what holds where nothing is said."""

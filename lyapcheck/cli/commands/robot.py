@@ -27,7 +27,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="NAME|FILE", help="Arm by name or file (.toml, .urdf).")
     parser.add_choice_of_arm()
-    about = "Largest number of boxes for each constant. Default: 200000/n² for n joints."
+    about = "Largest number of boxes for each bound. Default: 2000."
     parser.add_number("--max-boxes", int, about, least=1)
     about = "Write the arm as an arm file to edit, and decide nothing. - is standard output."
     parser.add_argument("--export", metavar="FILE", type=Path, help=about)
@@ -49,8 +49,8 @@ def run(
     """Decide properties 2.1–2.8 of an arm and bound its constants from both sides.
 
     The constants are λmin(M), λmax(M) = β_M, k_c, k_g and every k_gi, with the states that reach them. Both
-    ends of a constant are certified, and enclosed in floating point (numeric). The answer also lists
-    friction, torque limits and the source of every number. If the source prints C or g, the print is
+    ends of a constant are certified. The answer also lists friction, torque limits and the source of every
+    number. If the source prints C or g, the print is
     compared with M and the potential.
 
     Exit code 0: all properties proved, 1: a property is refuted, 2: the arm cannot be read, 3: a property is
