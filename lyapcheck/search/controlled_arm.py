@@ -25,14 +25,25 @@ from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 from lyapcheck.robots.plant import RobotModel
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from lyapcheck.check.kinds.link_bounds import ChainDecreasing
-    from lyapcheck.check.statement import Proof, Statement
+    from lyapcheck.check.statement import Ends, Proof, Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.robots.numeric import NumericModel
 
 RateData = BoxTree | LinkBounds
 """What may show dV/dt < 0."""
+
+
+def chains_of(arm: RobotModel, ranges: Sequence[Ends]) -> tuple[Chain, ...]:
+    """The links of an arm at each corner of the ranges of its parameters; empty where they are not known."""
+    if not isinstance(arm.dynamics, Chain):
+        return ()
+    corners = corners_of(ranges)
+    arms = (arm.fixed(**dict(zip(arm.parameters, corner, strict=True))).chain for corner in corners)
+    return tuple(chain for chain in arms if chain is not None)
 
 
 @dataclass(frozen=True)
@@ -198,13 +209,8 @@ class ControlledArm:
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
-        """The links at each corner of the ranges of M's parameters; empty where they are not known."""
-        plant = self.ranged
-        if not isinstance(plant.dynamics, Chain):
-            return ()
-        corners = corners_of(self.loop(Fraction(1)).parameters)
-        arms = (plant.fixed(**dict(zip(plant.parameters, corner, strict=True))).chain for corner in corners)
-        return tuple(chain for chain in arms if chain is not None)
+        """See `chains_of`; of parameters that M does not depend on there are no corners."""
+        return chains_of(self.ranged, self.loop(Fraction(1)).parameters)
 
     @cached_property
     def inertia_proof(self) -> Bisection | Links | MassAtCorners:

@@ -6,7 +6,8 @@ References: ``lyapcheck.check.loop.sampled_energy``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any
@@ -16,42 +17,55 @@ from flint import arb
 
 from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.sampled_from_rest import (
+    EnergyOfLinks,
     FallingEnergy,
     SampledFromRest,
     arm_bounds,
     bounded_gains,
 )
 from lyapcheck.check.loop.sampled_energy import PIECES, ArmBounds, Gains, SampledEnergy, Splits, form_of
+from lyapcheck.check.loop.storage import Shown
 from lyapcheck.check.numbers.members import member
+from lyapcheck.constants.storage import energy_problem, propose
 from lyapcheck.control.judgement import proves
 from lyapcheck.convex import Ended, solved
+from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.sampled import corners, plant_of
 
 SAMPLES, WORST = 3000, 40
 SPARE, SHARE, SPEED = 0.98, 0.2, 1.001
 REACHES = (2.0, 1.5, 3.0)
+MARGINS, ROUNDED = (1e-9, 1e-7, 1e-5), 1 - 1e-7
 LEAST_WEIGHT, LARGEST_WEIGHT, STIFFEST, TINY = 1e-4, 50.0, 1.1, 1e-9
 
 
-def falling_energy(statement: SampledFromRest) -> FallingEnergy | None:
+def falling_energy(statement: SampledFromRest, chains: Sequence[Chain] = ()) -> FallingEnergy | None:
     """A proof that the checker accepts; ``None`` where none is found.
+
+    Args:
+        statement: the question.
+        chains: the links of the arm at each corner of its ranges, where they are known.
 
     Soundness: ``lyapcheck.check.verify`` has accepted it.
     """
     kp, kv = (np.array(row, dtype=float) for row in (statement.kp, statement.kv))
     friction = np.array(statement.viscous, dtype=float)
     weight = kv + friction[:, 1]
-    least = _least(statement, kv + 0.02 * friction[:, 1] + 1e-3 * kp)
+    least, along = _least(statement, kv + 0.02 * friction[:, 1] + 1e-3 * kp), None
     if not least.min() > 0:
         return None
+    if chains:
+        least, along = _along(chains, least)
+        if along is None:
+            return None
     arm = arm_bounds(statement, tuple(map(_fraction, least)))
     potential = member(statement.family, statement.m).potential
     stored = float(potential(arb(math.radians(float(statement.within))))) * kp.sum()
     speed = SPEED * math.sqrt(2 * STIFFEST * stored / (1 - SHARE))
     for reach in REACHES:
         proof = _Program(statement, arm, least, speed, reach, weight).proof()
-        if proof is not None and proves(statement, proof):
+        if proof is not None and proves(statement, proof := replace(proof, along=along)):
             return proof
     return None
 
@@ -83,6 +97,20 @@ def _least(statement: SampledFromRest, wanted: Array) -> Array:
     root = np.sqrt(least)
     result: Array = least * min(np.linalg.eigvalsh(mass / np.outer(root, root))[:, 0].min(), 1.0) * SPARE
     return result
+
+
+def _along(chains: Sequence[Chain], wanted: Array) -> tuple[Array, EnergyOfLinks | None]:
+    """About the largest u in proportion to these with M ≽ diag(u) at each corner, and what shows it."""
+    problems = [energy_problem(chain, -1) for chain in chains]
+    for margin in MARGINS:
+        found = propose(problems, margin, wanted[:, None])
+        if found is not None:
+            least = np.array([float(_fraction(-x)) for x in found[0] * ROUNDED])
+            forms = tuple(tuple(tuple(map(Fraction, map(float, row))) for row in rows) for rows in found[1])
+            shown = Shown(tuple(-_fraction(x) for x in least), forms)
+            if least.min() > 0 and shown.holds([problem.stages for problem in problems], 2):
+                return least, EnergyOfLinks(tuple(chain.links for chain in chains), forms)
+    return wanted, None
 
 
 @dataclass
@@ -186,11 +214,14 @@ class _Program:
         size = [1 / math.sqrt(self.kp[i]), rate, step, rate, *[step] * (d + 1), *[rate] * d, step]
         gains, friction = self.gains, set(map(float, self.statement.viscous[i]))
         slopes, sectors = (gains.least_slope, gains.rho), {gains.sector[i], gains.L}
+        # sums of many terms are named, since CVXPY walks through them at each use
+        unknown, scale, unit = cp.Variable(len(known) + 1), np.outer(size, size), np.eye(len(size))
+        self.rules.append(unknown == cp.hstack([*known, self.margin]))
         for at in product(map(float, sectors), map(float, slopes), friction):
             for constant, *parts in _controls(i, self.n, d, self.reach, self.least, gains, at, len(known)):
-                form = constant + sum(x * part for x, part in zip(known, parts, strict=True) if part.any())
-                scaled = cp.multiply(np.outer(size, size), form)
-                self.rules.append(scaled - self.margin * np.eye(len(size)) >> 0)
+                rows = np.stack([*(scale * part for part in parts), -unit]).reshape(len(known) + 1, -1)
+                form = scale * constant + cp.reshape(rows.T @ unknown, unit.shape, order="C")
+                self.rules.append(form >> 0)
 
     def proof(self) -> FallingEnergy | None:
         """What the solver comes to, rounded."""

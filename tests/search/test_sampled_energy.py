@@ -24,19 +24,25 @@ from lyapcheck.check.loop.sampled_energy import (
     form_of,
     shared,
 )
+from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.family.base import named
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import to_terms
+from lyapcheck.robots.vary import Vary, varied
+from lyapcheck.search.controlled_arm import chains_of
 from lyapcheck.search.sampled import loops
 from lyapcheck.search.sampled_energy import falling_energy
 from tests.helpers.shares import but
+from tests.helpers.urdf_texts import ARMS, TWO
 
 PROVED = Accepted("proved", "enclosure")
+UR5 = str(ARMS / "ur5.toml")
 GAINS = {
     "buap3": ("19.063 44.342 5.331", "8.170 19.004 1.757"),
     "reyes-kelly2": ("41.089 5.618", "17.610 2.112"),
+    UR5: ("43.977 23.008 32.827 10.461 10.698 11.429", "17.260 13.477 3.676 0.635 0.732 0.001"),
 }
 """Gains that targets at infinite rate suggest."""
 STEEP = Gains((), (), F(1), 1, F(2), F(0), F(1), F(3), ())
@@ -62,7 +68,8 @@ def question(name: str, period="0.001", within=90, delay=1, m=1) -> SampledFromR
 
 @cache
 def shown(statement: SampledFromRest) -> FallingEnergy:
-    proof = falling_energy(statement)
+    arm = load(ARM_OF[statement.kp]).fixed()
+    proof = falling_energy(statement, chains_of(arm, ()))
     assert proof is not None
     return proof
 
@@ -225,8 +232,9 @@ def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, go
             - kv * h(m, (readings[d] - readings[d + 1]) / T)[0]
             + arm.gravity(readings[d])
         )
-        q0, w0, s = q, w, T / 4
-        for _ in range(4):
+        q0, w0, parts = q, w, 4 if arm.n < 6 else 1
+        s = T / parts
+        for _ in range(parts):
             a, c = rates(q, w, tau)
             a2, c2 = rates(q + s / 2 * a, w + s / 2 * c, tau)
             a3, c3 = rates(q + s / 2 * a2, w + s / 2 * c2, tau)
@@ -237,26 +245,29 @@ def run(statement: SampledFromRest, proof: FallingEnergy, starts: np.ndarray, go
 
 
 @pytest.mark.parametrize(
-    ("name", "period", "m"),
+    ("name", "period", "m", "within"),
     but(
-        [("reyes-kelly2", "0.005", 1)],
+        [("reyes-kelly2", "0.005", 1, 90)],
         [
-            ("reyes-kelly2", "0.005", 1),
-            ("buap3", "0.001", 1),
-            ("buap3", "0.0016", 1),
-            ("buap3", "0.001", 2),
-            ("reyes-kelly2", "0.002", 3),
+            ("reyes-kelly2", "0.005", 1, 90),
+            ("buap3", "0.001", 1, 90),
+            ("buap3", "0.0016", 1, 90),
+            ("buap3", "0.001", 2, 90),
+            ("reyes-kelly2", "0.002", 3, 90),
+            (UR5, "0.001", 1, 5),
         ],
     ),
 )
-def test_gains_above_the_friction_are_proved_from_90_degrees_and_the_energy_falls(name, period, m):
-    statement = question(name, period, m=m)
+def test_gains_above_the_friction_are_proved_from_rest_and_the_energy_falls(name, period, m, within):
+    statement = question(name, period, within, m=m)
     proof = shown(statement)
     assert verify(statement, proof) == PROVED
     random, n = np.random.default_rng(1), len(statement.kp)
-    starts = np.pi / 2 * np.concatenate([random.uniform(-1, 1, (6, n)), random.choice([-1.0, 1.0], (6, n))])
+    samples = 300 if n < 6 else 100
+    corners = random.choice([-1.0, 1.0], (6, n))
+    starts = np.radians(within) * np.concatenate([random.uniform(-1, 1, (6, n)), corners])
     goal = random.uniform(-np.pi, np.pi, (12, n))
-    values, _, _ = run(statement, proof, starts, goal, 300)
+    values, _, _ = run(statement, proof, starts, goal, samples)
     assert (np.diff(values, axis=0) < 0).all()
     assert (values[0] <= float(proof.speed) ** 2 * (1 - float(proof.share)) / 2).all()
     assert (values[-1] < 0.9 * values[0]).all()
@@ -289,3 +300,40 @@ def test_where_the_inertia_is_not_positive_there_is_nothing_to_find():
     asked = question("reyes-kelly2")
     (_, cross), (_, own) = asked.mass
     assert falling_energy(replace(asked, mass=((own, cross), (cross, own)))) is None
+
+
+def linked(folder):
+    """Two links with a payload from 0 to 1 kg, and a proof by them."""
+    (folder / "arm.urdf").write_text(TWO)
+    arm = varied(load(str(folder / "arm.urdf")), [Vary.parsed("payload=0..1")])
+    chains, friction = chains_of(arm, arm.ranges), tuple(number.bounds for number in arm.viscous)
+    statement = SampledFromRest(
+        *("hyperbolic", 1, (F(10), F(4)), (F(3), F(1)), friction, arm.mass_terms),
+        *(tuple(to_terms(arm.potential)), arm.ranges, F("0.001"), 1, F(5)),
+    )
+    proof = falling_energy(statement, chains)
+    assert proof is not None
+    assert proof.along is not None
+    return statement, proof, proof.along
+
+
+def test_links_show_how_small_the_inertia_is_at_each_corner_and_no_more(tmp_path):
+    statement, proof, along = linked(tmp_path)
+    assert verify(statement, proof) == PROVED
+    assert len(along.arms) == 2
+    arms, forms, u = along.arms, along.forms, proof.least
+    lighter = replace(arms[0][1], mass=arms[0][1].mass / 2)
+    for bad in (
+        replace(proof, along=None, least=tuple(x * F("1.2") for x in u)),
+        replace(proof, least=(u[0] * F("1.01"), u[1])),
+        replace(proof, least=(u[0], u[1] * F("1.01"))),
+        replace(proof, along=replace(along, arms=arms[1:])),
+        replace(proof, along=replace(along, arms=arms[1:], forms=forms[1:])),
+        replace(proof, along=replace(along, arms=arms[::-1], forms=forms[::-1])),
+        replace(proof, along=replace(along, arms=((arms[0][0], lighter), arms[1]))),
+        replace(
+            proof, along=replace(along, forms=(forms[0], tuple(tuple(-x for x in row) for row in forms[1])))
+        ),
+    ):
+        with pytest.raises(Refused, match="least"):
+            verify(statement, bad)

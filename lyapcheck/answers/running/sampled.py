@@ -34,7 +34,7 @@ from lyapcheck.errors import without
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, exact_decimal, significant_down
 from lyapcheck.promise import Promise, promised
-from lyapcheck.robots.dynamics import FEW_JOINTS, TooManyTerms
+from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -286,6 +286,7 @@ def shown_from_rest(
         return None, unfit if within is not None else "" if unfit else UNTRIED
     if lacking := without("(P) takes", "numpy", "scipy", "cvxpy", "clarabel"):
         return None, lacking
+    from lyapcheck.search.controlled_arm import chains_of
     from lyapcheck.search.sampled_energy import falling_energy
 
     try:
@@ -293,7 +294,7 @@ def shown_from_rest(
     except TooManyTerms:
         return None, "M(q) of these links is too long to be written out, which (P) asks for"
     asked = replace(asked, viscous=viscous_of(arm, low))
-    proof = falling_energy(asked)
+    proof = falling_energy(asked, chains_of(arm, arm.ranges))
     if proof is None:
         return None, f"(P) finds no proof from rest within {decimal_text(within)}° over the ranges of the arm"
     return promised(asked, judged_statement(asked, [proof]))
@@ -320,7 +321,9 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
     """Why (P) does not speak of this loop; empty where it does."""
     rules = {
         "asks for the arm itself: name one with robot = …": arm is not None,
-        f"speaks of arms to {FEW_JOINTS} joints": arm is None or arm.n <= FEW_JOINTS,
+        f"asks for the links of an arm of more than {FEW_JOINTS} joints": arm is None
+        or arm.n <= FEW_JOINTS
+        or isinstance(arm.dynamics, Chain),
         "speaks of differences without a filter": (record.velocity, record.filter) == ("difference", ONE),
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,

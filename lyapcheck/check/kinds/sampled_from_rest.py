@@ -5,7 +5,7 @@ References: ``lyapcheck.check.loop.sampled_energy``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 
@@ -22,6 +22,9 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.kinds.sampled import late_text
 from lyapcheck.check.kinds.stable_arm import hessian
+from lyapcheck.check.loop import storage
+from lyapcheck.check.loop.chain import RigidLink, makes
+from lyapcheck.check.loop.closed_loop import masses_at_corners
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.loop.inertia import inertia_of
 from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, Numbers, SampledEnergy, falls
@@ -96,8 +99,30 @@ class SampledFromRest(Total):
 
 
 @dataclass(frozen=True)
+class EnergyOfLinks:
+    """The links at each corner of the ranges, and the forms by which they show M ≽ diag(u); untrusted."""
+
+    arms: tuple[tuple[RigidLink, ...], ...]
+    forms: tuple[storage.Forms, ...]
+
+    def above(self, least: Numbers, statement: SampledFromRest) -> bool:
+        """Whether M ≽ diag(least).
+
+        Soundness: −xᵀMx < −Σ u_i x_i² for x ≠ 0 at each corner, see `lyapcheck.check.loop.storage`, and M,
+            affine in each parameter, is a mean of its values there.
+        """
+        masses = masses_at_corners(statement.mass, statement.parameters)
+        shown = storage.Shown(tuple(-u for u in least), self.forms)
+        made = len(self.arms) == len(masses) and all(map(makes, self.arms, masses))
+        return made and shown.holds([storage.energy(links, -1) for links in self.arms], 2)
+
+
+@dataclass(frozen=True)
 class FallingEnergy(Proof):
-    """V, with u of M ≽ diag(u), a speed that motions keep, ν and weights of rows of |M_ij|."""
+    """V, with u of M ≽ diag(u), a speed that motions keep, ν and weights of rows of |M_ij|.
+
+    ``along`` shows M ≽ diag(u) by the links; without it boxes of angles do.
+    """
 
     rule = "falling sampled energy"
     least: Numbers
@@ -105,6 +130,7 @@ class FallingEnergy(Proof):
     share: Fraction
     scale: Numbers
     energy: SampledEnergy
+    along: EnergyOfLinks | None = field(default=None, metadata={"left_out": True})
 
 
 @rule(SampledFromRest, FallingEnergy)
@@ -122,7 +148,9 @@ def by_falling_energy(statement: SampledFromRest, proof: FallingEnergy) -> Accep
     _require_sizes(proof, n, d)
     inertia = inertia_of(statement.mass, statement.parameters)
     require(inertia.symmetric, "M", "", "is not symmetric")
-    require(inertia.above(proof.least), "least", "", "is not shown to be M ≽ diag(u)")
+    along = proof.along
+    above = inertia.above(proof.least) if along is None else along.above(proof.least, statement)
+    require(above, "least", "", "is not shown to be M ≽ diag(u)")
     arm = arm_bounds(statement, proof.least)
     for i in range(n):
         row = sum(
