@@ -2,12 +2,14 @@
 
 import json
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from lyapcheck.answers.bounds import Comparisons, compare
+from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Table
@@ -85,6 +87,13 @@ def test_what_is_proved_is_not_rounded_down_and_runs_are_called_simulated(sound)
         exact = math.degrees(error or 0)
         assert exact <= float(row[1]) <= 1.001 * exact
     assert document.lead == ("simulated: not within 10° of the goal in 2 s",)
+
+
+def test_runs_that_know_more_of_gravity_than_the_bounds_say_so(sound):
+    unknown = replace(sound, unknown=(Check("holds", 0),))
+    assert Comparisons((unknown,), FILE).document().lead == (
+        "simulated with all gravity known: not within 10° of the goal in 2 s",
+    )
 
 
 def test_gain_sets_are_judged_one_by_one_at_their_lines(compared):

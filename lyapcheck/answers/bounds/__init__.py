@@ -83,10 +83,11 @@ class Comparisons(Answer):
             name = f"{result.gains.name}, " if len(self.results) > 1 else ""
             within = f"within {math.degrees(result.delta):g}° of the goal"
             time = result.simulated_time
+            run = f"{name}simulated{' with all gravity known' if result.unknown else ''}"
             if time is None:
-                yield f"{name}simulated: not {within} in {result.task.T:g} s"
+                yield f"{run}: not {within} in {result.task.T:g} s"
             else:
-                yield f"{name}simulated: {within} after {shown(time, '.3g')} s, until {result.task.T:g} s"
+                yield f"{run}: {within} after {shown(time, '.3g')} s, until {result.task.T:g} s"
 
     def _next(self) -> str:
         if self.file is None or not self.results:
