@@ -14,7 +14,7 @@ from lyapcheck import store
 from lyapcheck.answers import assumed_line, file_words
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
-from lyapcheck.answers.running.sampled import largest, question
+from lyapcheck.answers.running.sampled import SampledCheck, largest, question
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.control.conditions import REJECTED, UNDECIDED
@@ -116,7 +116,7 @@ class Exported:
     def runs(self) -> str:
         """What is known of the loop at the period asked for, in a word."""
         if self.sampled is None or not self.covered:
-            return "open"
+            return self.from_rest or "open"
         what = "stable" if self.certificate.statement.conclusion == "goal" else "comes to rest"
         return self.sampled.says(what + ("" if self.mark == "✓" else " while no motor saturates"))
 
@@ -124,12 +124,22 @@ class Exported:
     def running(self) -> str:
         """The same in a sentence."""
         if self.sampled is None:
-            return f"as run: no period is proved, {self.reason}"
+            return f"as run: {self.from_rest or f'no period is proved, {self.reason}'}"
         asked = self.certificate.statement
         what = "stable" if asked.conclusion == "goal" else "comes to rest"
         apart = f", no interval above {decimal_text(asked.stretch)} times it" if asked.stretch > 1 else ""
         words = f"as run: {what} at periods up to {time_text(asked.period)}{apart}"
         return self.sampled.says(f"{words}, exact readings, no motor saturated")
+
+    @property
+    def from_rest(self) -> str:
+        """Where from the gate shows this very loop to be stable, at its period alone; empty where nowhere."""
+        for check in self.judged.checks:
+            if not isinstance(check, SampledCheck) or check.record != self.controller.loop:
+                continue
+            if check.promise is not None and check.narrow:
+                return check.promise.says(f"stable {check.narrow}")
+        return ""
 
     @property
     def covered(self) -> bool:
@@ -175,7 +185,7 @@ class Export(Answer):
             return Document("no gain sets in C", next=command("init", "bench"))
         one, several = self.sets[0], len(self.sets) > 1
         period = time_text(one.controller.loop.period or Fraction(0))
-        open_ = [each.controller.gains.name for each in self.sets if not each.covered]
+        open_ = [each.controller.gains.name for each in self.sets if each.runs == "open"]
         worst = max((each.mark for each in self.sets), key="✓!?✗".index)
         if several:
             tally = Counter(each.judged.spoken for each in self.sets)

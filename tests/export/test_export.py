@@ -22,13 +22,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lyapcheck
+from lyapcheck.answers.export import export
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.sampling import LoopRecord
+from lyapcheck.control.sampling import LoopRecord, record_of
 from lyapcheck.export.controller import ANGLES, Controller, c_names
 from lyapcheck.export.functions import NEAR
 from lyapcheck.export.steps import BITS, Rounded, Unbounded
 from lyapcheck.robots import load
+from tests.helpers.arm_texts import ONE_JOINT
 from tests.helpers.command import invoke
 from tests.helpers.shares import but, one_in
 
@@ -359,6 +361,28 @@ def test_the_certified_period(tmp_path: Path) -> None:
     assert invoke("recheck", *map(str, (tmp_path / "at once").glob("*_sampled.json"))).exit_code == 0
     late = invoke(*words[:2], *words[4:], str(tmp_path / "late")).stdout.splitlines()[1]
     assert late == ("  open at 2.5 ms, as a computer runs it: tau_m1, tau_m2, tau_m3")
+
+
+def test_a_loop_that_the_gate_shows_from_rest_is_not_open(tmp_path: Path) -> None:
+    """Gains above the friction, of which (S) shows no period; of another loop nothing is shown."""
+    (tmp_path / "arm.toml").write_text(ONE_JOINT.format(viscous="0.3", torque=40, more=""))
+    path = tmp_path / "gains.toml"
+    path.write_text(
+        'robot = "arm.toml"\ncondition = ["10i", "sampled"]\n'
+        '[[gains]]\nname = "one"\nm = 1\nkp = [5]\nkv = [0.5]\n[loop]\nrate = 1000\nwithin = 30\n'
+    )
+    file = read_gain_file(path)
+    assert file.robot is not None
+    model = load(file.robot)
+    runs = record_of(gain_file=file.loop)
+    assert runs is not None
+    answer = export(file, model, runs)
+    assert answer.document().title.endswith("run at 1 ms: stable at exactly 1 ms, from rest within 30°")
+    assert "no period is proved" not in str(answer)
+    (one,) = answer.sets
+    loop = replace(one.controller.loop, delay=0)
+    other = replace(one, controller=replace(one.controller, loop=loop))
+    assert "run at 1 ms: open" in replace(answer, sets=(other,)).document().title
 
 
 @pytest.mark.parametrize(
