@@ -124,7 +124,7 @@ def run(words: Sequence[str]) -> int:
     parser = Parser(prog=f"lyapcheck {words[0]}", description=command.run.__doc__)
     command.arguments(parser)
     try:
-        values = chosen(viewed(parser.parse(words[1:])))
+        values = chosen(viewed(parser, parser.parse(words[1:])))
         if values.pop("no_store", False):
             from lyapcheck.store import OFF
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from shutil import get_terminal_size
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import Progress
+from lyapcheck.cli.parser import LOOP
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Section
@@ -25,9 +28,16 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from lyapcheck.certificate import Certificate
+    from lyapcheck.cli.parser import Parser
 
 VIEWING = ("quiet", "verbose", "explain", "color")
 _VIEW: ContextVar[View | None] = ContextVar("view", default=None)
+SHARED = ("vary", *LOOP, "target", "start")
+"""Options that mean the same to every command that has them."""
+WRITING = ("certificates", "csv", "plot", "out", "export", "timings")
+APART = (*VIEWING, *WRITING, "format", "assumptions", "failed", "all", "kv_share", "damping")
+"""Options of a command that it does not need again: what it shows and writes, and of `tune` what no target
+goes with."""
 OTHERS_NAMED = 8
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""
@@ -147,20 +157,45 @@ def _is_device(path: Path) -> bool:
     return path.exists() and not path.is_file()
 
 
-def viewed(values: dict[str, Any]) -> dict[str, Any]:
+def viewed(parser: Parser, values: dict[str, Any]) -> dict[str, Any]:
     """The values of a command line without those that say how a text is shown, which `show` keeps to.
 
     Colour is for terminals, unless ``NO_COLOR`` is set; ``--color`` goes before both.
     """
     if "color" in values:
+        following = partial(_following, parser, dict(values))
         quiet, verbose, explained, colour = (values.pop(name) for name in VIEWING)
         depth = Depth.QUIET if quiet else Depth.VERBOSE if verbose else Depth.SHORT
         terminal = sys.stdout.isatty()
         plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
         coloured = colour == "always" or (colour == "auto" and terminal and not plain)
         width = get_terminal_size().columns if terminal else WIDTH
-        _VIEW.set(View(Depth.EXPLAINED if explained else depth, coloured, width))
+        _VIEW.set(View(Depth.EXPLAINED if explained else depth, coloured, width, following))
     return values
+
+
+def _following(parser: Parser, values: Mapping[str, Any], line: str) -> str:
+    """A next command about the same arm, ranges and loop as this one, by the options that both have."""
+    from lyapcheck.cli.commands import NAMES, load
+    from lyapcheck.cli.parser import Parser
+
+    words = shlex.split(line)
+    if len(words) < 2 or words[1] not in NAMES:
+        return line
+    other = Parser(prog=f"lyapcheck {words[1]}")
+    load(words[1]).arguments(other)
+    known = {(action.dest, action.metavar) for action in other.actions}
+    for action in parser.actions:
+        kept = action.dest not in APART if other.prog == parser.prog else action.dest in SHARED
+        value = values.get(action.dest)
+        given = value not in (None, False, action.default) and action.option_strings
+        if not (kept and given and (action.dest, action.metavar) in known):
+            continue
+        option = action.option_strings[-1]
+        if option not in words:
+            each = value if isinstance(value, list) else [value]
+            words += [word for one in each for word in ([option] if one is True else [option, str(one)])]
+    return shlex.join(words)
 
 
 def current_view() -> View | None:

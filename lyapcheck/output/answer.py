@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -114,13 +114,17 @@ class Answer(ABC):
 
         Args:
             format: a value of `JUDGED_FORMATS`: a file of ``output``.
-            view: how much of a text is shown, how wide, and whether in colour.
+            view: how much of a text is shown, how wide, whether in colour, and what the next command keeps.
         """
         renderer = import_module(f"lyapcheck.output.{format}")
+        if format not in ("text", *DOCUMENTS):
+            return document_text(renderer.render(self))
+        whole = self.document()
+        if view is not None and whole.next:
+            whole = replace(whole, next=view.following(whole.next))
         if format == "text":
-            shown: str = renderer.render(self.document(), view)
+            shown: str = renderer.render(whole, view)
             return shown
-        whole = self.document() if format in DOCUMENTS else self
         return document_text(renderer.render(whole))
 
     def __str__(self) -> str:

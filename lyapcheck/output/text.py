@@ -6,7 +6,7 @@ Tables are never folded: in a narrow terminal they lose columns, which `-v` show
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from textwrap import wrap
@@ -52,11 +52,13 @@ class View:
         depth: how much of it.
         colour: with the escape sequences of a terminal.
         width: columns; held within `LEAST` and `MOST`.
+        following: the next command with the options of this one that it needs.
     """
 
     depth: Depth = Depth.SHORT
     colour: bool = False
     width: int = WIDTH
+    following: Callable[[str], str] = str
 
 
 def render(document: doc.Document, view: View | None = None) -> str:

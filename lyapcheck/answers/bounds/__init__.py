@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck.answers import arm_words, assumed_line, file_words
 from lyapcheck.answers.bounds.compare import BoundsComparison, compare
 from lyapcheck.answers.running import running_sentences
+from lyapcheck.answers.running.holds import NO_LINKS
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.resting import AtBounds
@@ -79,7 +80,10 @@ class Comparisons(Answer):
         )
 
     def _lead(self) -> Iterator[str]:
-        for result in self.results[:2]:
+        known = next(filter(None, map(_source, self.results)), "")
+        if known:
+            yield known
+        for result in self.results[: 1 if known else 2]:
             name = f"{result.gains.name}, " if len(self.results) > 1 else ""
             within = f"within {math.degrees(result.delta):g}° of the goal"
             time = result.simulated_time
@@ -96,6 +100,8 @@ class Comparisons(Answer):
         again = file_words(self.file, self.arm)
         if None in first.dry:
             return command("bounds", *again, "--friction", ",".join(["1"] * len(first.dry)))
+        if any(check.reason == NO_LINKS for check in first.unknown):
+            return command("gate", *again)
         if first.proved or first.gains.m is None:
             return command("simulate", *again)
         return command("tune", *arm_words(self.arm), "--m", first.gains.m)
@@ -166,6 +172,14 @@ def _one(result: BoundsComparison) -> str:
     if not missing:
         return f"? {about}: the errors under unknown gravity are undecided"
     return f"? {about}: no error at rest is proved for {missing}"
+
+
+def _source(result: BoundsComparison) -> str:
+    """Where the dry friction has no source but the arm file, in words."""
+    rows = zip(result.model.coulomb, result.dry, strict=True)
+    if any(x is not None and x.assumed and f == x.bounds[1] for x, f in rows):
+        return "for dry friction as the arm file assumes it"
+    return "" if any(f is None or f for f in result.dry) else "the arm has no dry friction"
 
 
 def _farthest(result: BoundsComparison) -> int:

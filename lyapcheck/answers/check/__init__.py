@@ -253,11 +253,7 @@ class ProofResult(Answer):
             f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",
         )
         every = tuple(self._sections(ORDER))
-        if self.extent == ALL:
-            return Document(self._title(), (*self._of_nothing(), *every), notes, lead)
         open_ = [verdict for verdict in ORDER if verdict is not Verdict.PROVED]
-        if self.extent == FAILED:
-            return Document(self._title(), tuple(self._sections(open_)), notes, lead)
         script, failed = self.script or self.name, any(map(self._with, open_))
         then = command(
             "check",
@@ -268,6 +264,15 @@ class ProofResult(Answer):
         )
         if self.folder and not failed:
             then = command("recheck", self.folder)
+        elif self.extent != SHORT and failed:
+            first = next(row for verdict in open_ for row in self._with(verdict))
+            then = command("explain", first.id, "--proof", script)
+        if self.extent == ALL:
+            shown: tuple[Block, ...] = (*self._of_nothing(), *every)
+            return Document(self._title(), shown, notes, lead, (), self.assumed, then)
+        if self.extent == FAILED:
+            shown = tuple(self._sections(open_))
+            return Document(self._title(), shown, notes, lead, (), self.assumed, then)
         blocks = (*self._index(), *self._of_nothing())
         return Document(self._title(), blocks, notes, lead, every, self.assumed, then)
 

@@ -210,11 +210,10 @@ def proved_otherwise(result: GateResult) -> str:
     """The same in a line, of a set that breaks nothing but (19)."""
     known = result.stable
     assert known is not None
-    eps0 = "" if known.value is None else f", ε₀ = {at_least(known.value)}"
     nominal = " at nominal numbers" if result.limits.nominal else ""
     options = accepting(result)
-    accepted = f"; accepted with {' '.join(options)}" if options else ""
-    return known.own_promise.says(f"proved stable by {known.id}{nominal}{eps0}{accepted}")
+    accepted = f"; {' '.join(options)} accepts it" if options else ""
+    return known.own_promise.says(f"proved stable ({known.id}){nominal}{accepted}")
 
 
 def _proof(known: Check, where: str) -> str:

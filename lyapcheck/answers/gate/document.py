@@ -13,12 +13,13 @@ from lyapcheck.answers.gate.friction import farthest, swinging
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
 from lyapcheck.answers.running import INFINITE, open_as_run
-from lyapcheck.answers.running.holds import farthest_unknown
+from lyapcheck.answers.running.holds import NO_LINKS, farthest_unknown
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
+from lyapcheck.output.text import PROSE
 from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
@@ -28,13 +29,15 @@ if TYPE_CHECKING:
 NAMED = "!"
 """Accepted, with a fact that no condition is about."""
 MOST_ROWS, MOST_REMARKS = 16, 3
+LINE = PROSE - 2
+"""Letters of a line of the headline; what is longer is a remark."""
 
 
 def document(answer: GateAnswer) -> Document:
     """One gain set with its deciding checks, or a row a set."""
     lead, said, details = _of_one(answer[0]) if len(answer) == 1 else _of_many(answer)
     if any(result.record is None or result.record.period is None for result in answer):
-        lead.append(INFINITE)
+        lead[1:] = ["; ".join([*lead[1:], INFINITE])]
     # what nobody may miss: ranges with their cost, an arm file that looks wrong, bounds without proof
     every = [result.limits for result in answer]
     warned = ((*one.ranges, *one.doubts, *(one.gravity_notes if one.model else ())) for one in every)
@@ -80,7 +83,8 @@ def _of_one(result: GateResult) -> tuple[list[str], list[str], list[Block]]:
     wrong = Section("What is wrong", (Bullets((*advices(result), *said)),))
     if result.standing == BREAKS_19:
         return [proved_otherwise(result)], [*fixes, *said[1:]], [wrong]
-    return fixes[:1], [*fixes[1:], *said], [wrong]
+    short = [text for text in fixes[:1] if len(text) <= LINE]
+    return short, [*fixes[len(short) :], *said], [wrong]
 
 
 def _of_many(answer: GateAnswer) -> tuple[list[str], list[str], list[Block]]:
@@ -249,4 +253,5 @@ def _next(answer: GateAnswer) -> str:
     if result.verdict == REJECTED and limits.model is not None and result.m is not None:
         return command("tune", *robot, "--m", result.m)
     plain = result.verdict == ACCEPTED and limits.model is not None and result.gains.angle_unit == "rad"
-    return command("simulate", *again) if plain else command("gate", *again, "--explain")
+    unknown = any(check.reason == NO_LINKS for check in result.checks)  # no run knows that payload either
+    return command("simulate", *again) if plain and not unknown else command("gate", *again, "--explain")

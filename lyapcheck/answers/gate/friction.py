@@ -77,7 +77,7 @@ def damping_lines(gains: GainSet, model: RobotModel) -> list[str]:
         over = 100 * exp(-pi * least / sqrt(1 - least**2))
         end = f": without dry friction it swings, by about {over:.0f} % of a step"
     soft = " of a large motion, as h is flat at the goal" if gains.m is not None and gains.m > 1 else ""
-    return [f"estimated damping ratio{soft}, at the posture of most inertia: {text}{end}"]
+    return [f"estimated damping ratio{soft}{_nominal(model)}, at the posture of most inertia: {text}{end}"]
 
 
 def swinging(gains: GainSet, model: RobotModel) -> str:
@@ -85,7 +85,14 @@ def swinging(gains: GainSet, model: RobotModel) -> str:
     if not small(model.fixed()) and not installed("numpy"):
         return ""
     least = min(damping_ratios(gains, model))
-    return f"estimated damping ratio {least:.2g}: it hardly stops swinging" if least < HARDLY else ""
+    if least >= HARDLY:
+        return ""
+    return f"estimated damping ratio {least:.2g}{_nominal(model)}: it hardly stops swinging"
+
+
+def _nominal(model: RobotModel) -> str:
+    ranged = any(number.ranged for number in (*model.parameters.values(), *model.viscous))
+    return " at nominal numbers" if ranged else ""
 
 
 def damping_ratios(gains: GainSet, model: RobotModel) -> list[float]:

@@ -146,6 +146,8 @@ class RobotReport(Answer):
         arm = self.path or model.name
         limits = all(number is not None for number in model.torque_limit)
         then = ("tune", *arm_words(arm), "--m", "1") if limits else ("robot", *arm_words(arm), "-v")
+        if limits and not all(number.bounds[0] for number in model.viscous):
+            then += ("--overshoot", "5", "--settle", "2")  # (19) admits no gains there
         return Document(
             _title(self),
             (ends, *([Bullets(said)] if said else [])),

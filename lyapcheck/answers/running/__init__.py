@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.check.certificate import Certificate
 
-INFINITE = "no [loop] gives a rate: judged for a controller of infinite rate, as in (11)"
+INFINITE = "no [loop] gives a rate: judged for an infinite rate, as in (11)"
 
 
 def running_checks(
@@ -85,4 +85,5 @@ def open_as_run(checks: Sequence[Check]) -> str:
     """Which of these is not decided, or for some starts only, for a headline; empty where none is."""
     narrow = [f"{one.id} {one.narrow} only" for one in checks if isinstance(one, SampledCheck) and one.narrow]
     open_ = dict.fromkeys(check.id for check in checks if check.id in (SAMPLED, HOLDS) and check.reason)
-    return "; ".join([*narrow, *([f"open: {', '.join(open_)}"] if open_ else [])])
+    alone = [text for one in checks if isinstance(one, SampledCheck) and (text := one.unstable_alone)]
+    return "; ".join([*narrow, *([f"open: {', '.join(open_)}"] if open_ else []), *alone])

@@ -109,6 +109,16 @@ class SampledCheck(Check):
         asked: SampledStable = self.up_to.asked  # type: ignore[assignment]
         return asked
 
+    @property
+    def unstable_alone(self) -> str:
+        """That the loop as it is asked about is refuted but for what acts on it; empty where it is not."""
+        if self.refuted is None or not self.rests or not self.named:
+            return ""
+        period: Fraction = self.refuted.proof.period  # type: ignore[union-attr]
+        asked = self.record.period
+        known = asked is not None and period <= asked
+        return f"unstable at {time_text(period)} without dry friction or unknown gravity" if known else ""
+
     def sentences(self, told: bool) -> list[str]:
         """What is shown and what is refuted of the periods, unless a rejection was told."""
         said, inside = [], "" if self.counts else ", while no motor saturates, which nothing shows"

@@ -146,7 +146,7 @@ class SetPointRuns(Simulation[Run]):
         angle, i = max(ends, default=(0.0, 0))
         if angle <= math.degrees(BAND):
             return ""
-        return f", at the end up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
+        return f", ends up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
 
     def level(self, name: str) -> Level:
         """Also failed where a sampled run shows unrest."""

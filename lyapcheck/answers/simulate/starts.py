@@ -123,12 +123,16 @@ class RandomStarts(Simulation[Sweep]):
         member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
         reasons = dict.fromkeys(reason for reason in one.runs.failure if reason)
         failed = [Bullets(tuple(f"not finished: {reason}" for reason in reasons))] if reasons else []
+        return Section(f"{self.mark(one.name)} {one.name}{member}", (*failed, self.by_joint(one)))
+
+    def by_joint(self, one: Sweep) -> Table:
+        """A row a quantity; in a narrow terminal without its inner quantiles."""
         rows = tuple(
             (of.name, *(shown(x, of.form) for x in quantiles(of.values)), str(of.without))
             for of in quantities(one)
         )
         heads = ("quantity", *QUANTILES, "without")
-        return Section(f"{self.mark(one.name)} {one.name}{member}", (*failed, Table(heads, rows)))
+        return Table(heads, rows, drop=(2, 4))
 
     def rows_of(self, one: Sweep) -> list[dict[str, Any]]:
         """A row a gain set and quantity."""

@@ -197,10 +197,22 @@ class BenchTuning(Answer):
         found = [one.result for one in self.sets]
         promises = [one for result in found if result is not None for one in result.grounds.promises]
         inside = [all_say(promises, INSIDE)] if found and all(found) else []
-        then = command("gate", self.out) if self.out else command("robot", *arm_words(self.robot))
         notes = (*NOTES, *inside, *flat, *self.assumptions)
         granted = assumed_line(self.model, self.robot)
-        return Document(self._title(), blocks, notes, self._lead(), details, granted, then)
+        return Document(self._title(), blocks, notes, self._lead(), details, granted, self._next())
+
+    def _next(self) -> str:
+        """The gate on what was written; else the same search, to be written."""
+        if self.out:
+            return command("gate", self.out)
+        arm = arm_words(self.robot)
+        if self.best is None:
+            return command("robot", *arm)
+        given = self.bench.wishes.given.items()
+        asked = [
+            word for name, x in given for word in (f"--{name.replace('_', '-')}", str(x).removesuffix(".0"))
+        ]
+        return command("tune", *arm, *asked, *([] if self.good else ["--best"]), "--out", "tuned.toml")
 
     def _lead(self) -> tuple[str, ...]:
         """What was simulated, and how the best set is shown to be stable."""
