@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
+from lyapcheck.answers.running.sampled import shown_from_rest
 from lyapcheck.answers.tune.search import Search
 from lyapcheck.answers.tune.targets import arm_limits
 from lyapcheck.answers.tune.trial import BY_PROOF, Trials, Wishes
@@ -162,14 +163,23 @@ def continuous(model: RobotModel, given: GainSet, T: float, step: float) -> floa
     return float(np.degrees(np.sqrt((square.sum() - (square[0] + square[-1]) / 2) * step / T)))
 
 
-def sampled(model: RobotModel, given: GainSet, rate: int, delay: int, payload: float) -> Seen:
-    """The loop at a rate: reading, backward difference, torque held; ``delay`` samples late."""
+def sampled(
+    model: RobotModel, given: GainSet, rate: int, delay: int, payload: float, start: np.ndarray | None = None
+) -> Seen:
+    """The loop at a rate: reading, backward difference, torque held; ``delay`` samples late.
+
+    From home the first torques are those of gravity, from a start that is given those of a reading there.
+    """
     way = "implicitfast" if model.name in STIFF else "RK4"
     law, world = Law(model, given), compiled(model, payload, way)
     steps = max(1, round(4000 / rate))
     world.opt.timestep = 1.0 / rate / steps
     data, other = mujoco.MjData(world), mujoco.MjData(world)
-    last, waiting = np.zeros(model.n), [law.gravity(np.zeros(model.n))] * delay
+    last, first = np.zeros(model.n), law.gravity(np.zeros(model.n))
+    if start is not None:
+        data.qpos[:] = last = start
+        first = law.torque(start, np.zeros(model.n))
+    waiting = [first] * delay
     rows = []
     for k in range(round(T * rate)):
         q = data.qpos.copy()
@@ -246,3 +256,27 @@ def test_gains_that_are_tuned_for_a_computer_settle() -> None:
     np.testing.assert_allclose(
         found.trial.overshoot, 100 * (seen.q.max(axis=0) / GOAL - 1).clip(0), atol=0.05
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "kp", "kv", "rate", "within"),
+    [
+        (
+            *("ur5", "43.977 23.008 32.827 10.461 10.698 11.429", "17.26 13.477 3.676 0.635 0.732 0.001"),
+            *(1000, 5),
+        ),
+        ("pelican2", "30 7", "6 1.4", 1000, 30),
+    ],
+)
+def test_gains_that_are_proved_from_rest_settle(name: str, kp: str, kv: str, rate: int, within: int) -> None:
+    """By (P), one sample late, from corners of its starts."""
+    model, random = arm(name), np.random.default_rng(3)
+    given = GainSet(name, 1, *([Fraction(word) for word in row.split()] for row in (kp, kv)))
+    record = LoopRecord(period=Fraction(1, rate), within=Fraction(within))
+    promise, why = shown_from_rest(given, model, record, None)
+    assert promise is not None, why
+    for corner in random.choice([-1.0, 1.0], (3, model.n)):
+        start = GOAL - np.radians(within) * corner
+        seen = sampled(model, given, rate, 1, 0, start)
+        assert ending(seen, model, given) == "settles"
+        assert np.abs(GOAL - seen.q[-1]).max() < 1e-3
