@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from lyapcheck.check.recheck import recheck
     from lyapcheck.claims.claim import Claim, Proof
     from lyapcheck.claims.decision import Decision
-    from lyapcheck.constants.arm import RobotConstants, robot_constants
+    from lyapcheck.constants import RobotConstants, robot_constants
     from lyapcheck.control.gains import Bounds, GainFile, GainSet, paper_gain_file, read_gain_file
     from lyapcheck.control.limits import Limits, limits_for
     from lyapcheck.errors import InputError, Problem
@@ -38,11 +38,11 @@ if TYPE_CHECKING:
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
+    from lyapcheck.robots import load as load_robot
+    from lyapcheck.robots import names as robot_names
     from lyapcheck.robots.fields import Number
     from lyapcheck.robots.numeric import NumericModel
     from lyapcheck.robots.plant import RobotModel
-    from lyapcheck.robots.registry import load as load_robot
-    from lyapcheck.robots.registry import names as robot_names
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate as run_simulation
     from lyapcheck.simulate.reference import read_reference
@@ -156,7 +156,7 @@ _HOMES = {
     "Problem": "errors",
     "Proof": "claims.claim",
     "ProofResult": "answers.check",
-    "RobotConstants": "constants.arm",
+    "RobotConstants": "constants",
     "RobotModel": "robots.plant",
     "Rows": "answers.sweep",
     "Run": "simulate.run",
@@ -177,7 +177,7 @@ _HOMES = {
     "gate": "answers.gate",
     "hyperbolic_constants": "check.numbers.balls",
     "limits_for": "control.limits",
-    "load_robot": "robots.registry:load",
+    "load_robot": "robots:load",
     "lyapunov_graph": "lyapunov.graph",
     "named_family": "family.base:named",
     "paper_gain_file": "control.gains",
@@ -186,8 +186,8 @@ _HOMES = {
     "read_plan": "answers.sweep",
     "read_reference": "simulate.reference",
     "recheck": "check.recheck",
-    "robot_constants": "constants.arm",
-    "robot_names": "robots.registry:names",
+    "robot_constants": "constants",
+    "robot_names": "robots:names",
     "run_experiment": "simulate.trial:experiment",
     "run_proof": "answers.check.run",
     "run_simulation": "simulate.closed_loop:simulate",

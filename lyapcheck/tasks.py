@@ -182,8 +182,8 @@ def torque(
     import numpy as np
 
     from lyapcheck.control.gains import one_gain_set
+    from lyapcheck.robots import arm_of
     from lyapcheck.robots.numeric import NumericModel
-    from lyapcheck.robots.registry import arm_of
     from lyapcheck.simulate.task import gains_for
 
     arm = arm_of(model)

@@ -23,7 +23,7 @@ from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.control.limits import Limits, limits_for
 from lyapcheck.control.sampling import LoopRecord, judged_sampled, time_text
 from lyapcheck.errors import argument_error
-from lyapcheck.export.controller import ANGLES, VECTORS, Controller, c_names
+from lyapcheck.export import ANGLES, VECTORS, Controller, c_names
 from lyapcheck.export.steps import Unbounded
 from lyapcheck.files.decimals import decimal_text, decimal_texts, significant_down
 from lyapcheck.lyapunov.numeric import arm_digest

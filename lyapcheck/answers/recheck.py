@@ -15,10 +15,10 @@ from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import View
 from lyapcheck.process_tree import temporary_folder
-from lyapcheck.rechecking.command import GENERAL, Writer, as_json
+from lyapcheck.rechecking import GENERAL, Writer, as_json
 
 if TYPE_CHECKING:
-    from lyapcheck.kernel.coq import Kernel
+    from lyapcheck.kernel import Kernel
 
 SIGNS = {"refused": "✗", "undecided": "?", "accepted": "✓"}
 """What must be seen first comes first."""
@@ -215,7 +215,7 @@ def writer(
     Raises:
         InputError: there is no Coq, or the folder cannot take the files.
     """
-    from lyapcheck.kernel.coq import graded, judged, require_coq
+    from lyapcheck.kernel import graded, judged, require_coq
 
     require_coq()
 

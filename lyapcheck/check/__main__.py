@@ -9,7 +9,7 @@ import sys
 if not sys.flags.safe_path:
     del sys.path[0]
 
-from lyapcheck.rechecking.command import main
+from lyapcheck.rechecking import main
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -37,7 +37,7 @@ from lyapcheck.check.kinds.stable_arm import (
     slopes_of_mass,
     slopes_of_symbols,
 )
-from lyapcheck.check.letters.grammar import letters
+from lyapcheck.check.letters import letters
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.statement import Monomials, Relation, Statement

@@ -26,7 +26,7 @@ from lyapcheck.check.kinds.decreasing import (
     StateWitness,
 )
 from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
-from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
+from lyapcheck.check.loop import ClosedLoop, certifies
 from lyapcheck.check.loop.field import PI_ABOVE, Side
 from lyapcheck.check.loop.schur import MORE_HALVINGS
 from lyapcheck.check.numbers.harmonics import angles_in

@@ -17,7 +17,7 @@ from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.stable_arm import StableArm
-from lyapcheck.check.letters.grammar import letters
+from lyapcheck.check.letters import letters
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.statement import Ends, Monomials, Relation, Variable
 from lyapcheck.check.systems.argument import Argument

@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 from sympy.printing.str import StrPrinter
 
-from lyapcheck.derive.lyapunov import (
+from lyapcheck.derive import (
     DEGREES,
     NEAR,
     Letters,

@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 
 from flint import arb
 
-from lyapcheck.check.loop.closed_loop import ScalarForm
+from lyapcheck.check.loop import ScalarForm
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 

@@ -20,9 +20,9 @@ from lyapcheck.check.expressions.expression import Tree, Unsupported, ball, vari
 from lyapcheck.check.kinds import bound_every_n, every_n
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.letters import letters as letters_of
 from lyapcheck.check.letters.entries import BITS, Entries, exact
 from lyapcheck.check.letters.entries import compared as exactly_compared
-from lyapcheck.check.letters.grammar import letters as letters_of
 from lyapcheck.check.numbers.polynomials import ball_of, rational
 from lyapcheck.check.refusal import require
 

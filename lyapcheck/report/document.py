@@ -9,7 +9,7 @@ from itertools import groupby
 from typing import Any
 
 from lyapcheck.files.fields import file_stem
-from lyapcheck.kernel.coq import GRADE
+from lyapcheck.kernel import GRADE
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most, shown
 from lyapcheck.output.document import Block, Bullets, Code, Document, Figure, Paragraph, Section, Table

@@ -22,7 +22,7 @@ import numpy as np
 from lyapcheck._types import Progress, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
+from lyapcheck.check.loop import ClosedLoop, certifies
 from lyapcheck.computing import computing_time
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.robots.dynamics import FEW_JOINTS

@@ -13,7 +13,7 @@ from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import Bisection, Links, Mass, MassAbove, MassAtCorners, PostureWitness
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop.closed_loop import ClosedLoop, corners_of
+from lyapcheck.check.loop import ClosedLoop, corners_of
 from lyapcheck.check.loop.states import Arm, Controller
 from lyapcheck.check.numbers.members import Functions
 from lyapcheck.computing import shared_between

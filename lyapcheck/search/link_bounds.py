@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from lyapcheck._types import Array
 from lyapcheck.check.kinds.link_bounds import BITS, FIRST, SCALES, BoxForm, LinkBounds
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.field import Box, ball
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.constants.storage import energy_problem, prices_shown, propose, rate_problem

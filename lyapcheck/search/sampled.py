@@ -21,7 +21,7 @@ from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
 from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
-from lyapcheck.check.loop.closed_loop import corners_of
+from lyapcheck.check.loop import corners_of
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.statement import Ends, Monomials, Proof
 from lyapcheck.control.judgement import refutes

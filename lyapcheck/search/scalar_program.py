@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from lyapcheck.check.kinds.decreasing import BoxTree
-from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
+from lyapcheck.check.loop import ScalarForm, certifies
 from lyapcheck.family.base import named
 from lyapcheck.search.controlled_arm import ChainProof, DecreaseProof
 
 if TYPE_CHECKING:
     from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
-    from lyapcheck.check.loop.closed_loop import ClosedLoop
+    from lyapcheck.check.loop import ClosedLoop
     from lyapcheck.check.statement import Ends, Proof
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots.dynamics import Chain
@@ -44,7 +44,7 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
     Args:
         form: Θ', or ``None`` for an unbounded function.
 
-    Soundness: ``lyapcheck.check.loop.closed_loop.certifies`` alone decides.
+    Soundness: ``lyapcheck.check.loop.certifies`` alone decides.
     """
     if form is None:
         return ScalarResult(None, None, "h is unbounded, and the scalar form needs its bound γ")

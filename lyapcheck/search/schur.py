@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.field import Ring, ball
 from lyapcheck.check.loop.schur import Errors, Value, form
 from lyapcheck.check.numbers.harmonics import Harmonics, Uncertain, derivative, largest

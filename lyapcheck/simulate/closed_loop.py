@@ -17,7 +17,7 @@ from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov import graph
 from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
-from lyapcheck.robots.registry import arm_of
+from lyapcheck.robots import arm_of
 from lyapcheck.simulate.breach import (
     beyond_bounds,
     beyond_limits,

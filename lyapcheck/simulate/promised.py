@@ -11,13 +11,12 @@ import numpy as np
 from flint import fmpq_mpoly
 
 from lyapcheck._types import Array
-from lyapcheck.check.loop.closed_loop import ScalarForm
+from lyapcheck.check.loop import ScalarForm
 from lyapcheck.check.loop.states import State, value
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.harmonics import harmonics
 from lyapcheck.check.numbers.polynomials import root_above
-from lyapcheck.constants import robot_constants
-from lyapcheck.constants.arm import robot_bounds
+from lyapcheck.constants import robot_bounds, robot_constants
 from lyapcheck.files.decimals import significant_down
 from lyapcheck.lyapunov.scalar import scalar_form
 from lyapcheck.robots.dynamics import FEW_JOINTS

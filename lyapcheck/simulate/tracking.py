@@ -14,7 +14,7 @@ import numpy as np
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import InputError, Problem, argument_problem
-from lyapcheck.robots.registry import arm_of
+from lyapcheck.robots import arm_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import beyond_bounds, beyond_limits, first_above, rise_of_rate, rise_of_V
 from lyapcheck.simulate.closed_loop import Course, closed_loop

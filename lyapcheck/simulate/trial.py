@@ -14,7 +14,7 @@ import numpy as np
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
-from lyapcheck.robots.registry import arm_of
+from lyapcheck.robots import arm_of
 from lyapcheck.simulate.bench import (
     Bench,
     dry_friction,

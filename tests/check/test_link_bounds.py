@@ -13,7 +13,7 @@ from lyapcheck.answers.epsilon.compute import proof_of as scalar_proof_of
 from lyapcheck.check.kinds.decreasing import PositiveAndDecreasing, statement_of
 from lyapcheck.check.kinds.inertia import Links, MassAtCorners
 from lyapcheck.check.kinds.link_bounds import LinkBounds
-from lyapcheck.check.loop.closed_loop import certifies
+from lyapcheck.check.loop import certifies
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import read_gain_file

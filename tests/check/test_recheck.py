@@ -24,7 +24,7 @@ from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.decision import file_name
 from lyapcheck.output.answer import JUDGED_FORMATS
-from lyapcheck.rechecking.command import GENERAL, as_json, text
+from lyapcheck.rechecking import GENERAL, as_json, text
 from tests.helpers.command import lyapcheck as command
 from tests.helpers.json_schema import follows
 

@@ -8,7 +8,7 @@ import pytest
 
 from lyapcheck.check import certificate, kinds
 from lyapcheck.check.verify import RULES
-from lyapcheck.rechecking.command import ROOT, lies_in, modules, source
+from lyapcheck.rechecking import ROOT, lies_in, modules, source
 from tests.arena.run import ARENA
 from tests.helpers.command import lyapcheck
 

@@ -12,7 +12,7 @@ from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop
+from lyapcheck.check.loop import ClosedLoop
 from lyapcheck.check.loop.field import BALLS, SPANS, BrokenTree, Span, halves, leaves
 from lyapcheck.check.loop.schur import Evaluator, proves, proves_part
 from lyapcheck.check.loop.states import State, rate

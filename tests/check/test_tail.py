@@ -8,7 +8,7 @@ from flint import arb
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
+from lyapcheck.check.loop import ScalarForm, certifies
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.robots import load

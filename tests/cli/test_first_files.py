@@ -10,8 +10,8 @@ from lyapcheck import gate, robots
 from lyapcheck.answers.tune.trial import Trials, Wishes, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.errors import InputError
+from lyapcheck.robots import arm_text
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.registry import arm_text
 from lyapcheck.simulate.task import task_for
 
 ROOT = Path(__file__).parents[2]

@@ -51,7 +51,7 @@ def test_every_key_is_read_exactly(tmp_path: Path) -> None:
 
 
 def test_an_arm_file_says_it_in_the_same_words(tmp_path: Path) -> None:
-    text = robots.registry.arm_file("pelican2").read_text()
+    text = robots.arm_file("pelican2").read_text()
     (tmp_path / "arm.toml").write_text(f"{text}\n[loop]\n{FULL}")
     assert record_of(arm=robots.load(tmp_path / "arm.toml").loop) == RECORD
 

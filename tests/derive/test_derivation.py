@@ -11,10 +11,10 @@ import sympy as sp
 
 import lyapcheck
 from lyapcheck import answers, robots
+from lyapcheck import derive as lyapunov
 from lyapcheck.answers.derive import rows
-from lyapcheck.derive import lyapunov
+from lyapcheck.derive import written_arm
 from lyapcheck.derive.family import Member, S, X, member, positive_roots
-from lyapcheck.derive.lyapunov import written_arm
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Document
 from lyapcheck.output.text import Depth, View

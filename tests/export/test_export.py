@@ -26,7 +26,7 @@ from lyapcheck.answers.export import export
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.sampling import LoopRecord, record_of
-from lyapcheck.export.controller import ANGLES, Controller, c_names
+from lyapcheck.export import ANGLES, Controller, c_names
 from lyapcheck.export.functions import NEAR
 from lyapcheck.export.steps import BITS, Rounded, Unbounded
 from lyapcheck.robots import load

@@ -14,10 +14,10 @@ import pytest
 @contextmanager
 def one_process():
     """As long as it lasts; what else is to be replaced as long may be."""
+    from lyapcheck import rechecking as checker
     from lyapcheck.check import certificate, guard
     from lyapcheck.claims import decision, script_process
     from lyapcheck.claims import script as ask
-    from lyapcheck.rechecking import command as checker
 
     def run_script(words, asked, *to):
         request = pickle.loads(asked)

@@ -45,7 +45,7 @@ SAID = {
     "control.judgement": (8, "the words of the gate for what the checker says there"),
     "kernel.statements": (2, "the name of a predicate in Coq"),
     "output.text": (4, COLOURS),
-    "rechecking.command": (3, SORTING),
+    "rechecking": (3, SORTING),
     "report.compare": (4, SORTING),
     "report.document": (1, HEADING),
     "report.model": (3, SORTING),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from lyapcheck.check.certificate import certificate_of
 from lyapcheck.check.recheck import content, gather, recheck
-from lyapcheck.kernel.coq import FILE, judged, written
+from lyapcheck.kernel import FILE, judged, written
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
 

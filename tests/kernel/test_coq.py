@@ -31,8 +31,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.errors import InputError
 from lyapcheck.extensions import shipped
-from lyapcheck.kernel import coq
-from lyapcheck.kernel.coq import (
+from lyapcheck.kernel import (
     HEAD,
     Coq,
     CoqRefused,
@@ -58,7 +57,7 @@ def test_without_coqc_it_says_what_to_install(
     from lyapcheck.cli.main import main
 
     place = str(GOOD / "pub.7g.m1.json")
-    monkeypatch.setattr(coq.shutil, "which", lambda name: None)
+    monkeypatch.setattr(shutil, "which", lambda name: None)
     monkeypatch.setattr("sys.argv", ["lyapcheck", "recheck", "--kernel", place])
     with pytest.raises(SystemExit) as ended:
         main()

@@ -3,14 +3,13 @@
 import json
 from dataclasses import replace
 
+from lyapcheck import kernel as record
 from lyapcheck.answers.check import ClaimResult
 from lyapcheck.check.certificate import certificate_of
 from lyapcheck.check.kinds.stability import Property
 from lyapcheck.claims.decision import Decision
 from lyapcheck.control.judgement import JudgedStatement
-from lyapcheck.kernel import coq
-from lyapcheck.kernel import coq as record
-from lyapcheck.kernel.coq import Kernel
+from lyapcheck.kernel import Kernel
 from lyapcheck.promise import Promise
 from lyapcheck.verdicts import Grade, Verdict
 from tests.kernel.test_statements import GOOD
@@ -23,7 +22,7 @@ def result(one, decision):
 
 
 def test_check_shows_the_grade_of_what_the_record_has(monkeypatch):
-    monkeypatch.setattr(coq.shutil, "which", lambda name: None)
+    monkeypatch.setattr(record.shutil, "which", lambda name: None)
     promise = Promise(ONE.statement, JudgedStatement(ONE.statement, ONE.proof, "proved"))
     decision = Decision(Verdict.PROVED, Grade.EXACT, "", certificate=ONE.proof, promise=promise)
     assert result(ONE.statement, decision).grade == "kernel"

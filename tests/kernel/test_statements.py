@@ -15,7 +15,7 @@ from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Relation
-from lyapcheck.kernel.coq import theorem_file
+from lyapcheck.kernel import theorem_file
 from lyapcheck.kernel.statements import proposition, shown
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
 from tests.helpers.shares import one_in

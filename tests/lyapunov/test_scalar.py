@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import family, robots
-from lyapcheck.check.loop.closed_loop import ScalarForm, certifies
+from lyapcheck.check.loop import ScalarForm, certifies
 from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.robots.numeric import NumericModel

@@ -41,7 +41,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[robots.RobotModel, r
 @pytest.mark.parametrize("name", ["pelican2", "reyes-kelly2", "buap3"])
 def test_links_and_printed_models(tmp_path: Path, name: str) -> None:
     """By the reader: the same file with a line more in each table of a joint."""
-    text = robots.registry.arm_file(name).read_text()
+    text = robots.arm_file(name).read_text()
     bare = robots.load(name)
     for joint in bare.joints:
         text = text.replace(

@@ -17,8 +17,7 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.bounds import ArmBounds, coriolis_bounded
 from lyapcheck.claims.procedures import propose
-from lyapcheck.constants import arm_constants
-from lyapcheck.constants.arm import extreme
+from lyapcheck.constants import arm_constants, extreme
 from lyapcheck.constants.storage import BoundWithProof, storage_proof
 from lyapcheck.robots import load
 from lyapcheck.robots.dynamics import Chain

@@ -13,8 +13,7 @@ from lyapcheck.check.loop.storage import invariant_form
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import run_proof
-from lyapcheck.constants import arm_constants
-from lyapcheck.constants.arm import extreme
+from lyapcheck.constants import arm_constants, extreme
 from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel

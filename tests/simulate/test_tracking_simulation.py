@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.simulate import runs_csv
-from lyapcheck.check.loop.closed_loop import certifies
+from lyapcheck.check.loop import certifies
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.family import named

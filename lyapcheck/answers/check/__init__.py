@@ -14,8 +14,8 @@ from lyapcheck.check.judgement import shortened
 from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Statement
-from lyapcheck.kernel.coq import GRADE, accepted_before
-from lyapcheck.kernel.coq import GRADE as KERNEL
+from lyapcheck.kernel import GRADE, accepted_before
+from lyapcheck.kernel import GRADE as KERNEL
 from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command

@@ -127,8 +127,8 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None)
     """
     from lyapcheck.answers.derive import rows
     from lyapcheck.answers.derive import rows as parts
+    from lyapcheck.derive import written_arm
     from lyapcheck.derive.family import member
-    from lyapcheck.derive.lyapunov import written_arm
     from lyapcheck.robots import load
 
     ms = tuple([m] if isinstance(m, int) else m)

@@ -27,8 +27,7 @@ from lyapcheck.claims.letters import AnyMatrix, AnyVector, diagonal, every_n
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing, identity
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.derive.family import Member, positive_roots
-from lyapcheck.derive.lyapunov import (
+from lyapcheck.derive import (
     DEGREES,
     EPS,
     EPS0,
@@ -41,6 +40,7 @@ from lyapcheck.derive.lyapunov import (
     value_12,
     value_13,
 )
+from lyapcheck.derive.family import Member, positive_roots
 from lyapcheck.output.digits import correct_digits, decimals
 from lyapcheck.output.document import Block, Equation, Paragraph
 from lyapcheck.promise import Promise, promised, told

@@ -20,7 +20,7 @@ from lyapcheck import asked
 from lyapcheck._types import SEED, Progress, part, silent
 from lyapcheck.answers.epsilon import FINDINGS, EpsilonResult
 from lyapcheck.check.kinds.decreasing import BoxTree, Decreasing, StateWitness, statement_of
-from lyapcheck.check.loop.closed_loop import certifies
+from lyapcheck.check.loop import certifies
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.computing import computing_time
@@ -29,8 +29,8 @@ from lyapcheck.control.gains import one_gain_set
 from lyapcheck.files.decimals import decimal_text, significant_down
 from lyapcheck.lyapunov.scalar import RobotBounds, published_limit, scalar_form, sharp_form
 from lyapcheck.promise import Promise, promised
+from lyapcheck.robots import arm_of
 from lyapcheck.robots.dynamics import FEW_JOINTS
-from lyapcheck.robots.registry import arm_of
 from lyapcheck.search.certified import (
     MAX_BOXES,
     RESERVE,

@@ -30,8 +30,7 @@ from lyapcheck.answers.robot.properties import (
 )
 from lyapcheck.check.verify import each_once
 from lyapcheck.claims.decision import file_name, judge_afresh
-from lyapcheck.constants import SEED, arm_constants
-from lyapcheck.constants.arm import MAX_BOXES
+from lyapcheck.constants import MAX_BOXES, SEED, arm_constants
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import records, table

@@ -12,8 +12,7 @@ from lyapcheck.check.kinds.chain import NoTorque, OfLinks
 from lyapcheck.check.kinds.inertia import HarmonicSizes, PostureWitness
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.search_result import SearchResult, broken, entries, failing, shown
-from lyapcheck.constants import ConstantResult
-from lyapcheck.constants.arm import rounded, witness_of
+from lyapcheck.constants import ConstantResult, rounded, witness_of
 from lyapcheck.constants.storage import Bound, end_of
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import RobotModel

@@ -37,8 +37,8 @@ from lyapcheck.check.kinds.every_n import (
 )
 from lyapcheck.check.kinds.every_n import at_size as identity_at_size
 from lyapcheck.check.kinds.implies import Signs
+from lyapcheck.check.letters import DIMENSION, LETTERS, letters, require_sort
 from lyapcheck.check.letters.entries import Entries, compared
-from lyapcheck.check.letters.grammar import DIMENSION, LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.refusal import Refused, require
 from lyapcheck.check.replay import coordinates, require_distinct

@@ -26,7 +26,7 @@ from lyapcheck.check.kinds.inertia import (
     require_one_a_joint,
     require_within,
 )
-from lyapcheck.check.loop.closed_loop import ClosedLoop, RateProof, at_parameters
+from lyapcheck.check.loop import ClosedLoop, RateProof, at_parameters
 from lyapcheck.check.loop.schur import proves
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member

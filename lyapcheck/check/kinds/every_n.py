@@ -16,8 +16,8 @@ from lyapcheck.check.expressions.normal_form import is_zero
 from lyapcheck.check.expressions.signs import require_defined_at
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.identity import NormalForm
+from lyapcheck.check.letters import LETTERS, letters, require_sort
 from lyapcheck.check.letters.entries import Entries, exact
-from lyapcheck.check.letters.grammar import LETTERS, letters, require_sort
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.refusal import require

@@ -16,8 +16,8 @@ from flint import arb
 
 from lyapcheck.check.expressions.text import diagonal_text, number_text
 from lyapcheck.check.judgement import MAX_ARM
+from lyapcheck.check.loop import masses_at_corners
 from lyapcheck.check.loop.chain import RigidLink, makes
-from lyapcheck.check.loop.closed_loop import masses_at_corners
 from lyapcheck.check.loop.field import MOST_BOXES
 from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.numbers.balls import to_arb

@@ -17,16 +17,16 @@ from lyapcheck.check.expressions.text import number_text
 from lyapcheck.check.judgement import TORQUE
 from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainCoriolisBelow, OfLinks
 from lyapcheck.check.kinds.inertia import DECREASING, law_text
-from lyapcheck.check.loop import storage
-from lyapcheck.check.loop.chain import RigidLink, makes
-from lyapcheck.check.loop.closed_loop import (
+from lyapcheck.check.loop import (
     ClosedLoop,
     RateProof,
     ScalarForm,
     certifies,
     masses_at_corners,
     scalar_form,
+    storage,
 )
+from lyapcheck.check.loop.chain import RigidLink, makes
 from lyapcheck.check.loop.field import BALLS, Box, Side, ball, leaves
 from lyapcheck.check.loop.schur import inverse_one_plus_root, square, unit_vector
 from lyapcheck.check.loop.storage import Shown

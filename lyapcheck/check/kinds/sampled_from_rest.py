@@ -22,9 +22,8 @@ from lyapcheck.check.kinds.inertia import (
 )
 from lyapcheck.check.kinds.sampled import late_text
 from lyapcheck.check.kinds.stable_arm import hessian
-from lyapcheck.check.loop import storage
+from lyapcheck.check.loop import masses_at_corners, storage
 from lyapcheck.check.loop.chain import RigidLink, makes
-from lyapcheck.check.loop.closed_loop import masses_at_corners
 from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.loop.inertia import inertia_of
 from lyapcheck.check.loop.sampled_energy import ArmBounds, Gains, Numbers, SampledEnergy, falls

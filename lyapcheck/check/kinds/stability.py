@@ -10,16 +10,16 @@ from dataclasses import dataclass
 
 from lyapcheck.check.expressions.expression import variables
 from lyapcheck.check.expressions.text import expression_text
-from lyapcheck.check.letters.grammar import letters
+from lyapcheck.check.letters import letters
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import relation_text
 from lyapcheck.check.statement import Proof, Statement, Total, Witness
+from lyapcheck.check.systems import THEOREMS
 from lyapcheck.check.systems import obligations as parts
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.forms import EPS0
 from lyapcheck.check.systems.obligations import never_met, obligations
 from lyapcheck.check.systems.system import Entrywise, Increase
-from lyapcheck.check.systems.theorems import THEOREMS
 from lyapcheck.check.verify import Accepted, all_proved, rule, verify
 
 FRICTION = {
@@ -261,7 +261,7 @@ class ByObligations(Proof):
 
 @rule(Stable, ByObligations)
 def by_obligations(statement: Stable, proof: ByObligations) -> Accepted:
-    """Soundness: see ``check.systems.theorems``."""
+    """Soundness: see ``check.systems.obligations``."""
     return by_argument(statement.argument, statement.obligations(), proof)
 
 

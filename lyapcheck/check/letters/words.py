@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby, product
 
 from lyapcheck.check.expressions.expression import Tree, Unsupported
-from lyapcheck.check.letters.grammar import rate
+from lyapcheck.check.letters import rate
 
 Letter = tuple[str, str]
 """``vec``, ``diag``, ``mat`` or ``transposed``, and the name."""

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from flint import arb
 
-from lyapcheck.check.loop.closed_loop import ClosedLoop, certifies
+from lyapcheck.check.loop import ClosedLoop, certifies
 from lyapcheck.check.loop.field import BALLS, SPANS, Arithmetic, Box, Field, Ring, Side, ball, halves, leaves
 from lyapcheck.check.numbers.balls import precision, to_arb
 

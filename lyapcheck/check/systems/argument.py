@@ -8,14 +8,14 @@ from dataclasses import dataclass, field
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.expressions.grammar import require_expressions
 from lyapcheck.check.kinds.bound_every_n import terms_of
-from lyapcheck.check.letters.grammar import letters, require_sort
+from lyapcheck.check.letters import letters, require_sort
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.refusal import require
 from lyapcheck.check.statement import Relation
+from lyapcheck.check.systems import THEOREMS
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.forms import EPS0, SHARE, Form
 from lyapcheck.check.systems.system import G, System
-from lyapcheck.check.systems.theorems import THEOREMS
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What an argument by a theorem has to prove, by name: see ``theorems`` for why it is enough."""
+"""What an argument by a theorem has to prove, by name: see `check.systems` for why it is enough."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.kinds.implies import Implies
-from lyapcheck.check.letters.grammar import letters
+from lyapcheck.check.letters import letters
 from lyapcheck.check.letters.words import Words
 from lyapcheck.check.statement import Relation, Statement
 from lyapcheck.check.systems.argument import Argument, Cascade

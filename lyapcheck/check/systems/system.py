@@ -20,7 +20,7 @@ from fractions import Fraction
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.bound_every_n import terms_of
 from lyapcheck.check.kinds.every_n import Given
-from lyapcheck.check.letters.grammar import letters, require_sort
+from lyapcheck.check.letters import letters, require_sort
 from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.refusal import require
 
@@ -295,7 +295,7 @@ class System:
     def rates(self) -> dict[Tree, Tree]:
         """The derivative of each letter that may stand in V.
 
-        s = 1/(1 + ‖e‖) has ṡ = s² uᵀw; where e = 0 it has none, see ``theorems`` on why that does no harm.
+        s = 1/(1 + ‖e‖) has ṡ = s² uᵀw; where e = 0 it has none, see `check.systems` on why that does no harm.
         """
         moved = {"e": minus(W), "w": self.acceleration} | {state.name: state.rate for state in self.states}
         result = {("vec", name): rate for name, rate in moved.items()}

@@ -49,7 +49,7 @@ from lyapcheck.claims.search_result import (
     still_open,
 )
 from lyapcheck.claims.statements import reals
-from lyapcheck.constants.arm import extreme
+from lyapcheck.constants import extreme
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.control.judgement import proves, refutes
 from lyapcheck.robots.dynamics import Chain

@@ -25,7 +25,7 @@ from lyapcheck.check.kinds.inertia import Bisection
 from lyapcheck.check.kinds.resting import AtBounds, Resting, RestWitness
 from lyapcheck.check.kinds.sampled import GOAL, SampledStable
 from lyapcheck.check.kinds.sampled_from_rest import SampledFromRest
-from lyapcheck.check.loop.closed_loop import certifies
+from lyapcheck.check.loop import certifies
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.procedures.identity import find_constant
 from lyapcheck.claims.procedures.inertia import find_mass_above

@@ -9,8 +9,8 @@ from lyapcheck.check.judgement import MOST, Limits
 from lyapcheck.check.recheck import Outcome
 from lyapcheck.cli.show import current_view, open_folder, progress
 from lyapcheck.errors import installed, lacking
-from lyapcheck.rechecking import command
-from lyapcheck.rechecking.command import FORMATS, HELP
+from lyapcheck.rechecking import FORMATS, HELP
+from lyapcheck.rechecking import run as judge
 
 if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
@@ -62,7 +62,7 @@ def run(
         folder = None if kernel_files is None else open_folder("--kernel-files", kernel_files)
         with progress("kernel") as advance:
             both = writer(format, seconds, folder, lambda note: advance(0, note), current_view())
-            return command.run(certificates, format, full, trusted, seconds, memory, {format: both})
+            return judge(certificates, format, full, trusted, seconds, memory, {format: both})
 
     def written(outcome: Outcome, with_trusted: bool) -> str:
         from lyapcheck.answers.recheck import Recheck
@@ -70,4 +70,4 @@ def run(
         return Recheck(outcome, with_trusted).written(format, current_view())
 
     formats = {format: written, "json": FORMATS["json"]}  # which is the checker's own
-    return command.run(certificates, format, full, trusted, seconds, memory, formats)
+    return judge(certificates, format, full, trusted, seconds, memory, formats)

@@ -65,7 +65,7 @@ def run(
     from lyapcheck.robots import load, names
 
     if export is not None:
-        from lyapcheck.robots.registry import arm_text
+        from lyapcheck.robots import arm_text
 
         if str(export) == "-":
             sys.stdout.write(arm_text(robot, Path()))
