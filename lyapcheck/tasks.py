@@ -102,7 +102,7 @@ def bounds(
 
 def simulate_motion(
     gain_set: GainSet | str | Path,
-    robot: RobotModel | str,
+    robot: RobotModel | str | Path,
     *,
     target_deg: Sequence[float] | None = None,
     start_deg: Sequence[float] | None = None,
@@ -122,10 +122,10 @@ def simulate_motion(
 
     Soundness: floating point. A simulation proves nothing.
     """
-    from lyapcheck.robots import load
+    from lyapcheck.robots.registry import arm_of
     from lyapcheck.simulate.closed_loop import simulate
 
-    model = load(robot) if isinstance(robot, str) else robot
+    model = arm_of(robot)
     task = _task(model, target_deg, start_deg, seconds)
     return simulate(gain_set, model, task.q_d, task.q0, T=task.T)
 

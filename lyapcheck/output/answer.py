@@ -99,8 +99,9 @@ class Answer(ABC):
         """For programs: strings, numbers, lists and dicts; exact numbers as decimal strings."""
 
     def records(self) -> Sequence[Mapping[str, Any]]:
-        """The rows of its CSV: one a result, or what is natural for it."""
-        rows: Sequence[Mapping[str, Any]] = self.data()["results"]
+        """The rows of its CSV: one a result, or what is natural for it; one row in all without results."""
+        data = self.data()
+        rows: Sequence[Mapping[str, Any]] = data.get("results", [data])
         return rows
 
     def annotations(self) -> Sequence[Annotation]:

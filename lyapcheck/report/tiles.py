@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers import arm_words, file_words
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest
 from lyapcheck.answers.gate.words import advices
 from lyapcheck.answers.running import runs_of
@@ -16,6 +17,7 @@ from lyapcheck.control.sampling import time_text
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
+from lyapcheck.output.document import command
 from lyapcheck.report.findings import and_list
 from lyapcheck.report.model import Motion, Tile
 
@@ -36,14 +38,15 @@ FAR = 5
 
 def tiles(result: GateResult, model: RobotModel, run: RunRow | None) -> tuple[Tile, ...]:
     """The six tiles of a gain set: motors, stability, rate, behaviour, dry friction, assumed numbers."""
-    file = result.file.path
+    robot = result.limits.robot or model.name
+    arm, gate = arm_words(robot), command("gate", *file_words(result.file, robot))
     return (
-        _motors(result, file),
-        _stability(result, file),
-        _rate(result, model, file),
-        _behaviour(run),
-        _friction(result, model),
-        _assumed(model),
+        _motors(result, gate),
+        _stability(result, gate),
+        _rate(result, model, gate),
+        _behaviour(run, command("tune", *arm, "--settle", "2", "--overshoot", "5")),
+        _friction(result, model, command("tune", *arm, "--rest-error", FAR)),
+        _assumed(model, command("robot", *arm, "--assumptions")),
     )
 
 
@@ -60,7 +63,7 @@ def with_before(report: Report, old: Mapping[str, Any]) -> Report:
     return replace(report, tiles=changed)
 
 
-def _motors(result: GateResult, file: str) -> Tile:
+def _motors(result: GateResult, gate: str) -> Tile:
     """Whether k_p + k_v leaves the motors within their limits at every state, by (10i)."""
     subject, joints = "Motors", result.limits.joints
     every = Conditions(result.limits, named(result.gains.family, result.m).gamma).all(result.gains, ("10i",))
@@ -70,9 +73,7 @@ def _motors(result: GateResult, file: str) -> Tile:
         names = and_list([joints[one.joint or 0] for one in failed])
         most = ", ".join(f"{joints[one.joint or 0]} {_largest(one)}" for one in failed)
         todo = f"Lower k_p + k_v, with these largest values in N·m: {most}."
-        return Tile(
-            subject, "can saturate", f"{names}: (10i) fails.", "bad", (todo, f"lyapcheck gate {file}")
-        )
+        return Tile(subject, "can saturate", f"{names}: (10i) fails.", "bad", (todo, gate))
     known = [
         (int(100 * (check.limit.lower - check.value) / check.limit.lower), check)  # rounded down
         for check in checks
@@ -96,7 +97,7 @@ def _largest(check: Check) -> str:
     return "none" if check.largest_admissible is None else check.largest_admissible.text
 
 
-def _stability(result: GateResult, file: str) -> Tile:
+def _stability(result: GateResult, gate: str) -> Tile:
     """Stability of (11), for a controller of infinite rate."""
     subject, proof = "Stability", result.stable
     if proof is not None and proof.verdict == ACCEPTED:
@@ -107,15 +108,15 @@ def _stability(result: GateResult, file: str) -> Tile:
         said = result.says("Proved by (19), for a controller of infinite rate.")
         return Tile(subject, result.says("stable"), said, "good")
     reason = next(iter(advices(result)), "No proof was found.")
-    command = f"lyapcheck gate {file} --condition lasalle"
-    return Tile(subject, "undecided", f"{reason}.", "open", ("Look for another proof.", command))
+    todo = ("Look for another proof.", f"{gate} --condition lasalle")
+    return Tile(subject, "undecided", f"{reason}.", "open", todo)
 
 
-def _rate(result: GateResult, model: RobotModel, file: str) -> Tile:
+def _rate(result: GateResult, model: RobotModel, gate: str) -> Tile:
     """Stability as a computer runs the gains; without a rate, the periods that a usual computer may take."""
     subject = "Sampling rate"
     check = next(one for one in runs_of(result) if one.id == SAMPLED)
-    ask = f"lyapcheck gate {file} --rate 1000"
+    ask = f"{gate} --rate 1000"
     if not isinstance(check, SampledCheck):
         return Tile(subject, "not known", f"{check.reason}.", "open", ("Ask at a rate.", ask))
     text = ". ".join(one[:1].upper() + one[1:] for one in check.sentences(False)) or check.reason
@@ -145,7 +146,7 @@ def _posture(check: SampledCheck, model: RobotModel) -> Motion | None:
     return drawn_motion(model, np.zeros(1), np.radians([[float(x) for x in proof.goal]]))
 
 
-def _behaviour(run: RunRow | None) -> Tile:
+def _behaviour(run: RunRow | None, tune: str) -> Tile:
     """What one simulated motion does."""
     subject = "Behaviour"
     if run is None:
@@ -159,11 +160,11 @@ def _behaviour(run: RunRow | None) -> Tile:
         return Tile(
             subject, f"{number}settled in {max(settled):.2g} s", text, "good" if over < 20 else "warn"
         )
-    todo = ("Ask for a settling time.", f"lyapcheck tune {run.robot} --settle 2 --overshoot 5")
+    todo = ("Ask for a settling time.", tune)
     return Tile(subject, f"{number}not settled in {run.time:g} s", text, "warn", todo)
 
 
-def _friction(result: GateResult, model: RobotModel) -> Tile:
+def _friction(result: GateResult, model: RobotModel, tune: str) -> Tile:
     """How far from the goal dry friction may leave the arm."""
     subject = "Dry friction"
     known = farthest(result.gains, model)
@@ -176,13 +177,15 @@ def _friction(result: GateResult, model: RobotModel) -> Tile:
         todo = ("Raise k_p, or lower the friction.", "")
         return Tile(subject, "no bound", text, "bad", todo)
     number = f"up to {decimal_text(most)}°"
+    if model.of_unknown_friction:
+        todo = ("State the dry friction of each joint.", "")
+        return Tile(subject, f"{number}, known in part", text, "open", todo)
     if most <= FAR:
         return Tile(subject, number, text, "good")
-    command = f"lyapcheck tune {result.file.robot or model.name} --rest-error {FAR}"
-    return Tile(subject, number, text, "warn", ("Ask for a smaller error at rest.", command))
+    return Tile(subject, number, text, "warn", ("Ask for a smaller error at rest.", tune))
 
 
-def _assumed(model: RobotModel) -> Tile:
+def _assumed(model: RobotModel, listed: str) -> Tile:
     """How many numbers of the arm nobody measured."""
     numbers = list(model.numbers.values())
     assumed = sum(number.assumed for number in numbers)
@@ -190,7 +193,7 @@ def _assumed(model: RobotModel) -> Tile:
     if not assumed:
         return Tile("Assumed", number, "All numbers of the arm are from its file.", "good")
     text = "The verdicts are about the arm with these numbers."
-    todo = ("Measure them, or give each a range.", f"lyapcheck robot {model.name} --assumptions")
+    todo = ("Measure them, or give each a range.", listed)
     return Tile("Assumed", number, text, "warn", todo)
 
 

@@ -182,6 +182,11 @@ class RobotModel:
         """Whether the file gives dry friction to a joint."""
         return any(number is not None and number.bounds[1] > 0 for number in self.coulomb)
 
+    @property
+    def of_unknown_friction(self) -> tuple[str, ...]:
+        """The joints to which the file gives no dry friction."""
+        return tuple(joint for joint, f in zip(self.joints, self.coulomb, strict=True) if f is None)
+
     @cached_property
     def assumptions(self) -> tuple[str, ...]:
         """What is taken for granted about this arm, one sentence each."""

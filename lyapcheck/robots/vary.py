@@ -185,10 +185,15 @@ def require_known(model: RobotModel, varies: Sequence[Vary]) -> None:
     keys = [*model.numbers, *(f"{joint}_mass" for joint in model.joints if names)]
     wrong = [one for one in varies if one.name not in names and not any(map(one.matches, keys))]
     if wrong:
-        known = sorted({key.rpartition("_")[2] for key in keys if not key[-1].isdigit()} | names)
+        known = sorted({_part(key, model.joints) for key in keys if not key[-1].isdigit()} | names)
         repair = f"use one of {', '.join(known)}, or the name of a number that lyapcheck robot shows"
         rule = f"{model.name} has no number of that name"
         raise InputError(_unknown(wrong, [*known, *keys], rule, repair))
+
+
+def _part(key: str, joints: Sequence[str]) -> str:
+    """The name of a number without its joint, which is one of the same number of every joint."""
+    return next((key.removeprefix(f"{joint}_") for joint in joints if key.startswith(f"{joint}_")), key)
 
 
 def require_movable(model: RobotModel, varies: Sequence[Vary]) -> None:

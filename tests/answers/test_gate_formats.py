@@ -3,6 +3,7 @@
 import json
 import re
 from fractions import Fraction
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -54,6 +55,15 @@ def test_the_title_counts_sets_or_names_the_only_one(paper, undecided):
         "! tau_m1: accepted; dry friction (assumed) leaves at most 20.73°"
     )
     assert GateAnswer(paper[1:2]).document().title == "✗ tau_m2: breaks (19), stability proved otherwise"
+
+
+def test_the_title_names_joints_whose_dry_friction_nobody_stated(tmp_path):
+    whole = (Path(__file__).parents[2] / "examples" / "init" / "arm.toml").read_text()
+    (tmp_path / "arm.toml").write_text(whole.replace("coulomb = 0.4\n", ""))
+    sets = "[[gains]]\nname = 'g'\nm = 1\nkp = [22, 10]\nkv = [12, 3]\ncondition = ['10i', 'lasalle']\n"
+    (tmp_path / "g.toml").write_text(f"robot = 'arm.toml'\n{sets}")
+    title = gate(tmp_path / "g.toml").document().title
+    assert title.endswith("leaves at most 2.607°, unknown at elbow")
 
 
 def test_failing_rows_come_first_and_details_have_all(paper):

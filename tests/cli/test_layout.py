@@ -19,6 +19,7 @@ from tests.helpers.shares import but
 ROOT = Path(__file__).parents[2]
 TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
 TARGETS = "--m", "1", "--overshoot", "5", "--settle", "2", "--stability", "proof"
+QUICK = "--max-boxes", "40", "--starts", "1"
 ASKED = {
     "gate, accepted": ("gate", "gains.toml"),
     "gate, rejected": ("gate", "saturating.toml"),
@@ -35,9 +36,22 @@ ASKED = {
     "table": ("table", "--m", "1:3"),
     "recheck": ("recheck", str(ROOT / "tests/kernel/certificates/2.1.json")),
     "epsilon": ("epsilon", "gains.toml", "--max-boxes", "40", "--starts", "1"),
+    "epsilon, another arm": (
+        "epsilon",
+        "free.toml",
+        "--robot",
+        "arm.toml",
+        "--max-boxes",
+        "40",
+        "--starts",
+        "1",
+    ),
     "simulate": ("simulate", "gains.toml"),
+    "simulate, another arm": ("simulate", "free.toml", "--robot", "arm.toml"),
+    "bounds, another arm": ("bounds", "free.toml", "--robot", "arm.toml", "--time", "1"),
     "simulate, at the bench": ("simulate", TABLE2, "--experiment"),
     "tune, the largest": ("tune", "buap3", "--m", "1:2"),
+    "tune, seven joints": ("tune", "panda", "--m", "1"),
     "tune, targets": ("tune", "arm.toml", *TARGETS),
     "robot": ("robot", "arm.toml"),
     "robot, ranges": ("robot", "buap3", "--max-boxes", "200"),
@@ -72,6 +86,12 @@ viscous_min = 2
 torque = [60]
 gravity = [4.905]
 """
+FREE = """[[gains]]
+name = "c"
+m = 1
+kp = [22, 10]
+kv = [12, 3]
+"""
 PLAN = """robots = ["reyes-kelly2"]
 questions = ["gate"]
 [grid]
@@ -79,10 +99,13 @@ m = [1]
 kp = [[20, 5]]
 kv = [0.02]
 """
-FILES = {"saturating.toml": SATURATING, "own.toml": OWN, "plan.toml": PLAN}
+FILES = {"saturating.toml": SATURATING, "own.toml": OWN, "free.toml": FREE, "plan.toml": PLAN}
 TALL = 24
 """Lines for three joints."""
-SLOW = ("explain, undecided", "explain, the list", "simulate, at the bench", "tune, targets", "epsilon")
+SLOW = (
+    *("explain, undecided", "explain, the list", "simulate, at the bench"),
+    *("tune, targets", "epsilon", "epsilon, another arm"),
+)
 SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted", "gate, seven joints")
 
 
@@ -169,6 +192,13 @@ def test_the_next_command_is_about_what_was_asked(asked, then):
     done = invoke(*asked.split())
     assert done.stdout.splitlines()[-1].split() == ["next:", "lyapcheck", *then.split()]
     assert invoke(*then.split()).exit_code in (0, 1, 3)
+
+
+def test_a_table_of_gains_loses_no_joint():
+    _, document = answered("tune, seven joints")
+    for width in (80, 100):
+        shown = render(document, View(width=width))
+        assert all(f"panda_joint{i}" in shown for i in range(1, 8))
 
 
 @pytest.mark.parametrize(

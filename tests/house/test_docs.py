@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from lyapcheck import load_robot, read_plan
 from lyapcheck.cli.commands import NAMES, load
 from lyapcheck.cli.parser import Parser
 from tests.extending.page import exit_code
@@ -49,6 +50,38 @@ def test_every_command_in_the_documents_is_one(page, line):
 
 def test_there_are_commands_in_the_documents():
     assert len(EVERY) > 25
+
+
+def tables(page):
+    """The TOML of a page that is no file of its own."""
+    return re.findall(r"(?<!`:\n\n)```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+
+
+TABLES = [(page.name, text) for page in DOCS for text in tables(page)]
+
+
+def completed(text):
+    """An arm file with a table of a page: its last link, or its joints in a URDF file, has these entries."""
+    if text.startswith("[[joints]]"):
+        return f'title = "a"\nurdf = "{ROOT / "examples" / "ur5.urdf"}"\n{text}'
+    arm = (ROOT / "examples" / "init" / "arm.toml").read_text(encoding="utf-8")
+    before, mark, last = arm.rpartition("[[links]]")
+    keys = re.findall(r"^(?:\[links\.)?(\w+)(?: =|\])", text, re.MULTILINE)
+    rest = re.sub(rf"^(?:{'|'.join(keys)}) =.*\n", "", last, flags=re.MULTILINE)
+    if text.startswith("[[links]]"):
+        return before + text + rest
+    return before + mark + rest + text
+
+
+@pytest.mark.parametrize(("page", "text"), TABLES)
+def test_every_table_in_the_documents_can_be_read(page, text, tmp_path):
+    file = tmp_path / "file.toml"
+    if text.startswith("robots ="):
+        file.write_text(text.replace('"my_arm.toml"', '"pelican2"'), encoding="utf-8")
+        assert read_plan(file).questions
+    else:
+        file.write_text(completed(text), encoding="utf-8")
+        assert load_robot(file).n >= 2, page
 
 
 @pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)

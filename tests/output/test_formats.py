@@ -239,3 +239,22 @@ def test_a_record_stands_on_a_line():
         "}",
     ]
     assert max(map(len, laid_out([["x" * 30] * 40]).splitlines())) < LONGEST
+
+
+@dataclass(frozen=True)
+class Number(Answer):
+    """An answer with data that are no list of results."""
+
+    schema = "lyapcheck/number/1"
+
+    def document(self):
+        return Document("one", ())
+
+    def data(self):
+        return {"number": 1}
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_data_without_results_are_one_row(name):
+    assert Number().written(name)
+    assert [dict(row) for row in Number().records()] == [{"number": 1}]

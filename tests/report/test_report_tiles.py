@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -59,6 +60,13 @@ def test_without_a_rate_the_tile_asks_for_one_and_with_one_it_judges(tmp_path):
 
 def test_dry_friction_that_holds_a_joint_anywhere_is_red(tmp_path):
     assert told(tmp_path, kp="[5, 1]", kv="[0.1, 0.1]")["Dry friction"].tone == "bad"
+
+
+def test_commands_name_an_arm_by_its_file(tmp_path):
+    """Its name alone, that of the file without its end, is none that a command finds."""
+    path = Path(__file__).parents[2] / "examples" / "px100.toml"
+    known = told(tmp_path, kp="[1, 1, 1, 1]", kv="[1, 1, 1, 1]", run=None, robot=str(path))
+    assert known["Assumed"].todo[1] == f"lyapcheck robot {path} --assumptions"
 
 
 def test_words_of_proof_come_from_promises_alone(tmp_path):

@@ -131,6 +131,7 @@ def test_the_corners_are_the_ends_of_all_that_varies():
     ("name", "text", "said"),
     [
         ("buap3", "foo=1..2", "has no number of that name"),
+        ("buap3", "foo=1..2", "gravity_bound, inertia, torque_limit, viscous, or"),
         ("buap3", "payload=0..1", "has no number of that name"),
         ("buap3", "viscous=-130%..0%", "must not be negative"),
         (UR5, "mass=-100%..0%", "must be positive"),

@@ -17,6 +17,7 @@ from lyapcheck.simulate.integrate import integrate
 from lyapcheck.simulate.results import imbalance
 from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, gains_for
+from lyapcheck.tasks import simulate_motion
 from tests.helpers.shares import one_in
 
 TABLE2 = (
@@ -218,3 +219,11 @@ def test_impossible_requests_are_refused_by_name(change, key):
     with pytest.raises(InputError) as refused:
         simulate(gains(2), robots.load("reyes-kelly2"), **request)
     assert [problem.key for problem in refused.value.problems] == [key]
+
+
+def test_an_arm_is_a_model_a_name_or_a_path(tmp_path):
+    path = tmp_path / "arm.toml"
+    path.write_text(robots.registry.arm_text("pendulum1", tmp_path))
+    gains = GainSet("g", 1, (Fraction(1),), (Fraction(1),))
+    runs = [simulate_motion(gains, arm, seconds=0.1) for arm in ("pendulum1", path, robots.load("pendulum1"))]
+    assert len({run.q.tobytes() for run in runs}) == 1

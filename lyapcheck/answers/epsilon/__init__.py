@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers import assumed_line
+from lyapcheck.answers import assumed_line, file_words
 from lyapcheck.answers.epsilon.result import (
     CERTIFIED,
     FALSIFIED,
@@ -73,6 +73,7 @@ class _Said(Answer):
     schema = "lyapcheck/epsilon/1"
 
     file: GainFile | None = None
+    robot: str = ""
 
     @property
     @abstractmethod
@@ -102,8 +103,8 @@ class _Said(Answer):
                 *([every] if single else []),
                 *(Section(one.name, (Bullets(tuple(x for _, x in remarks(one))),)) for one in results),
             ),
-            assumed_line(first.model, (self.file.robot if self.file else "") or first.model.name),
-            command("gate", self.file.path, "--condition", "scalar") if self.file else "",
+            assumed_line(first.model, self.robot or first.model.name),
+            command("gate", *file_words(self.file, self.robot), "--condition", "scalar") if self.file else "",
         )
 
     def data(self) -> dict[str, Any]:
@@ -186,10 +187,12 @@ class EpsilonResults(_Said):
     Args:
         results: one a gain set.
         file: where the gain sets stand.
+        robot: the arm, its name or path as it was given.
     """
 
     results: tuple[EpsilonResult, ...]
     file: GainFile | None = None
+    robot: str = ""
 
     @property
     def sets(self) -> tuple[EpsilonResult, ...]:

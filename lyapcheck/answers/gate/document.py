@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers import arm_words, assumed_line, file_words
 from lyapcheck.answers.gate import accepting, proved_otherwise, remarks, without_19
-from lyapcheck.answers.gate.friction import farthest, swinging
+from lyapcheck.answers.gate.friction import farthest, swinging, without_friction
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
 from lyapcheck.answers.running import INFINITE, open_as_run
@@ -170,7 +170,9 @@ def fact(result: GateResult) -> Fact | None:
     if model is None or not result.explained or result.verdict != ACCEPTED:
         return None
     unknown = farthest_unknown(result.checks)
-    far = farthest(result.gains, model) if unknown is None else unknown
+    if unknown is not None:
+        return unknown[0], unknown[1] + without_friction(model)
+    far = farthest(result.gains, model)
     if far is not None:
         return far
     open_ = open_as_run(result.checks) or swinging(result.gains, model)

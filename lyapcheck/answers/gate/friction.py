@@ -183,7 +183,15 @@ def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
     if rest is None or rest.promise is None or len(known) < len(rest.degrees):
         return ANYWHERE, f"dry friction{assumed} may leave it off its goal"
     most = max(known)
-    return most, rest.promise.says(f"dry friction{assumed} leaves at most {decimal_text(most)}°")
+    words = rest.promise.says(f"dry friction{assumed} leaves at most {decimal_text(most)}°")
+    return most, words + without_friction(model)
+
+
+def without_friction(model: RobotModel) -> str:
+    """What a bound of the error leaves out: joints without dry friction in a file that has some."""
+    joints = model.of_unknown_friction if model.dry else ()
+    few = joints[0] if len(joints) == 1 else f"{len(joints)} joints"
+    return f", unknown at {few}" if joints else ""
 
 
 def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> list[str]:

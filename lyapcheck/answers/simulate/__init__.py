@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
+from lyapcheck.answers import file_words
 from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
@@ -64,6 +65,7 @@ class Simulation(Answer, Generic[Result]):
         results: one a gain set; a run that was cut short is one as well.
         unfinished: what could not be found out.
         file: where the gain sets stand.
+        robot: the arm, its name or path as it was given.
         arms: on which arms each gain set was run, where some numbers vary.
     """
 
@@ -77,6 +79,7 @@ class Simulation(Answer, Generic[Result]):
     """Whether a file says how a computer runs the loop, and the runs leave that out."""
     judged: dict[str, tuple[Check, ...]] = field(default_factory=dict)
     """What the checker says of each gain set as a computer runs it."""
+    robot: str = ""
 
     against = "bounds violated by"
     """What is said of the gain sets that failed, before their number."""
@@ -132,7 +135,7 @@ class Simulation(Answer, Generic[Result]):
             *map(self.section, self.results),
         )
         how = self.about().removeprefix(", ")
-        then = command("gate", self.file.path) if self.file is not None else ""
+        then = "" if self.file is None else command("gate", *file_words(self.file, self.robot))
         return Document(
             self._title(),
             tuple(short),

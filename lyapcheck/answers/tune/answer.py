@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.numbers.polynomials import Enclosure
@@ -160,22 +161,27 @@ class Tuning(Answer):
         """The largest gains joint by joint; in detail a table a member."""
         joints = self.limits.joints
         blocks: list[Block] = [_section(item, self.targets.digits, joints) for item in self.sets]
-        rows = [
-            (item.name, *(f"{decimal_text(x.kp)} / {decimal_text(x.kv)}" for x in item.joints))
-            for item in self.sets
-            if item.joints
+        cells: list[tuple[str, ...]] = [
+            ("k_p / k_v [N·m]", *joints),
+            *(
+                (item.name, *(f"{decimal_text(x.kp)} / {decimal_text(x.kv)}" for x in item.joints))
+                for item in self.sets
+                if item.joints
+            ),
         ]
-        heads = ("k_p / k_v [N·m]", *joints)
-        short: list[Block] = [Table(heads, tuple(rows), align="l" + "r" * len(joints))] if rows else []
+        found = len(cells) > 1
+        if len(cells) <= len(joints):  # a narrow terminal leaves out columns, and must not leave out joints
+            cells = list(zip(*cells, strict=True))
+        heads, *rows = cells
+        short: list[Block] = [Table(heads, tuple(rows))] if found else []
         reasons = (reason for item in self.sets for reason in item.reasons)
         said = list(dict.fromkeys((*reasons, *self.limits.doubts)))
         if said:
             short.append(Bullets(tuple(said[:MOST_REASONS])))
         details = (Paragraph(f"{self.targets.text()}."), *blocks)
-        listed = command("robot", self.robot, "--assumptions") if self.robot else ""
-        count = len(self.limits.assumptions)
-        assumed = f"{count} assumption{'s' * (count > 1)} about the arm: {listed}" if count else ""
-        then = command("tune", self.robot, "--m", "1", "--overshoot", "5", "--settle", "2")
+        model, arm = self.limits.model, arm_words(self.robot)
+        assumed = "; ".join(self.limits.assumptions) if model is None else assumed_line(model, self.robot)
+        then = command("tune", *arm, "--m", "1", "--overshoot", "5", "--settle", "2")
         lead = (self._hardly,) if self._hardly else ()
         return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)
 

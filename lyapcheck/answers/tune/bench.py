@@ -152,8 +152,7 @@ class BenchTuning(Answer):
     @property
     def lacking(self) -> str:
         """Why a target cannot be judged: dry friction that the arm file does not give; empty if it can."""
-        rows = zip(self.joints, self.model.coulomb, strict=True)
-        joints = [joint for joint, friction in rows if friction is None]
+        joints = self.model.of_unknown_friction
         if self.bench.wishes.rest_error is None or not joints:
             return ""
         return (
@@ -328,7 +327,7 @@ class BenchTuning(Answer):
             Field(
                 "held_by",
                 lambda one: one.held or ("",) * len(self.joints),
-                "limited by",
+                "limited by" if any(map(any, (one.held for one in self.sets))) else "",
                 align="l",
                 each=True,
             ),

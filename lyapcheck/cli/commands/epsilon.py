@@ -98,7 +98,7 @@ def run(
     if folder is not None:
         write_certificates(folder, *map(certificates_of, results))
     shown = [one if timings else replace(one, seconds=None) for one in results]
-    show(EpsilonResults(tuple(shown), gain_file), format)
+    show(EpsilonResults(tuple(shown), gain_file, name), format)
     missing = any(result.certified is None for result in results)
     return Exit.UNDECIDED if missing else Exit.PROVED
 

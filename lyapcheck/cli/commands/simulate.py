@@ -298,14 +298,15 @@ def run(
     with progress("simulate") as advance:
         job = Job(gain_file, model, eps0, certified, advance, arms)
         if path is not None:
-            return told(follow(job, path, task, band, stop, unsampled), runs_csv, csv, plot, format)
+            return told(follow(job, path, task, band, stop, unsampled), name, runs_csv, csv, plot, format)
         if starts is not None:
-            return told(spread_out(job, task, starts, unsampled), starts_csv, csv, plot, format)
-        return told(regulate(job, task, bench, stop, text, folder), runs_csv, csv, plot, format)
+            return told(spread_out(job, task, starts, unsampled), name, starts_csv, csv, plot, format)
+        return told(regulate(job, task, bench, stop, text, folder), name, runs_csv, csv, plot, format)
 
 
 def told(
     answer: Simulation[Any],
+    robot: str,
     samples: Callable[[Any], str],
     csv: str | None,
     plot: Path | None,
@@ -319,7 +320,7 @@ def told(
     if csv == "-":
         sys.stdout.write(document_text(samples(answer.results)))
     else:
-        show(answer, format)
+        show(replace(answer, robot=robot), format)
     for sentence in answer.complaints():
         print(sentence, file=sys.stderr)
     return answer.exit_code
