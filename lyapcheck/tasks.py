@@ -122,7 +122,7 @@ def simulate_motion(
 
     Soundness: floating point. A simulation proves nothing.
     """
-    from lyapcheck.robots.registry import arm_of
+    from lyapcheck.robots import arm_of
     from lyapcheck.simulate.closed_loop import simulate
 
     model = arm_of(robot)

@@ -223,7 +223,7 @@ def test_impossible_requests_are_refused_by_name(change, key):
 
 def test_an_arm_is_a_model_a_name_or_a_path(tmp_path):
     path = tmp_path / "arm.toml"
-    path.write_text(robots.registry.arm_text("pendulum1", tmp_path))
+    path.write_text(robots.arm_text("pendulum1", tmp_path))
     gains = GainSet("g", 1, (Fraction(1),), (Fraction(1),))
     runs = [simulate_motion(gains, arm, seconds=0.1) for arm in ("pendulum1", path, robots.load("pendulum1"))]
     assert len({run.q.tobytes() for run in runs}) == 1
