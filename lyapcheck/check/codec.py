@@ -28,8 +28,10 @@ LAST_READ_BY = {
     "DecreasingNearby": "0.1.0",
     "Settling": "0.1.0",
     "StaysWithin": "0.1.0",
+    "TrigonometricBound": "0.2.0",
     "TrigonometricPositive": "0.2.0",
     "V decreasing at corners": "0.1.0",
+    "Fourier sums": "0.2.0",
     "dominant diagonal": "0.1.0",
     "energy along the links": "0.1.0",
     "falling energy": "0.1.0",
@@ -39,6 +41,7 @@ LAST_READ_BY = {
     "larger K_v": "0.2.0",
     "products of rates": "0.1.0",
     "slower and nearer": "0.1.0",
+    "witness of an entry": "0.2.0",
 }
 """Names of kinds and of rules, one a line."""
 

@@ -20,7 +20,6 @@ from lyapcheck.check.kinds.identity import Identity as Identity
 from lyapcheck.check.kinds.implies import Implies as Implies
 from lyapcheck.check.kinds.norm_bound import NormBound as NormBound
 from lyapcheck.check.kinds.sampled import SampledStable as SampledStable
-from lyapcheck.check.kinds.trigonometric import TrigonometricBound as TrigonometricBound
 from lyapcheck.check.statement import Relation as Relation
 from lyapcheck.check.statement import Statement as Statement
 from lyapcheck.check.statement import Variable as Variable
@@ -111,7 +110,6 @@ from lyapcheck.claims.script import companion as companion
 from lyapcheck.claims.statements import Reals as Reals
 from lyapcheck.claims.statements import agrees as agrees
 from lyapcheck.claims.statements import all_of as all_of
-from lyapcheck.claims.statements import bounded as bounded
 from lyapcheck.claims.statements import damping_below as damping_below
 from lyapcheck.claims.statements import decreasing as decreasing
 from lyapcheck.claims.statements import for_all as for_all

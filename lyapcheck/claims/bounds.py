@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
 from flint import ctx
 
+from lyapcheck.asked import bound_of_constant
 from lyapcheck.check.expressions.expression import ball
 from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.kinds.chain import ChainAbove, ChainIdentity
@@ -23,9 +25,10 @@ from lyapcheck.check.kinds.coriolis import (
     RateLessTwiceCoriolis,
     RateOfMass,
 )
+from lyapcheck.check.kinds.gravity import GravityBelow
 from lyapcheck.check.kinds.inertia import Mass, MassAbove, MassBelow
 from lyapcheck.check.loop.inertia import Inertia
-from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.claim import lacking
 from lyapcheck.claims.expressions import (
@@ -41,10 +44,11 @@ from lyapcheck.claims.expressions import (
     var,
 )
 from lyapcheck.claims.letters import Matrix, Vector, vector
-from lyapcheck.claims.statements import bounded, for_all, identity, norm_bound
+from lyapcheck.claims.statements import for_all, identity, norm_bound
 from lyapcheck.control import limits as arm_limits
 from lyapcheck.files.decimals import significant_up
 from lyapcheck.robots.dynamics import FEW_JOINTS, Chain, TooManyTerms
+from lyapcheck.robots.trig import to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.check.loop.chain import RigidLink
@@ -193,6 +197,12 @@ class ArmBounds:
         """‖M(q)‖ <= β_M for all q."""
         return MassBelow(self.mass, (), self.beta) if self.links is None else self._shown("lambda_max")[0]
 
+    def gravity_below(self) -> GravityBelow:
+        """‖g(q)‖ <= k_g for all q, where g(q) is written out."""
+        gravity = tuple(tuple(to_terms(torque)) for torque in self.robot.gravity)
+        bound = GravityBelow(self.robot.n, gravity, (), Fraction(0))
+        return replace(bound, high=above(root_above(bound.square_by_sizes())))
+
     def coriolis_below(self) -> Statement:
         """‖C(q, x)y‖ <= k_c ‖x‖ ‖y‖ for all q, x and y."""
         return CoriolisBelow(self.mass, (), self.kc) if self.links is None else self._shown("k_c")[0]
@@ -319,9 +329,15 @@ def coriolis_bounded(robot: RobotModel) -> Statement:
     return _along_links(robot, "k_c") or ArmBounds(robot).coriolis_below()
 
 
-def gravity_bounded(robot: RobotModel) -> Statement:
-    """‖g(q)‖, or every |g_i(q)|, is bounded at the robot's nominal numbers."""
-    return _along_links(robot, "k_g") or bounded(gravity_vector(robot.fixed()))
+def gravity_bounded(robot: RobotModel, by: Sequence[object] | None = None) -> Statement:
+    """‖g(q)‖ at the robot's nominal numbers is at most a number, or every |g_i(q)| the one given for it."""
+    if by is None:
+        return _along_links(robot, "k_g") or ArmBounds(robot).gravity_below()
+    ends = list(map(exact_value, by))
+    nominal = robot.fixed()
+    long = _chain(nominal) is not None
+    bounds = (bound_of_constant(f"k_g{i}", nominal, end, long) for i, end in enumerate(ends, 1))
+    return AllOf(tuple((f"joint {i}", bound) for i, bound in enumerate(bounds, 1)))
 
 
 def _along_links(robot: RobotModel, name: str) -> Statement | None:

@@ -17,7 +17,6 @@ from lyapcheck.check.kinds.identity import Identity
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.norm_bound import NormBound
 from lyapcheck.check.kinds.sampled import SampledStable
-from lyapcheck.check.kinds.trigonometric import TrigonometricBound
 from lyapcheck.check.statement import Relation, Statement, Variable
 from lyapcheck.claims.claim import lacking
 from lyapcheck.claims.expressions import Expr, exact_value, expr, var
@@ -188,13 +187,6 @@ def _one(kind: type[T], value: object, subject: str) -> T:
 
 def _end(value: object | None) -> Fraction | None:
     return None if value is None else exact_value(value)
-
-
-def bounded(entries: Iterable[Expr], by: Iterable[object] | None = None) -> TrigonometricBound:
-    """Polynomials in sines and cosines are bounded, or bounded by given numbers."""
-    trees = [entry.tree for entry in entries]
-    limits = [None] * len(trees) if by is None else [exact_value(b) for b in by]
-    return TrigonometricBound(tuple(zip(trees, limits, strict=True)))
 
 
 # --- Statements about every state of one arm under one controller, from a robot and a gain set.

@@ -18,7 +18,6 @@ from lyapcheck.check.kinds.for_small import ForSmall
 from lyapcheck.check.kinds.identity import Identity, NormalForm
 from lyapcheck.check.kinds.inertia import HarmonicSizes, MassBelow
 from lyapcheck.check.kinds.norm_bound import NormBound
-from lyapcheck.check.kinds.trigonometric import TrigonometricBound
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.check.verify import verify
@@ -79,7 +78,7 @@ def test_statements_that_differ_have_texts_that_differ(name):
 
 NAMED_AS_CONSTANTS = {
     "L_2": BoundEveryN(("var", "L_2"), ("L", 2), (), (), (), (), ()),
-    "π": TrigonometricBound(((("sin", ("var", "π")), F(1, 10)),)),
+    "π": Identity(("var", "π"), ("pi",)),
     "γ_2": Identity(("var", "γ_2"), ("gamma", 2)),
 }
 

@@ -170,7 +170,7 @@ def test_missing_scripts_and_ids_are_refused(write):
 
 
 def test_a_claim_about_a_robot_is_undecided_without_one(write):
-    path = write("@proof.claim('r', 'M')\ndef _(case):\n    return bounded(gravity_vector(case.robot))\n")
+    path = write("@proof.claim('r', 'M')\ndef _(case):\n    return gravity_bounded(case.robot)\n")
     assert "--robot" in verdicts(path)["r"].decision.reason
     assert verdicts(path, n=None, robot="reyes-kelly2")["r"].verdict is Verdict.PROVED
 

@@ -149,7 +149,7 @@ def test_the_kernel_accepts_what_the_small_checker_does_and_says_on_which_axioms
     }
     assert (
         result["pub.2.8.json"].reason
-        == "there is no theorem of Coq's for statements of the kind TrigonometricBound"
+        == "there is no theorem of Coq's for statements of the kind GravityBelow"
     )
 
 

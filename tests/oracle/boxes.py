@@ -191,15 +191,6 @@ def _put(tree, entry):
     return tuple(_put(part, entry) if isinstance(part, tuple) else part for part in tree)
 
 
-def _bounds(s):
-    """Both signs of each entry; an entry without a bound is only asked to be defined."""
-    claims = []
-    for tree, bound in s.entries:
-        limit = ("num", str(bound)) if bound is not None else ("abs", tree)
-        claims += [(tree, "<=", limit), (("neg", tree), "<=", limit)]
-    return Region(_reals(*(tree for tree, _ in s.entries)), tuple(claims))
-
-
 REGIONS = {
     "Identity": _identity,
     "ForAll": lambda s: Region(
@@ -210,7 +201,6 @@ REGIONS = {
         axes_of(s.variables), (relation(s.conclusion),), tuple(map(relation, s.hypotheses))
     ),
     "NormBound": _norm_bound,
-    "TrigonometricBound": _bounds,
 }
 
 
@@ -221,11 +211,8 @@ def _look(statement, random):
 
 @oracle.judges(*REGIONS)
 def _judge(statement, point):
-    kind = type(statement).__name__
-    parts = [REGIONS[kind](statement)]
-    if kind == "TrigonometricBound":  # a witness gives the variables of one entry, and no others
-        parts = [Region(_reals(claim[0], claim[2]), (claim,)) for claim in parts[0].claims]
-    return _any(part.fails_at({name: Fraction(text) for name, text in point.items()}) for part in parts)
+    region = REGIONS[type(statement).__name__](statement)
+    return region.fails_at({name: Fraction(text) for name, text in point.items()})
 
 
 def _any(outcomes):

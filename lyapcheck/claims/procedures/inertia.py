@@ -13,11 +13,9 @@ from fractions import Fraction
 import numpy as np
 
 from lyapcheck._types import SEED
-from lyapcheck.check.expressions.expression import Unsupported, variables
 from lyapcheck.check.kinds.chain import ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.gravity import GravityBelow
-from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.kinds.inertia import (
     Bisection,
     HarmonicSizes,
@@ -26,18 +24,8 @@ from lyapcheck.check.kinds.inertia import (
     MassBelow,
     PostureWitness,
 )
-from lyapcheck.check.kinds.trigonometric import (
-    EntryWitness,
-    FourierBounds,
-    TrigonometricBound,
-    is_bounded,
-    largest,
-    within,
-)
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.statement import Proof
-from lyapcheck.claims.procedures.implication import counterexample, sampled
-from lyapcheck.claims.procedures.search import BITS, point_of, witness_data
 from lyapcheck.claims.search_result import (
     SearchResult,
     between,
@@ -48,7 +36,6 @@ from lyapcheck.claims.search_result import (
     shown,
     still_open,
 )
-from lyapcheck.claims.statements import reals
 from lyapcheck.constants import extreme
 from lyapcheck.constants.storage import storage_proof
 from lyapcheck.control.judgement import proves, refutes
@@ -181,35 +168,3 @@ def find_chain_bound(statement: ChainBelow | ChainGravityBelow | ChainCoriolisBe
             LINKS,
         )
     return shown(result.proof, f"{LINKS}: {result.proof.rule}")
-
-
-# --- Bounds of polynomials in sines and cosines, from the mean and the amplitudes of their Fourier sums.
-#
-# The bounds are exact but coarse; where they do not reach a claimed one, points are searched.
-#
-# References: ``reyes2019family``, Properties 2.1, 2.2, 2.6, 2.8.
-
-SUMS = "mean and amplitudes of the Fourier sum"
-
-
-@procedure(TrigonometricBound)
-def find_bounds(statement: TrigonometricBound) -> SearchResult:
-    """Compute |mean| plus amplitudes of each entry; where that is above the bound, look for angles."""
-    reason = ""
-    for k, (tree, bound) in enumerate(statement.entries):
-        try:
-            if bound is None and not is_bounded(tree):
-                raise Unsupported("a variable outside sin and cos has no bound")
-            reached = None if bound is None else largest(tree)
-        except Unsupported as problem:
-            return still_open(f"{problem}; give the entries as polynomials in sin and cos", SUMS)
-        if bound is None or reached is None or reached <= bound:
-            continue
-        for lower, relation in enumerate(within(tree, bound)):
-            result = counterexample(Implies(reals(*sorted(variables(tree))), (), relation))
-            if result is not None:
-                proof = EntryWitness(k, bool(lower), point_of(result[1]), BITS)
-                method = f"{SUMS}: angles at which entry {k + 1} leaves its bound"
-                return broken(proof, method, witness_data(result), **sampled())
-        reason = reason or f"entry {k + 1}: {reached} is above {bound}, and no angle that decides was found"
-    return still_open(f"{reason}; bisect over the angles", SUMS) if reason else shown(FourierBounds(), SUMS)

@@ -6,7 +6,7 @@ from math import isfinite
 
 import numpy as np
 
-from lyapcheck.claims import AllOf, Constant, ForAll, NormBound, TrigonometricBound
+from lyapcheck.claims import AllOf, Constant, ForAll, NormBound
 from tests.oracle.trees import floats
 from tests.statement_fuzz.generators import FALSE, GENERATORS, TRUE, Made, generates
 from tests.statement_fuzz.generators.expressions import (
@@ -29,7 +29,6 @@ from tests.statement_fuzz.generators.expressions import (
     risky,
     root,
     rough,
-    small_number,
     smooth,
     sub,
     undefined_number,
@@ -284,49 +283,3 @@ def together(random):
 
 
 ANGLES = ("q1", "q2")
-
-
-def _harmonics(random):
-    """A sum of products of powers of sines and cosines."""
-    parts = []
-    for _ in range(random.randint(1, 3)):
-        factors = [
-            (random.choice(("sin", "cos")), var(random.choice(ANGLES))) for _ in range(random.randint(0, 2))
-        ]
-        parts.append(
-            mul(num(small_number(random)), *(power(f, random.choice((1, 1, 2, 0))) for f in factors))
-        )
-    tree = add(*parts)
-    if random.random() < 0.25:
-        tree = disguised(random, tree, ["q1"])
-    if random.random() < 0.1:
-        tree = div(tree, num(random.choice((2, -3, "1/2", 0))))
-    return tree
-
-
-def _swing(tree):
-    """A angles by sizes, or anything."""
-    kind, *rest = tree
-    if kind == "num":
-        return abs(Fraction(rest[0]))
-    if kind == "add":
-        return sum((_swing(part) for part in rest), Fraction(0))
-    if kind == "mul":
-        result = Fraction(1)
-        for part in rest:
-            result *= _swing(part)
-        return result
-    return Fraction(1)
-
-
-@generates("TrigonometricBound", 5)
-def angles(random):
-    """|f_i| within bounds that suffice, or not quite."""
-    entries = []
-    for _ in range(random.randint(1, 2)):
-        tree = _harmonics(random)
-        limit = _swing(tree) * random.choice(
-            (1, 1, Fraction(999999, 1000000), Fraction(1, 2), Fraction(3, 4))
-        )
-        entries.append((tree, None if random.random() < 0.2 else limit))
-    return Made(TrigonometricBound(tuple(entries)), "bounds of sines and cosines")
