@@ -1,10 +1,11 @@
 """``python -m tests.promises.record [FILE…]``: tests of promises with 200 draws each, and what they ask.
 
-With files or names of tests, only their rows are written anew.
+With files or names of tests, only their rows are written anew; rows of tests that are gone go.
 """
 
 from __future__ import annotations
 
+import re
 import sys
 from collections import Counter
 from pathlib import Path
@@ -44,6 +45,12 @@ def main():
     return code
 
 
+def tests():
+    """The names of the tests that there are."""
+    texts = (path.read_text(encoding="utf-8") for path in FOLDER.glob("test_*.py"))
+    return {name for text in texts for name in re.findall(r"^def (test_\w+)", text, re.MULTILINE)}
+
+
 def record(failed):
     """The table."""
     from lyapcheck.verdicts import Exit  # pytest has to import both first
@@ -52,11 +59,11 @@ def record(failed):
     codes = (Exit.PROVED, Exit.REFUTED, Exit.USAGE, Exit.UNDECIDED)
     rows: dict[str, list[str]] = {}
     if len(sys.argv) > 1 and RECORD.exists():
-        kept = [
-            line for line in RECORD.read_text(encoding="utf-8").splitlines() if line.startswith("| test_")
-        ]
-        for line in kept:
-            rows.setdefault(line.split(" | ")[0].removeprefix("| "), []).append(line)
+        present = tests()
+        for line in RECORD.read_text(encoding="utf-8").splitlines():
+            name = line.split(" | ")[0].removeprefix("| ")
+            if name in present:
+                rows.setdefault(name, []).append(line)
     for test in {test for test, _, _ in ASKED}:
         rows[test] = []
     for test, command in sorted({(test, command) for test, command, _ in ASKED}):
