@@ -95,6 +95,7 @@ def answer(in_this_process):
     return run_proof("published.py", (1, 2), only=("P", "16.6"))
 
 
+@pytest.mark.slow
 def test_a_theorem_whose_argument_fails_is_looked_for_elsewhere(answer):
     said = "theorem P still holds, proved by F.family of every_function.py"
     assert str(answer).splitlines()[1] == f"  {said}"
@@ -108,6 +109,7 @@ def test_a_theorem_whose_argument_fails_is_looked_for_elsewhere(answer):
     assert "open here: P" in replace(answer, elsewhere=some).document().lead[0]
 
 
+@pytest.mark.slow
 def test_another_theorem_counts_only_with_the_same_conclusion_and_no_more_conditions(answer):
     asked = answer.theorems[0].stated
     rows = run_proof("every_function.py", (1,), only=("F.family", "F.family.tracking", "F.tanh")).claims

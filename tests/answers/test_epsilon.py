@@ -10,13 +10,10 @@ import pytest
 
 from lyapcheck.answers.epsilon import EpsilonResults
 from lyapcheck.answers.epsilon.compute import Contradiction, by_forms, epsilon, findings, require_consistent
-from lyapcheck.check.kinds.decreasing import Decreasing
 from lyapcheck.check.loop.states import confirms_positive
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
-from lyapcheck.control.judgement import JudgedStatement
 from lyapcheck.errors import InputError
 from lyapcheck.output.answer import FORMATS, Level
-from lyapcheck.promise import Promise
 from lyapcheck.robots import load
 from lyapcheck.robots.vary import Vary, corners
 from lyapcheck.search.controlled_arm import ControlledArm
@@ -146,36 +143,6 @@ def test_json_numbers_are_exact_strings(case):
     assert 0 < low <= result.witness.rate.lower <= result.witness.rate.upper <= high
 
 
-def test_missing_numbers_are_shown_with_their_reason(case):
-    _, result = case
-    nothing = replace(
-        result, promise=None, falsified=None, witness=None, reasons={"certified": "budget spent"}
-    )
-    assert nothing.ratio is None
-    row = nothing.data()["results"][0]
-    assert row["certified"] is None
-    assert row["ratio"] is None
-    assert row["reasons"] == {"certified": "budget spent"}
-    assert "no certified ε₀: budget spent" in str(nothing)
-
-
-@pytest.mark.slow
-def test_pd_has_no_published_number():
-    result = epsilon(
-        GainSet("pd", None, (F(60), F(5)), (F(2), F(1)), "linear"), ARM, starts=6, max_boxes=20_000
-    )
-    assert result.published is None
-    assert "γ" in result.reasons["published"]
-    assert result.witness is not None
-
-
-@pytest.mark.slow
-def test_gains_that_break_19_have_an_empty_18():
-    result = epsilon(GainSet("strong", 1, (F(60), F(5)), (F(3), F(3))), ARM, starts=1, max_boxes=50)
-    assert result.published is None
-    assert "(19)" in result.reasons["published"]
-
-
 def run(*arguments):
     result = invoke("epsilon", *arguments)
     if isinstance(result.exception, InputError):
@@ -190,17 +157,6 @@ def test_missing_arm_and_missing_member_are_refused(tmp_path):
     code, text = run(str(path), "--robot", "reyes-kelly2", "--m", "4")
     assert code == 2
     assert "choose from 1" in text
-
-
-@pytest.mark.parametrize(("share", "said"), [(F(1, 2), "cost nothing"), (F(2), "cost 50 %")])
-def test_words_about_what_ranges_cost(case, share, said):
-    _, result = case
-    assert result.promise is not None
-    assert isinstance(result.promise.asked, Decreasing)
-    assert "the ranges" not in str(result)
-    nominal = replace(result.promise.asked, eps0=result.promise.asked.eps0 * share)
-    unvaried = Promise(nominal, JudgedStatement(nominal, None, "proved"))
-    assert f"the ranges {said}" in str(replace(result, unvaried=unvaried))
 
 
 @pytest.mark.parametrize(
@@ -228,12 +184,6 @@ def test_the_arm_of_the_file_is_spoken_of_only_where_it_is_in_the_ranges(tmp_pat
     assert "pendulum1, for all values in its ranges" in text.splitlines()[0]
 
 
-def test_the_first_line_says_whether_numbers_are_nominal():
-    arm = load("pendulum1", vary=(Vary.parsed("viscous=-20%..+20%"),))
-    result = epsilon(GainSet("a", 1, (F(5),), (F(2),)), arm, max_boxes=1, starts=1)
-    assert result.document().title.endswith("on pendulum1, at its nominal numbers")
-
-
 def test_the_published_number_over_ranges_is_about_all_arms_in_them():
     """It is above that of no corner; where (19) fails at the least friction, there is none."""
     varies = (Vary.parsed("viscous=-30%..30%"),)
@@ -259,17 +209,3 @@ def test_the_published_number_is_smaller_where_the_inertia_ranges():
     case = ControlledArm(read_gain_file(paper_gain_file("table2")).gains[0], load("buap3"), ranges=True)
     ranged, nominal = (by_forms(replace(case, ranges=ranges))[0] for ranges in (True, False))
     assert 0 < (ranged or 0) < (nominal or 0)
-
-
-@pytest.mark.slow
-def test_ranges_are_set_beside_nominal_numbers(tmp_path):
-    path = tmp_path / "gains.toml"
-    path.write_text(
-        'robot = "pendulum1"\n[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [2]\n', encoding="utf-8"
-    )
-    words = ("epsilon", str(path), "--starts", "2", "--max-boxes", "100", "--no-store", "--format", "json")
-    (varied,) = json.loads(invoke(*words, "--vary", "viscous=-20%..+20%").stdout)["results"]
-    (nominal,) = json.loads(invoke(*words).stdout)["results"]
-    assert nominal["unvaried"] is None
-    assert varied["unvaried"] == nominal["certified"]
-    assert F(varied["certified"]) < F(varied["unvaried"])

@@ -77,6 +77,7 @@ def test_such_an_arm_has_a_certified_epsilon_and_v_falls_with_it(tmp_path: Path)
     assert invoke(*command).exit_code == invoke("recheck", proofs).exit_code == 0
 
 
+@pytest.mark.slow
 def test_claims_of_norms_are_proved_along_the_links_and_those_of_M_in_full_are_open(tmp_path: Path) -> None:
     """Where one statement needs M(q) written out, the others of its script are decided."""
     own, gains = arm(tmp_path, "0"), read_gain_file(tmp_path / "g.toml")

@@ -3,14 +3,10 @@
 import json
 import math
 from fractions import Fraction
-from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
 
-from lyapcheck.answers.gate.friction import rest_errors
-from lyapcheck.control.gains import read_gain_file
-from lyapcheck.robots import load
 from tests.helpers.arm_texts import ONE_LINK
 from tests.helpers.command import invoke
 
@@ -27,12 +23,6 @@ def files(folder, mass, viscous, more="", gains="kp = [50]\nkv = [1]"):
     path = folder / "g.toml"
     path.write_text(f'robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\n{gains}\n')
     return str(path)
-
-
-def judged(*words):
-    done = invoke("gate", *words, "--format", "json")
-    (result,) = json.loads(done.stdout)["results"]
-    return done.exit_code, result
 
 
 def said(done):
@@ -58,15 +48,6 @@ def test_the_certificate_against_a_false_bound_is_rechecked(tmp_path):
     invoke("gate", path, "--certificates", str(tmp_path / "made"))
     assert json.loads((tmp_path / "made" / "a.json").read_text())["verdict"] == "refuted"
     assert invoke("recheck", str(tmp_path / "made")).exit_code == 0
-
-
-def test_a_bound_of_the_gain_file_is_held_to_the_model_as_well(tmp_path):
-    path = Path(files(tmp_path, 10, 2, "", "kp = [5]\nkv = [1]"))
-    assert judged(str(path))[0] == 0
-    path.write_text(path.read_text() + "[bounds]\ngravity = [49.04]\n")
-    assert judged(str(path))[0] == 1
-    path.write_text(path.read_text().replace("49.04", "49.05"))
-    assert judged(str(path))[0] == 0
 
 
 def test_without_a_model_the_bound_is_a_premise(tmp_path):
@@ -112,34 +93,7 @@ def test_what_fails_by_the_root_alone_is_refuted_as_a_condition(tmp_path):
     assert (proof["rule"], proof["condition"], proof["joint"]) == ("broken condition", "10p", 1)
 
 
-# --- friction ------------------------------------------------------------------------------------
-
-
-def test_rest_under_dry_friction_is_that_of_the_largest_in_the_range(tmp_path):
-    dry = f"coulomb = {number(1, 1, 6, 'N·m')}"
-    path = files(tmp_path, 1, 2, dry, "kp = [8]\nkv = [0.4]")
-    (gains,) = read_gain_file(path).gains
-    (error,) = rest_errors(gains, load(str(tmp_path / "arm.toml")))
-    assert error is not None
-    assert 0 <= float(error) - math.atanh(6 / 8) < 1e-5
-    leaves = f"dry friction (assumed) leaves at most {math.degrees(math.atanh(0.75)):.2f}°"
-    assert invoke("gate", path).output.splitlines()[0] == f"! a: accepted; {leaves}"
-    wider = invoke("gate", path, "--vary", "coulomb=0..9").output.splitlines()[0]
-    assert wider == "! a: accepted; dry friction (assumed) may hold j1 anywhere"
-    narrow = invoke("gate", path, "--vary", "coulomb=0..0").output.splitlines()[0]
-    assert narrow == "✓ a: accepted"
-
-
 # --- remarks -------------------------------------------------------------------------------------
-
-
-def test_stability_is_said_only_while_no_motor_saturates(tmp_path):
-    path = tmp_path / "g.toml"
-    path.write_text('robot = "buap3"\n[[gains]]\nname = "a"\nm = 1\nkp = [28, 170, 7]\nkv = [1, 1, 1]\n')
-    _, result = judged(str(path), "--condition", "19")
-    assert result["standing"] == "rejected"
-    assert all("stable" not in line or "no motor saturates" in line or "none does" in line
-               for line in result["remarks"])  # fmt: skip
 
 
 @pytest.mark.parametrize(

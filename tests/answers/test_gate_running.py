@@ -79,22 +79,6 @@ def test_the_periods_of_the_printed_numbers(tmp_path: Path, m: int, most: float)
     assert check.joint == ends.index(min(ends))
 
 
-def test_what_the_largest_period_depends_on(tmp_path: Path) -> None:
-    file = paper(tmp_path, 1)
-
-    def most(**loop: Any) -> float:
-        check = sampled(file, period=T, **loop)
-        return 0.0 if check.limit is None else float(check.limit.lower)
-
-    base = most(delay=0)
-    assert most(delay=1) == pytest.approx(base / 3)
-    assert most(delay=0, longest=T) == base
-    # r = 1.2: b > 1.2 (L k_v + T k)
-    assert most(delay=0, longest=Fraction(3, 1000)) == pytest.approx(base * (0.406 / 1.2 - 0.233) / 0.173)
-    assert most(delay=0, filter=(Fraction(3, 2), Fraction(-1, 2))) == 0  # 2 k_v is above the friction
-    assert most(delay=0, filter=(Fraction(1, 2), Fraction(1, 2))) == base
-
-
 def test_what_is_said_of_periods_holds_at_each(tmp_path: Path) -> None:
     """Intervals of 2.8 ms beside 0.1 ms are 28 T: a multiple of T is shown, and of exact readings."""
     loop: dict[str, Any] = {"longest": Fraction(28, 10_000), "encoder": 4}
@@ -273,12 +257,6 @@ def test_data_and_certificates(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", one_in(2, ["ur5", "panda"]))
 def test_words_of_proof_are_those_of_promises(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert left_over(("gate", str(EXAMPLES / f"{name}_gains.toml"), *WORDS), monkeypatch) == []
-
-
-def test_without_a_record_one_sentence_says_what_is_supposed(tmp_path: Path) -> None:
-    file = str(paper(tmp_path, 1))
-    assert "infinite rate" in invoke("gate", file).stdout
-    assert "infinite rate" not in invoke("gate", file, "--rate", "400").stdout
 
 
 MS, DRY = Fraction(1, 1000), r"\[joints\.coulomb\]\n(?:\w.*\n)*"

@@ -101,16 +101,6 @@ def test_a_record_is_a_run_and_joint_with_the_numbers_of_the_data(kind: str) -> 
         assert row["breach_promise"] == ""
 
 
-def test_a_record_of_random_starts_is_a_quantity() -> None:
-    answer = answers()["starts"]
-    rows = read_csv(answer.written("csv"))
-    first = answer.data()["results"][0]["quantiles"]
-    assert [row["quantity"] for row in rows] == [*first, *first]
-    l2 = rows[0]
-    assert [float(l2[head]) for head in ("least", "5 %", "50 %", "95 %", "most")] == first["L2 [°]"]
-    assert l2["without"] == "0"
-
-
 def test_joints_of_a_record_have_the_printed_numbers_beside_them() -> None:
     run = simulate(TABLE2[1], robots.load("buap3"), TARGET, points=51)
     rows = SetPointRuns((run,)).records()

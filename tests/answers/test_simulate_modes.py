@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from lyapcheck import robots
 from lyapcheck.check.certificate import judge, parse, read
-from lyapcheck.control.gains import paper_gain_file, read_gain_file
-from lyapcheck.simulate.many import Starts, sweep
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.control.gains import paper_gain_file
 from tests.helpers.command import lyapcheck as command
 from tests.helpers.shares import one_in
 
@@ -109,15 +105,6 @@ def test_a_broken_promise_leaves_with_1_and_the_state_that_broke_it():
 
 
 @pytest.mark.slow
-def test_keep_going_tells_of_the_promise_and_goes_on():
-    done = lyapcheck(TABLE2, "--eps0", 50, "--format", "json", "--keep-going", "--time", 1)
-    assert done.returncode == 1
-    for result in json.loads(done.stdout)["results"]:
-        assert result["complete"] is True
-        assert result["breach"]["t"] < 1
-
-
-@pytest.mark.slow
 def test_a_motor_beyond_its_limit_is_a_broken_promise(tmp_path):
     strong = tmp_path / "strong.toml"
     strong.write_text('robot = "buap3"\n[[gains]]\nname = "s"\nm = 1\nkp = [99, 60, 5]\nkv = [1, 1, 1]\n')
@@ -152,18 +139,6 @@ def test_random_starts_tell_how_the_indices_spread():
     assert lyapcheck(SMALL, "--seed", 8, *words).stdout != done.stdout
 
 
-@pytest.mark.slow
-def test_random_starts_in_words_and_rows():
-    text = lyapcheck(TABLE2, "--runs", 12).stdout
-    assert "12 starts within ±45° of (0, 0, 0)°, seed 0" in text
-    assert text.startswith("! buap3: no bound violated by 3 gain sets, without the")
-    assert text.count("12 of 12") == 3
-    assert r"| L2 \[°\] |" in lyapcheck(TABLE2, "--runs", 3, "--format", "markdown").stdout
-    rows = lyapcheck(TABLE2, "--runs", 12, "--csv", "-").stdout.splitlines()
-    assert len(rows) == 1 + 3 * 12
-    assert rows[1].startswith("tau_m1,1,yes,")
-
-
 @pytest.mark.parametrize(
     ("file", "target"), one_in(2, [(SMALL, "45,90"), (TABLE2, "45,45,90")]), ids=["two joints", "three"]
 )
@@ -175,14 +150,6 @@ def test_states_at_which_v_rises_have_certificates(tmp_path, file, target):
         certificate = read(parse(path.read_text(encoding="utf-8")))
         assert judge(certificate).verdict == "refuted"
         assert certificate.statement.eps0 == 50
-
-
-def test_peaks_of_long_runs_are_those_of_short_ones():
-    model, gain_set = robots.load("buap3"), read_gain_file(TABLE2).gains[0]
-    short, long = (
-        sweep(gain_set, model, replace(PAPER_TASK, T=T), Starts(2, 0.5, 1)).runs for T in (4.0, 30.0)
-    )
-    assert long.peak_torque == pytest.approx(short.peak_torque, rel=1e-8)
 
 
 @pytest.mark.slow

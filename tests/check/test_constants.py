@@ -1,15 +1,13 @@
 """The certified constants against high-precision root finding and against exact facts."""
 
 from fractions import Fraction
-from itertools import pairwise
 
 import pytest
 from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lyapcheck.check.numbers.balls import bracketed_root, hyperbolic_constants, peak_of_h
-from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.numbers.balls import bracketed_root, hyperbolic_constants
 from lyapcheck.family.members.hyperbolic import gamma_less_than
 
 
@@ -20,36 +18,11 @@ def _precision():
     assert ctx.prec == 53, "a function left flint's precision changed"
 
 
-def test_m_one_is_the_hyperbolic_tangent():
-    known = hyperbolic_constants(1)
-    one, zero = Enclosure.exact(1), Enclosure.exact(0)
-    assert (known.gamma, known.rho, known.L) == (one, one, one)
-    assert (known.gamma_at, known.rho_at, known.L_at) == (None, zero, zero)
-
-
-def test_m_two_has_a_peak_in_closed_form():
-    with ctx.workprec(200):
-        assert peak_of_h(2).overlaps(2 + arb(7).sqrt())
-
-
 @given(m=st.integers(2, 2000), digits=st.integers(1, 120))
 def test_enclosures_are_as_narrow_as_asked(m, digits):
     known = hyperbolic_constants(m, digits)
     for value in (known.gamma, known.rho, known.L, known.gamma_at, known.rho_at, known.L_at):
         assert 0 < value.width < value.lower * Fraction(1, 10**digits)
-
-
-def test_gamma_grows_with_m_towards_the_square_root_of_two():
-    values = [hyperbolic_constants(m, 20).gamma for m in (1, 2, 3, 4, 10, 100, 1000, 100_000)]
-    assert all(a.upper < b.lower for a, b in pairwise(values))
-    assert values[-1].upper ** 2 < 2
-
-
-def test_gamma_two_and_three_exceed_what_the_paper_prints():
-    assert not gamma_less_than(2, Fraction("1.05") ** 2)
-    assert not gamma_less_than(3, Fraction("1.11") ** 2)
-    assert gamma_less_than(2, Fraction("1.06") ** 2)
-    assert gamma_less_than(3, Fraction("1.12") ** 2)
 
 
 def test_gamma_less_than_is_strict_at_the_supremum_of_tanh():

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import pytest
 
-from lyapcheck.answers.explain import explain
 from lyapcheck.check.kinds.identity import NormalForm
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
@@ -156,19 +155,3 @@ def test_words_that_entries_contradict_are_refused_where_certificates_are_judged
     drawn_entries.install()
     with pytest.raises(Refused, match="words are at fault"):
         verify(statement, NormalForm())
-
-
-def test_it_is_written_out_for_readers():
-    assert every_n(form(x, S, y), form(y, S, x), [S]).text() == (
-        "xᵀ·S·y = yᵀ·S·x for every n and all vectors x, y; n × n matrices S, if Sᵀ = S"
-    )
-    assert TRUE["what is given, transposed"].text() == (
-        "(Aᵀ·y)ᵀ·x = 2·zᵀ·y for every n and all vectors x, y, z; n × n matrices A, if A·x = 2·z"
-    )
-    moving = every_n(rate(s * dot(x, x + d)), expr(0), rates=[(x, -y), (d, zero_vector()), (s, t)])
-    assert moving.text() == (
-        "d/dt(s·xᵀ·(x + d)) = 0 for every n and all numbers s, t; vectors d, x, y, "
-        "if d/dt(x) = −y; d/dt(d) = 0; d/dt(s) = t"
-    )
-    said = [part.says for part in explain("15").parts]
-    assert any("wᵀ·diag(Kp)·h − wᵀ·diag(Kp)·h = 0 for every n" in text for text in said)

@@ -61,14 +61,6 @@ def test_pendulums(name):
     assert flow(statement, Random(1)) is None
 
 
-def test_what_it_says_of_angles():
-    assert TRUE["rests"].text().startswith("every motion is bounded, with w, sin(t) → 0 under dt/dt = w;")
-    assert "t up to full turns" in TRUE["rests"].text()
-    assert "attracts 2·(1 − cos(t)) + w² ≤ 3, V ≤ 0.5" in TRUE["downwards by a strict V"].text()
-    assert "up to full turns" not in TRUE["downwards, no angle"].text()
-    assert TRUE["downwards, no angle"].angles == TRUE["a spring beside gravity"].angles == ()
-
-
 FALSE = {
     "upright": local(PENDULUM, V, region=F(5, 2) >= V, within=5),
     "upright in steps": local(PENDULUM, E, region=E <= 2, within=5, rest=[w, sin(t)]),

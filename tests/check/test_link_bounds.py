@@ -22,7 +22,6 @@ from lyapcheck.robots.vary import Vary, varied
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, unphysical
 from lyapcheck.search.link_bounds import ErrorBoxes, link_bounds, linked_proof
 from lyapcheck.search.worst_states import quadratic, sample
-from tests.helpers.shares import but
 
 F = Fraction
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -74,7 +73,8 @@ def judged(statement, of, by):
     return verify(statement, PositiveAndDecreasing(of.inertia, by)).verdict
 
 
-@pytest.mark.parametrize("m", but([3], [1, 2, 3]))
+@pytest.mark.slow
+@pytest.mark.parametrize("m", [1, 2, 3])
 def test_it_proves_half_of_what_is_refuted_with_few_boxes(m):
     assert judged(proof(m).statement, proof(m), data_of(proof(m))) == "proved"
     assert proof(m).boxes < 1_000
@@ -106,6 +106,7 @@ def test_the_scalar_epsilon_of_the_certified_k_c_has_a_certificate():
     assert float(scalar.eps0) * refuted < 1
 
 
+@pytest.mark.slow
 def test_M_and_its_rates_stay_within_their_bounds_at_random_postures():
     controlled, data = example("ur5", 3), data_of(proof(3))
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (2_000, 6))

@@ -79,11 +79,6 @@ OPEN = {
 }
 
 
-@pytest.mark.parametrize("name", TRUE)
-def test_a_bound_by_norms_is_proved(name):
-    assert verdict(TRUE[name]) == "proved"
-
-
 @pytest.mark.usefixtures("few_tries")
 @pytest.mark.parametrize("name", one_in(3, OPEN))
 def test_what_norms_do_not_give_stays_open(name):

@@ -23,7 +23,6 @@ from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import each_once, verify
 from lyapcheck.claims import run_proof
 from lyapcheck.claims.decision import file_name
-from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.rechecking import GENERAL, as_json, text
 from tests.helpers.command import lyapcheck as command
 from tests.helpers.json_schema import follows
@@ -181,15 +180,6 @@ def test_check_writes_and_recheck_accepts(tmp_path):
     ]
 
 
-def test_exit_codes(folder):
-    assert command("recheck", folder / "a.json", folder / "d.json").returncode == 0
-    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
-    refused = command("recheck", folder / "a.json", folder / "d.json")
-    assert refused.returncode == 1
-    assert refused.stdout.startswith("✗ 1 refused, 1 accepted (1 refuted)\n")
-    assert "- a.json: grade = exact: the proof gives enclosure\n" in refused.stdout
-
-
 def test_json_is_versioned_and_complete(folder):
     rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
     (folder / "P.json").write_text("{")
@@ -247,27 +237,6 @@ def test_the_other_formats_say_what_the_checker_says(folder):
     assert {f"Every verdict: {text}" for text in GENERAL} <= {*document.notes}
 
 
-def test_systems_that_run_checks_get_a_case_a_certificate(folder):
-    rewrite(folder / "d.json", lambda d: d.update(verdict="proved"))
-    (folder / "a.json").unlink()
-    cases = {one.group: one for one in Recheck(recheck(gather([folder]))).annotations()}
-    levels = {name: case.level.value for name, case in cases.items()}
-    assert levels.pop("d.json") == "failed"
-    assert levels.pop("f.m3.json") == "passed"
-    assert set(levels.values()) == {"undecided"}
-    assert cases["d.json"].message == "verdict = proved: the proof gives refuted"
-    assert cases["b.json"].path == str(folder / "b.json")
-
-
-@pytest.mark.parametrize("name", JUDGED_FORMATS)
-def test_every_format_has_the_exit_code_and_names_the_file(folder, name):
-    rewrite(folder / "a.json", lambda d: d.update(grade="exact"))
-    done = command("recheck", folder / "a.json", "--format", name)
-    assert done.returncode == 1, done.stderr
-    assert "a.json" in done.stdout
-    assert command("recheck", folder / "x.json", "--format", name).returncode == 2
-
-
 def test_a_genuine_certificate_under_other_words_is_shown_by_what_it_states(folder):
     def boast(data):
         data["claim"].update(id="Riemann", says="All zeros lie on the line.")
@@ -280,27 +249,6 @@ def test_a_genuine_certificate_under_other_words_is_shown_by_what_it_states(fold
     assert "; the author's words: Riemann: “All zeros lie on the line.”" in shown
     (row,) = json.loads(command("recheck", folder / "d.json", "--format", "json").stdout)["certificates"]
     assert (row["statement"], row["comment"]) == ("3 ≤ 1", "All zeros lie on the line.")
-
-
-def long(k):
-    """A true statement of which the first 300 characters do not show k."""
-    terms = ["add", *[["var", f"name{i}"] for i in range(90)], ["num", str(k)]]
-    return certificate(
-        {"kind": "Identity", "left": terms, "right": terms, "variables": []}, {"rule": "normal form"}
-    )
-
-
-def test_long_statements_are_cut_but_told_apart_and_whole_if_wanted(tmp_path):
-    for k in (1, 2):
-        (tmp_path / f"{k}.json").write_text(long(k), encoding="utf-8")
-    first, mark1, second, mark2, *_ = text(recheck(gather([tmp_path]))).splitlines()
-    assert " … (cut) … " in first
-    assert len(first) < 360
-    assert first[20:] == second[20:]
-    assert mark1 != mark2
-    whole = text(recheck(gather([tmp_path]), full=True)).splitlines()
-    assert " + name89 + 1 for all name0" in whole[0]
-    assert " + name89 + 2 for all name0" in whole[2]
 
 
 # A contradiction ------------------------------------------------------------------------------------------

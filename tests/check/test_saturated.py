@@ -20,18 +20,6 @@ REGULATOR = SATURATED.regulator(SATURATED.any_function)[2]
 SINGLE = PLUS.regulator(PLUS.any_function)
 
 
-def test_the_text_says_what_gravity_is_compared_with():
-    text = REGULATOR.text()
-    assert "f = f(A e) by entries" in text
-    assert (
-        "f_load with min(kg |x|, k_i) ≤ f_load L_i |f(A x)|, k_i ≥ |g_i(q) − g_i(p)|, for each joint" in text
-    )
-    assert "c = h(A e) − h(A e − K w) by entries" in SINGLE.text()
-    assert "increasing with a positive slope" in SINGLE.text()
-    text = PID.regulator(PID.any_function).text()
-    assert "f_kg with ‖g(q) − g(p)‖ ‖x‖ ≤ f_kg x·f(x), x = q − p" in text
-
-
 @pytest.mark.parametrize(("statement", "letter"), [(REGULATOR, "Tf"), (SINGLE, "c")])
 def test_what_has_no_derivative_is_no_part_of_V(statement, letter):
     """Probes and increases."""

@@ -17,12 +17,11 @@ from lyapcheck.check.loop.field import BALLS, SPANS, BrokenTree, Span, halves, l
 from lyapcheck.check.loop.schur import Evaluator, proves, proves_part
 from lyapcheck.check.loop.states import State, rate
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.harmonics import christoffel, derivative, harmonics, is_mirrored
+from lyapcheck.check.numbers.harmonics import derivative, is_mirrored
 from lyapcheck.check.numbers.polynomials import dyadic
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.family import named
 from lyapcheck.robots import load
-from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.certified import certify
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.search.schur import SchurProblem
@@ -148,27 +147,6 @@ def test_leaves_cover_the_start(tree, point):
     assert any(all(low <= x <= high for x, (low, high) in zip(point, box, strict=True)) for box in boxes)
     volume = sum(np.prod([high - low for low, high in box]) for box in boxes)
     assert volume == pytest.approx(8.0)
-
-
-@pytest.mark.parametrize("robot", ["buap3", "buap3-small", "reyes-kelly2", "pelican2"])
-def test_harmonics_and_symbols_agree_with_the_numeric_model(robot):
-    model = load(robot)
-    arm = ControlledArm(GainSet("a", 1, (F(1),) * model.n, (F(1),) * model.n), model).arm
-    mass = [[harmonics(entry, model.n) for entry in row] for row in arm.mass]
-    q = np.random.default_rng(3).uniform(-3, 3, model.n)
-
-    def value(terms):
-        angle = {k: float(np.dot(k, q)) for k in terms}
-        return sum(float(a) * np.cos(angle[k]) + float(b) * np.sin(angle[k]) for k, (a, b) in terms.items())
-
-    numeric = NumericModel(model)
-    assert np.allclose([[value(entry) for entry in row] for row in mass], numeric.mass(q), atol=1e-13)
-    h = np.arange(1.0, model.n + 1)
-    C = np.zeros((model.n, model.n))
-    for (i, j, k), terms in christoffel(mass).items():
-        C[i, j] += value(terms) * h[k]
-        C[i, k] += value(terms) * h[j] * (k != j)
-    assert np.allclose(C, numeric.coriolis(q, h), atol=1e-13)
 
 
 def test_mirrors_of_sines_and_cosines_and_their_slopes():

@@ -51,14 +51,6 @@ def test_V_and_its_rate_are_those_of_the_oracle(m, state, eps0):
     assert rate(BENT, controller(m), eps0, state, 64).overlaps(rate(BENT, controller(m), eps0, state, 300))
 
 
-def test_value_and_rate_vanish_at_the_origin():
-    origin = State((F(1), F(2)), (F(0), F(0)), (F(0), F(0)))
-    assert origin.at_origin
-    assert value(ARM, controller(1), F(1, 2), origin).contains(0)
-    assert rate(ARM, controller(1), F(1, 2), origin).contains(0)
-    assert not confirms_positive(ARM, controller(1), F(1, 2), origin)
-
-
 @pytest.mark.parametrize(
     ("eps0", "confirmed"), [("0.9", True), ("0.82", True), ("0.80", False), ("0", False), ("-1", False)]
 )

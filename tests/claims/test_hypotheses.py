@@ -51,13 +51,6 @@ def test_what_is_not_decided_is_not_said_to_be(hypothesis):
     assert list(remarks(implies(reals("x"), [hypothesis], CONCLUSION), propose)) == [UNMET]
 
 
-def test_a_small_variable_and_parts_are_seen():
-    R = Reals()
-    k, small = R.positive("k e")
-    never, some = (R.for_small("e", small * k < 1, [k <= 2, k >= least]) for least in (3, 1))
-    assert list(remarks(all_of(right=some, left=never), propose)) == [f"left: {NOTHING}"]
-
-
 BODY = """
 from lyapcheck.claims import Proof, implies, reals, sqrt, var
 proof, x = Proof("mine", "Mine"), var("x")
@@ -94,14 +87,6 @@ def test_every_format_says_so_and_the_verdict_stays(tmp_path, in_this_process):
         csv.DictReader(io.StringIO(result.written("csv"))),
     ):
         assert [row["reason"] for row in claims] == [NOTHING, UNMET, ""]
-
-
-def test_an_open_claim_of_nothing_is_told_so_beside_what_to_try(tmp_path, in_this_process):
-    path = tmp_path / "mine.py"
-    path.write_text(BODY, encoding="utf-8")
-    (row,) = run_proof(path, (1,), n=1, only=("open",)).claims
-    assert row.verdict is Verdict.UNDECIDED
-    assert row.decision.reason.endswith(f"0 <= (x - y)**2; {NOTHING}")
 
 
 NESTED = {

@@ -7,14 +7,11 @@ from pathlib import Path
 import pytest
 
 from lyapcheck import load_robot
-from lyapcheck.cli.commands import load
-from lyapcheck.cli.parser import Parser
 from lyapcheck.control.gains import read_gain_file
 from tests.helpers.command import invoke
 from tests.helpers.urdf_texts import TWO
 
 GAINS = 'robot = "two.urdf"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.1]\n'
-TAKING = ("robot", "tune", "gate", "epsilon", "bounds", "simulate", "check", "derive", "report")
 
 
 @pytest.fixture(autouse=True)
@@ -22,14 +19,6 @@ def _place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "two.urdf").write_text(TWO, encoding="utf-8")
     (tmp_path / "g.toml").write_text(GAINS, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-
-
-@pytest.mark.parametrize("name", TAKING)
-def test_every_command_that_takes_an_arm_takes_a_choice(name: str) -> None:
-    parser = Parser(prog=name)
-    load(name).arguments(parser)
-    options = {option for action in parser.actions for option in action.option_strings}
-    assert {"--base", "--tip", "--fixed", "--xacro"} <= options
 
 
 @pytest.mark.parametrize("choice", [("--tip", "upper"), ("--fixed", "elbow=0.4"), ("--fixed=elbow=0",)])

@@ -1,6 +1,5 @@
 """The command line as a whole: bad input, help, versions, faults and readers that go away."""
 
-import io
 import os
 import re
 import subprocess
@@ -279,11 +278,6 @@ def test_the_same_bytes_in_every_locale():
     assert "γ" in plain.stdout.decode("utf-8")
 
 
-def test_streams_that_are_not_files_are_left_alone(run, monkeypatch):
-    monkeypatch.setattr(sys, "stderr", io.StringIO())
-    assert run("--version")[0] == 0
-
-
 @pytest.mark.parametrize(
     "words", one_in(2, [["table", "--m", "1"], ["gate", TABLE2], ["gate"], ["explain", "--help"]])
 )
@@ -391,13 +385,6 @@ def test_bash_completes_commands_options_choices_and_files(words, completed, run
     assert done.stdout.split() == completed.split()
 
 
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_every_shell_is_told_every_command(shell, run):
-    code, script, err = run("--completion", shell)
-    assert (code, err) == (0, "")
-    assert all(name in script for name in NAMES)
-
-
 @pytest.mark.parametrize("files", [["--strict", TABLE2], [TABLE2, "--strict"], ["--strict", "--", TABLE2]])
 def test_options_stand_before_arguments_or_behind_them(files, run):
     assert run("gate", "--format", "csv", *files) == run("gate", TABLE2, "--strict", "--format=csv")
@@ -418,9 +405,3 @@ def test_files_that_an_earlier_run_left_beside_the_certificates_are_named_and_st
     note = f"note: {tmp_path} has files that this run did not write, and recheck {tmp_path} judges them, too"
     assert f"{note}: former.10.json\n" in run(*command)[2]
     assert (tmp_path / "former.10.json").read_text(encoding="utf-8") == "{}"
-
-
-def test_what_begins_with_a_minus_and_a_digit_is_a_value(run):
-    code, out, _ = run("simulate", TABLE2, "--target", "-45,0,90", "--time", "0.01")
-    assert code == 0
-    assert "to (-45, 0, 90)° in 0.01 s" in out

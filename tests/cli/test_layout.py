@@ -8,18 +8,15 @@ from unicodedata import combining
 
 import pytest
 
-from lyapcheck.cli.commands import load
-from lyapcheck.cli.parser import Parser
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Bullets, Paragraph, Section, Table
-from lyapcheck.output.text import PROSE, Depth, View, render
+from lyapcheck.output.text import PROSE, View, render
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 
 ROOT = Path(__file__).parents[2]
 TABLE2, PANDA = str(ROOT / "proofs/table2.toml"), str(ROOT / "examples/panda_gains.toml")
 TARGETS = "--m", "1", "--overshoot", "5", "--settle", "2", "--stability", "proof"
-QUICK = "--max-boxes", "40", "--starts", "1"
 ASKED = {
     "gate, accepted": ("gate", "gains.toml"),
     "gate, rejected": ("gate", "saturating.toml"),
@@ -199,21 +196,6 @@ def test_a_table_of_gains_loses_no_joint():
     for width in (80, 100):
         shown = render(document, View(width=width))
         assert all(f"panda_joint{i}" in shown for i in range(1, 8))
-
-
-@pytest.mark.parametrize(
-    "name", ["gate, several sets", "table", "recheck", "robot, assumptions", "explain", "derive", "export"]
-)
-def test_quiet_is_the_first_line(name):
-    done, document = answered(name, "-q")
-    assert done.stdout == render(document, View(Depth.QUIET))
-
-
-@pytest.mark.parametrize("command", sorted({words[0] for words in ASKED.values()}))
-def test_every_command_that_answers_can_be_quiet(command):
-    parser = Parser(prog=command)
-    load(command).arguments(parser)
-    assert {"-q", "-v"} <= {option for action in parser.actions for option in action.option_strings}
 
 
 @pytest.mark.slow

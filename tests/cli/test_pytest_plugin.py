@@ -14,12 +14,6 @@ GOOD = 'robot = "buap3"\n\n[[gains]]\nname = "mine"\nm = 1\nkp = [28, 60, 5]\nkv
 BAD = GOOD.replace("60", "70")
 
 
-def test_accepted_gains_are_handed_back(tmp_path):
-    (tmp_path / "gains.toml").write_text(GOOD, encoding="utf-8")
-    (result,) = assert_accepted(tmp_path / "gains.toml")
-    assert (result.name, result.verdict) == ("mine", "accepted")
-
-
 def test_rejected_gains_say_where_why_and_what_to_change(tmp_path):
     (tmp_path / "gains.toml").write_text(BAD, encoding="utf-8")
     with pytest.raises(AssertionError) as caught:
@@ -36,18 +30,6 @@ def test_undecided_gains_are_no_pass(tmp_path):
     with pytest.raises(AssertionError, match="undecided"):
         assert_accepted(tmp_path / "gains.toml")
     assert_accepted(tmp_path / "gains.toml", conditions=("19",))
-
-
-def test_conditions_choose_what_must_hold():
-    with pytest.raises(AssertionError):
-        assert_accepted(paper_gain_file())
-    assert len(assert_accepted(paper_gain_file(), conditions=("10", "10p"))) == 3
-
-
-def test_a_certificate_can_take_the_place_of_19():
-    assert len(assert_accepted(paper_gain_file(), conditions=("10p", "scalar"))) == 3
-    with pytest.raises(AssertionError, match=r"undecided: \(global\) all: h is unbounded"):
-        assert_accepted(paper_gain_file("table2_pd"), conditions=("global",))
 
 
 @pytest.mark.parametrize("conditions", [(), ("11",), ("10p", "all")])

@@ -16,7 +16,6 @@ from lyapcheck import load_robot, run_simulation
 from lyapcheck.control.gains import GainFile, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import limits_for
 from lyapcheck.errors import InputError
-from lyapcheck.family.base import names as families
 from lyapcheck.files.decimals import Written, decimal_text, places_of, round_down, written
 from lyapcheck.output.escapes import printable
 from tests.helpers.command import invoke, lyapcheck
@@ -146,13 +145,6 @@ def test_every_way_to_write_toml_is_read(file, text):
     last = result.place(result.gains[-1], "kv", 0)
     assert last is not None
     assert text.lstrip("\ufeff").splitlines()[last.line - 1][last.column - 1] in "01"
-
-
-@pytest.mark.parametrize("family", [f for f in families() if f != "hyperbolic"])
-def test_other_families_need_no_m(file, family):
-    file.write_text(GOOD.replace("m = 2", f'family = "{family}"'))
-    gains = read_gain_file(file).gains[0]
-    assert (gains.family, gains.m) == (family, None)
 
 
 def test_the_gains_of_the_paper_travel_with_lyapcheck():
@@ -397,17 +389,6 @@ def test_an_unknown_arm_is_a_mistake_on_its_line(file):
     assert str(problem).isprintable()
 
 
-def test_an_arm_that_replaces_the_unknown_one_is_used(file):
-    file.write_text(changed("buap3", "nope"))
-    assert limits_for(read_gain_file(file), "buap3").n == 3
-
-
-def test_gains_for_another_arm_are_refused(file):
-    file.write_text(changed("buap3", "pelican2"))
-    with pytest.raises(InputError, match=r"gains\.toml:6: .*3 joints, but the arm pelican2 has 2"):
-        limits_for(read_gain_file(file))
-
-
 def test_without_an_arm_the_bounds_must_say_everything(file):
     bounds = "[bounds]\ntorque = [9, 9, 9]\ngravity = [0, 1, 2]\n"
     file.write_text(changed('robot = "buap3"', "") + bounds)
@@ -508,18 +489,6 @@ def read_or_refuse(path, content):
 @given(st.one_of(SHUFFLED, SPLICED).map(lambda text: text.encode("utf-8", "surrogatepass")))
 def test_any_text_is_read_or_refused(tmp_path_factory, content):
     read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
-
-
-@given(st.binary(max_size=200))
-def test_any_bytes_are_read_or_refused(tmp_path_factory, content):
-    read_or_refuse(tmp_path_factory.getbasetemp() / "any.toml", content)
-
-
-@given(letters())
-def test_printable_text_is_one_line(text):
-    shown = printable(text)
-    assert shown.isprintable()
-    assert printable(shown) == shown
 
 
 def test_python_functions_take_paths(tmp_path):

@@ -194,14 +194,6 @@ def test_the_seams_of_h_for_every_m(m: int, compiled: Callable[..., Compiled]) -
             one.hold([0.0], [0.0], [math.copysign(min(x, 4096.0), w)])
 
 
-def test_quarters_of_turns(compiled: Callable[..., Compiled]) -> None:
-    one = compiled()
-    for k in [*range(-2607, 2607, 7), 2607, 683_565_275]:
-        for q in (k * math.pi / 2, (k + 0.5) * math.pi / 2):
-            for near in (q, math.nextafter(q, -1e9), math.nextafter(q, 1e9)):
-                one.hold([near], [0.0], [near])
-
-
 @pytest.mark.parametrize("key", but(list(ARMS)[:2], ARMS))
 def test_it_is_the_torque_of_the_simulation_and_of_the_arm(
     compiled: Callable[..., Compiled], key: str
@@ -221,17 +213,6 @@ def test_it_is_the_torque_of_the_simulation_and_of_the_arm(
             pull = model.fixed().at(sines, cosines, to_arb).gravity()
             still = controlled.torque(q, [0.0] * one.n, list(q))
             assert all(a.overlaps(b) for a, b in zip(pull, still, strict=True))
-
-
-def test_the_steps_are_those_of_the_experiment(tmp_path: Path) -> None:
-    one = Compiled(replace(of_file("buap3"), loop=replace(LOOP, period=Fraction(1, 400))), tmp_path)
-    state, goal = one.State(), [0.7, 0.7, 1.5]
-    run = lyapcheck.run_experiment(one.one.gains, "buap3", goal, T=0.5)
-    line = np.array([2 * math.pi / count for count in load("buap3").encoder if count])
-    for q, tau in list(zip(run.q, run.tau, strict=True))[:-1]:  # the last torque is still that before
-        flag, sent = one.step(state, line * np.floor(q / line + 0.5), goal)
-        assert flag == 0
-        assert np.all(np.abs(sent - tau) <= np.array(one.bounds[ANGLES[0]], dtype=float))
 
 
 READING = st.tuples(st.floats(-0.4, 0.4), st.booleans())

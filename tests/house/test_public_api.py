@@ -91,12 +91,6 @@ def homes_with_examples():
     return [name for name, file in files if file.is_file() and ">>> " in file.read_text(encoding="utf-8")]
 
 
-def test_gate_table_and_tune_have_examples():
-    assert {"answers.table", "answers.tune", "answers.tune.targets", "answers.explain"} <= set(
-        homes_with_examples()
-    )
-
-
 @pytest.mark.parametrize("home", but(["answers.table"], homes_with_examples()))
 def test_the_examples_of_the_documentation_are_true(home):
     failed, tried = doctest.testmod(import_module(f"lyapcheck.{home}"))

@@ -1,6 +1,7 @@
 """Files that users name are opened by the bounded readers alone."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,7 @@ def opened(tree, function=""):
         yield from opened(node, inner)
 
 
+@cache
 def places():
     return {
         (path.relative_to(PACKAGE).as_posix(), function)

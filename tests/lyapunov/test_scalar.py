@@ -109,14 +109,6 @@ def test_the_program_finds_nearly_the_largest_eps0(scale):
     assert not certifies(form, result.eps0 * Fraction(1_000_001, 1_000_000))
 
 
-def test_without_friction_or_bound_there_is_a_reason():
-    without = scalar_epsilon(ScalarForm(Fraction(1), Fraction(0), Fraction(1), Fraction(1)))
-    assert without.eps0 is None
-    assert "friction" in without.reason
-    assert scalar_epsilon(None).eps0 is None
-    assert "unbounded" in scalar_epsilon(None).reason
-
-
 def test_published_interval_is_empty_exactly_without_19():
     bounds = RobotBounds(Fraction(3), Fraction(1, 3), Fraction(2, 5), Fraction(2))
     constants = family.hyperbolic(1).constants()

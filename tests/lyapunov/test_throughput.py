@@ -10,9 +10,8 @@ from lyapcheck import family, robots
 from lyapcheck.lyapunov import loop as loop_module
 from lyapcheck.lyapunov import loop as writer
 from lyapcheck.lyapunov import numeric as numeric_module
-from lyapcheck.lyapunov.compiler import OFF, VECTORS, compiler
-from lyapcheck.lyapunov.loop import loop
-from lyapcheck.lyapunov.numeric import LARGE, LyapunovNumeric
+from lyapcheck.lyapunov.compiler import VECTORS, compiler
+from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.shares import one_in
 
@@ -130,30 +129,6 @@ def test_states_beyond_all_sense_get_the_arrays_answer(value, which, few):
             assert compiled[345] == pytest.approx(by_numpy[345], rel=1e-9)
 
 
-def test_small_batches_do_not_depend_on_a_compiler():
-    """What reports print comes from small batches: the same bytes with and without a compiler."""
-    kept = lyapunov("buap3", family.hyperbolic(3))
-    columns = states(3, 2001)
-    assert kept.engine(2001) == "numpy"
-    assert np.array_equal(kept.rate(*columns), by_arrays(kept, "rate", *columns))
-
-
-def test_shapes_are_broadcast():
-    kept = lyapunov("reyes-kelly2", family.hyperbolic(2))
-    q, e, _ = (x.reshape(2, -1, 2) for x in states(2, 2 * LARGE))
-    values = kept.V(q, e, np.zeros(2))
-    assert values.shape == q.shape[:-1]
-    assert values[1, 7] == pytest.approx(float(kept.V(q[1, 7], e[1, 7], np.zeros(2))), rel=1e-13)
-
-
-def test_without_a_compiler_numpy_serves_everything(monkeypatch):
-    monkeypatch.setenv(OFF, "1")
-    kept = lyapunov("reyes-kelly2", family.hyperbolic(1))
-    columns = states(2, LARGE)
-    assert kept.engine() == "numpy"
-    assert np.array_equal(kept.V(*columns), by_arrays(kept, "V", *columns))
-
-
 def test_too_long_a_formula_is_left_to_arrays(monkeypatch, few, empty_cache):
     kept = lyapunov("reyes-kelly2", family.hyperbolic(2))
     assert kept.engine(few) == EXPECTED
@@ -184,28 +159,3 @@ def test_loops_call_functions_of_vectors_and_no_power(m, few, empty_cache):
     if VECTORS:
         assert vectors == {"sin", "cos", "expm1", "log", "log1p"}
         assert not scalars
-
-
-def test_loading_a_loop_leaves_subnormal_numbers_alone(few, empty_cache):
-    assert lyapunov("pendulum1", family.hyperbolic(2)).engine(few) == EXPECTED
-    assert np.all(np.full(8, 1e-310) * 0.5 > 0)
-
-
-@pytest.mark.parametrize("n", [1, 2, 5])
-def test_a_loop_takes_arrays_of_any_strides(n):
-    def formula(code, inputs):
-        (x, p), of = inputs, code.arithmetic
-        return [of.sin(x[0]) * p[0], x[-1] + p[1]]
-
-    made = loop(("strides", n), (n, 2), 2, formula)
-    assert (made is None) == (compiler() is None)
-    if made is not None:
-        rows = np.random.default_rng(n).uniform(-3, 3, (1000, n))
-        p = np.broadcast_to(np.array([[2.0], [0.5]]), (2, 1000))
-        expected = np.stack([2 * np.sin(rows[:, 0]), rows[:, -1] + 0.5])
-        for x in (rows.T, np.ascontiguousarray(rows.T), rows[::-1].copy()[::-1].T):
-            assert np.allclose(made(x, p), expected, rtol=1e-15)
-        kept = np.zeros((3, 2000))
-        made(rows.T, p, out=kept[1:, ::2])
-        assert np.allclose(kept[1:, ::2], expected, rtol=1e-15)
-        assert not kept[:, 1::2].any()

@@ -63,13 +63,6 @@ def test_what_the_file_of_init_says_leads_to_gains_that_commands_take(tmp_path, 
     assert invoke("simulate", "tuned.toml", "--target", "45,45", "--time", "3").exit_code == 0
 
 
-def test_gains_of_tune_break_no_promise_in_a_run(tmp_path):
-    out = tmp_path / "gains.toml"
-    assert invoke("tune", "pendulum1", "--m", "1", "--out", str(out)).exit_code == 0
-    assert invoke("gate", str(out)).exit_code == 0
-    assert invoke("simulate", str(out), "--target", "45", "--time", "0.5").exit_code == 0
-
-
 # --- advice of the gate --------------------------------------------------------------------------
 
 

@@ -3,9 +3,7 @@
 from fractions import Fraction
 
 import pytest
-from flint import arb
 
-from lyapcheck.check.numbers.balls import hyperbolic_constants, precision
 from lyapcheck.claims import exp, for_all, log, run_proof, var
 from lyapcheck.claims.procedures import propose
 
@@ -29,24 +27,6 @@ def test_every_claim_about_all_m_is_proved_at_once():
     rows = run_proof("every_m.py", (2,)).claims
     assert {row.decision.verdict.value for row in rows} == {"proved"}
     assert {row.m for row in rows} == {None}
-
-
-def test_the_second_order_term_of_gamma_lies_between_the_two_that_are_claimed():
-    """At m = 1000 it is 0.102 (ln 4m/m)²: above 3/32, and a bound of 1/10 would be false."""
-    with precision(160):
-        step = arb(4000).log() / 1000
-        share = hyperbolic_constants(1000, 30).gamma.to_arb() / arb(2).sqrt()
-        excess = share - 1 + (1 + arb(4000).log()) / 4000
-        assert step**2 * 3 / 32 < excess
-        assert excess > step**2 / 10
-
-
-def test_rho_comes_as_close_to_its_expansion_as_is_claimed():
-    """The distance times m² tends to 3/4: no smaller constant would do, and −1/2 and 9/16 are right."""
-    for m in (100, 1000, 10_000, 100_000):
-        rho = hyperbolic_constants(m, 40).rho.mid
-        scaled = (m - Fraction(1, 2) + Fraction(9, 16 * m) - rho) * m * m
-        assert 0 < Fraction(3, 4) - scaled < Fraction(6, 5 * m)
 
 
 @pytest.mark.parametrize(

@@ -5,25 +5,24 @@ import pytest
 from lyapcheck.claims import run_proof
 from lyapcheck.errors import InputError
 from lyapcheck.verdicts import Verdict
-from tests.helpers.small_proofs import small_proof
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
 
-@pytest.fixture(scope="module", params=["small", pytest.param("paper", marks=pytest.mark.slow)])
-def result(request, tmp_path_factory):
-    """For two joints and m = 1, or for the paper's arm and m = 1, 2, 3."""
-    if request.param == "small":
-        return small_proof(tmp_path_factory, "tracking.py")
+@pytest.fixture(scope="module")
+def result(in_this_process):
+    """For the paper's arm and m = 1, 2, 3."""
     return run_proof("tracking.py", ms=(1, 2, 3))
 
 
+@pytest.mark.slow
 def test_every_step_is_proved_for_the_gains_of_the_paper(result):
     assert {row.verdict for row in result.claims} == {Verdict.PROVED}
     concluded = {(row.id, row.m) for row in result.claims if "uniformly asymptotically" in row.statement}
     assert concluded == {(name, m) for name in ("21", "arm.21") for m in result.ms}
 
 
+@pytest.mark.slow
 def test_the_conclusion_needs_bounds_without_time_on_both_sides(result):
     uses = {row.id: set(row.uses) for row in result.claims}
     assert {"21.below", "21.above", "21.form", "21.loop", "21.small"} <= uses["21"]

@@ -85,12 +85,6 @@ def test_a_printed_model_is_read_exactly(tmp_path):
     assert (arm.mass, arm.potential) == (built_in.mass, built_in.potential)
 
 
-def test_sines_of_sums_and_powers(tmp_path):
-    """s12 = sin(q1 + q2), and a power of it."""
-    arm = load(tmp_path, PRINTED.replace('[1, "b c2"]', '[1, "b s12^2"], [1, "b c12^2"]'))
-    assert str(arm.mass[0][1]) == "93/500"
-
-
 def test_gravity_is_not_told_to_be_in_a_potential_that_is_not_there(tmp_path):
     told = problems(tmp_path, CHAIN.replace("[[links]]", "[[joint]]"))
     assert any("links: is missing" in one for one in told)
@@ -103,20 +97,6 @@ def test_ranges_become_parameters(tmp_path):
     sin, cos = [Fraction(0)] * 2, [Fraction(1)] * 2
     heavy = arm.at(sin, cos, Fraction, {"arm_mass": Fraction(2)}).mass()
     assert heavy[1][1] == Fraction("0.1") + 2 * Fraction("0.09")
-
-
-def test_a_range_of_friction_is_no_parameter_of_the_inertia(tmp_path):
-    arm = load(tmp_path, CHAIN.replace("viscous = 0.25", "viscous = { value = 0.25, low = 0.2, high = 0.3 }"))
-    assert not arm.parameters
-    assert arm.viscous[1].bounds == (Fraction("0.2"), Fraction("0.3"))
-
-
-def test_an_assumption_is_told_in_a_sentence(tmp_path):
-    assumed = 'viscous = { value = 0.25, assumed = true, low = 0.2, high = 0.3, note = "a guess" }'
-    arm = load(tmp_path, CHAIN.replace("viscous = 0.25", assumed))
-    assert arm.assumptions == (
-        "arm_viscous = 0.25 N·m·s/rad is assumed, between 0.2 and 0.3 N·m·s/rad: a guess",
-    )
 
 
 # Each row: the text, what to replace in it, by what, and what the message must say (with its line).
@@ -179,14 +159,6 @@ def test_all_problems_at_once(tmp_path):
 
 def test_one_mistake_is_told_once(tmp_path):
     assert len(problems(tmp_path, CHAIN.replace("axis = [0, 1, 0]", "axis = [0, 2, 1]"))) == 1
-
-
-def test_an_axis_may_have_any_rational_length(tmp_path):
-    arms = []
-    for axis in ("[0, 1, 0]", "[0, 2.5, 0]"):
-        (tmp_path / "arm.toml").write_text(CHAIN.replace("axis = [0, 1, 0]", f"axis = {axis}"))
-        arms.append(robots.load(tmp_path / "arm.toml"))
-    assert arms[0].mass == arms[1].mass
 
 
 def test_more_joints_than_are_understood(tmp_path):

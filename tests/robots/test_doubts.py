@@ -49,12 +49,6 @@ def test_what_is_doubted(tmp_path: Path, old: str, new: str, words: str) -> None
     assert robots.load(tmp_path / "sound.urdf").doubts == ()
 
 
-def test_the_arm_of_init_raises_no_doubt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    run(["init", "bench"])
-    assert robots.load("bench/arm.toml").doubts == ()
-
-
 @pytest.mark.parametrize(
     ("gravity", "words"), [("[0, 0, 9.81]", "Gravity points upwards"), ("[0, 0, -981]", "that of no place")]
 )

@@ -1,7 +1,6 @@
 """Numbers of an arm within ± a share: what gets a range, and what a certificate over it is about."""
 
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -30,10 +29,6 @@ def test_numbers_without_a_range_get_one_and_the_others_keep_theirs(name):
     assert spread.fixed().mass == exact.fixed().mass
 
 
-def test_no_spread_is_the_arm_itself():
-    assert load("reyes-kelly2", spread=F(0)) is load("reyes-kelly2")
-
-
 def test_what_the_inertia_does_not_depend_on_is_no_side_of_the_boxes():
     model = load("reyes-kelly2", spread=F(1, 20))
     loop = ControlledArm(GAINS[0], model, ranges=True).loop(F(1, 10))
@@ -49,15 +44,3 @@ def test_percentages_out_of_range_are_refused(percent):
     result = invoke("epsilon", gains, f"--spread={percent}")
     assert isinstance(result.exception, InputError)
     assert "above 0 and below 100" in str(result.exception)
-
-
-def test_masses_and_friction_of_urdf_files_are_spread(tmp_path):
-    urdf = Path(__file__).parents[2] / "examples" / "ur5.urdf"
-    overlay = tmp_path / "arm.toml"
-    joint = '[[joints]]\nname = "elbow_joint"\nviscous = 2\n'
-    overlay.write_text(f'title = "UR5"\nurdf = "{urdf}"\n{joint}')
-    for file in (urdf, overlay):
-        model = load(file, spread=F(1, 20))
-        assert len(model.parameters) == 6
-        assert all(x.bounds == (F(19, 20) * x.value, F(21, 20) * x.value) for x in model.parameters.values())
-    assert model.viscous[2].bounds == (F("1.9"), F("2.1"))

@@ -34,17 +34,6 @@ def test_numpy_agrees_with_the_polynomials(arm):
         np.testing.assert_allclose(gravity, arm.at(sin, cos, float).gravity(), rtol=1e-13, atol=1e-13)
 
 
-def test_numpy_batches_any_leading_axes(arm):
-    q, x = states(arm.n, 24)
-    fast, n = NumericModel(arm), arm.n
-    grid_q, grid_x = q.reshape(2, 3, 4, n), x.reshape(2, 3, 4, n)
-    assert fast.mass(grid_q).shape == (2, 3, 4, n, n)
-    np.testing.assert_array_equal(fast.coriolis(grid_q, grid_x).reshape(24, n, n), fast.coriolis(q, x))
-    np.testing.assert_allclose(fast.gravity(grid_q)[1, 2, 3], fast.gravity(q[-1]), rtol=1e-14)
-    assert fast.potential(grid_q).shape == (2, 3, 4)
-    assert fast.mass(q[:0]).shape == (0, n, n)
-
-
 def test_casadi_agrees_with_numpy(arm):
     q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
     outputs = [graph.mass(arm, q), graph.coriolis(arm, q, x), graph.gravity(arm, q), graph.potential(arm, q)]

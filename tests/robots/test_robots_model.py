@@ -1,6 +1,5 @@
 """What every robot model must satisfy: the built-in arms and random chains of links, exactly."""
 
-import pickle
 from fractions import Fraction
 from itertools import product
 
@@ -15,11 +14,6 @@ from tests.helpers.costly import costly
 from tests.helpers.robot_cases import BUILT_IN, angles, model_of, plain_links, rates
 
 models = st.one_of(st.sampled_from(BUILT_IN).map(robots.load), plain_links().map(model_of))
-
-
-@pytest.fixture(params=BUILT_IN)
-def arm(request):
-    return robots.load(request.param)
 
 
 def check_symmetric(model):
@@ -40,11 +34,6 @@ def check_exchange(model):
         assert c[i][j][k] == c[i][k][j]
 
 
-@pytest.mark.parametrize("check", [check_symmetric, check_mass_rate, check_exchange])
-def test_identities_of_built_in_arms(arm, check):
-    check(arm)
-
-
 @pytest.mark.slow
 @costly
 @given(plain_links().map(model_of))
@@ -62,32 +51,6 @@ def test_mass_is_positive_definite(data):
     mass = model.at(sin, cos, Fraction).mass()
     w = data.draw(rates(model.n).filter(any))
     assert sum(w[i] * mass[i][j] * w[j] for i, j in product(range(model.n), repeat=2)) > 0
-
-
-def test_pickle_brings_the_same_model_back(arm):
-    copy = pickle.loads(pickle.dumps(arm))
-    assert (copy.name, copy.mass, copy.gravity, copy.numbers) == (
-        arm.name,
-        arm.mass,
-        arm.gravity,
-        arm.numbers,
-    )
-
-
-def test_parameters_default_to_nominal_and_can_be_given():
-    arm = robots.load("buap3")
-    sin, cos = [Fraction(0)] * 3, [Fraction(1)] * 3
-    assert arm.at(sin, cos, Fraction).mass()[0][0] == Fraction(1, 2)
-    assert arm.at(sin, cos, Fraction, {"base_inertia": Fraction(2)}).mass()[0][0] == 2
-
-
-def test_fixed_removes_the_parameters():
-    arm = robots.load("buap3")
-    fixed = arm.fixed(base_inertia=Fraction(3, 4))
-    sin, cos = [Fraction(0)] * 3, [Fraction(1)] * 3
-    assert not fixed.parameters
-    assert fixed.at(sin, cos, Fraction).mass()[0][0] == Fraction(3, 4)
-    assert arm.fixed().at(sin, cos, Fraction).mass() == arm.at(sin, cos, Fraction).mass()
 
 
 def test_fixing_an_unknown_parameter_is_refused():

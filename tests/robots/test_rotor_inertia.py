@@ -125,14 +125,6 @@ def test_certificates_name_a_rotor_only_where_there_is_one(
         from_json(ChainAbove, written, "statement")
 
 
-def test_ranges_become_parameters(pair: tuple[robots.RobotModel, robots.RobotModel], tmp_path: Path) -> None:
-    arm = robots.vary.varied(pair[1], (robots.vary.Vary.parsed("rotor_inertia=-50%..+50%"),))
-    key = f"{arm.joints[0]}_rotor_inertia"
-    assert arm.parameters[key].bounds == (Fraction(1, 4), Fraction(3, 4))
-    low = NumericModel(arm, {key: Fraction(1, 4)}).mass(np.zeros(4))
-    assert NumericModel(arm).mass(np.zeros(4))[0, 0] - low[0, 0] == pytest.approx(0.25)
-
-
 BROKEN = [
     ("-0.1", "must be zero or positive"),
     ("{ rotor = 1e-5 }", "is missing"),

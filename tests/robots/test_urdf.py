@@ -58,16 +58,6 @@ def test_friction_limits_and_their_lines(tmp_path: Path) -> None:
     assert arm.numbers["upper_mass"].source == "arm.urdf, line 5"
 
 
-def test_what_the_file_does_not_say_is_told(tmp_path: Path) -> None:
-    arm = load(tmp_path, TWO.replace('<dynamics damping="0.25"/>', ""))
-    printed = "\n".join(arm.assumptions)
-    assert arm.viscous[1].value == 0
-    assert "elbow_viscous = 0 N·m·s/rad is assumed: the file gives no damping" in printed
-    assert "gravity_z = -9.81 m/s² is assumed" in printed
-    assert "No torque limit is known where the file has none or 0: elbow" in printed
-    assert "rounded by less than 1e-15 rad: joint flange" in printed
-
-
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
@@ -128,12 +118,6 @@ def compare(arm: robots.RobotModel, other: Arm) -> None:
 
 
 # The chain -------------------------------------------------------------------------------------------------
-
-
-def test_a_tip_on_the_way_holds_what_is_behind_it(tmp_path: Path) -> None:
-    short = load(tmp_path, TWO, "upper")
-    assert short.joints == ("shoulder",)
-    assert at_zero(short)[0][0][0] == at_zero(load(tmp_path, TWO))[0][0][0]
 
 
 def test_a_tip_is_for_urdf_files_only() -> None:

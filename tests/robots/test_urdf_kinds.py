@@ -308,13 +308,6 @@ def test_every_advice_ends_in_an_arm(tmp_path: Path, name: str, branches: list[s
         assert not waiting
 
 
-def test_a_last_link_without_mass_is_named_with_an_arm_that_loads(tmp_path: Path) -> None:
-    text = tree(ARM).replace(f'<link name="a3">{BODY_OF}', '<link name="a3">')
-    with pytest.raises(InputError, match=r"a joint a3 that moves no mass.*a3 \(line 1\).*--tip a2") as caught:
-        load(tmp_path, text)
-    assert load(tmp_path, text, next(advised(caught.value))).joints == ("a1", "a2")
-
-
 def test_joints_are_held_where_they_are_asked_to_be(tmp_path: Path) -> None:
     """A held joint is a fixed one whose origin has its motion in it."""
     text = tree("root:r a1,p a2,r a3")

@@ -9,15 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune.search import tune_for
-from lyapcheck.answers.tune.trial import Trials, Wishes
-from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.limits import varied_limits
 from lyapcheck.errors import InputError
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import Vary, corners, corners_text, outside
-from lyapcheck.simulate.task import PAPER_TASK
 from tests.helpers.arm_texts import PLANAR
 
 UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
@@ -157,47 +152,6 @@ def test_a_name_has_one_range():
 def test_the_range_of_one_number_goes_before_that_of_all_in_any_order(order):
     model = varied("buap3", *("viscous=-30%..+0%", "base_viscous=0.4..0.5")[::order])
     assert [number.bounds[0] for number in model.viscous] == [F("0.4"), F("1.6016"), F("0.2842")]
-
-
-def test_the_gate_judges_by_the_worst_and_says_what_it_costs():
-    """λmin(B) falls by 30 %, so that k_v = 0.233 breaks (19); stability is proved over the ranges."""
-    file = read_gain_file(paper_gain_file())
-    limits = varied_limits("buap3", (Vary.parsed("viscous=-30%..+0%"),))
-    answer = gate(file, arms={"buap3": limits})
-    assert [one.standing for one in answer] == ["breaks (19), stability proved otherwise"] * 3
-    assert "--vary viscous=-30%..0%: λmin(B) 0.2842 instead of 0.406 N·m·s/rad" in str(answer)
-    certificate = answer[0].stable
-    assert certificate is not None
-    assert tuple(certificate.judgement.statement.viscous[0]) == (F("0.2842"), F("0.406"))
-    assert certificate.judgement.statement.parameters
-    assert certificate.value < gate(file)[1].stable.value
-    accepted = gate(file, deciding=("10p", "scalar"), arms={"buap3": limits})
-    assert [one.verdict for one in accepted] == ["accepted"] * 3
-
-
-@pytest.mark.slow
-def test_tuning_counts_the_worst_arm():
-    bench = Trials(Wishes(overshoot=5, settle=1.5), (PAPER_TASK,), ("proof",))
-    result = tune_for("buap3", bench, [1], varies=(Vary.parsed("base_inertia=0.3..0.7"),))
-    assert result.arms == "the nominal arm and all 2 corners of the ranges"
-    assert f"each on {result.arms}" in " ".join(str(result).split())
-
-
-@pytest.mark.parametrize(
-    ("name", "texts", "expected"),
-    [
-        ("buap3", ("viscous=-30%..+0%",), ()),
-        ("buap3", ("viscous=+100%..+200%",), ("base_viscous", "shoulder_viscous", "elbow_viscous")),
-        ("buap3", ("elbow_viscous=5..6", "coulomb=-10%..10%"), ("elbow_viscous",)),
-        ("buap3", ("shoulder_viscous=3..3",), ("shoulder_viscous",)),
-        (UR5, ("payload=0..3",), ()),
-        (UR5, ("payload=1..3",), ("wrist_3_joint_mass",)),
-        (UR5, ("payload=2..2",), ("wrist_3_joint_mass",)),
-        (UR5, ("mass=10%..20%", "payload=0..1"), tuple(f"{joint}_mass" for joint in robots.load(UR5).joints)),
-    ],
-)
-def test_values_of_the_file_outside_their_range_are_named(name, texts, expected):
-    assert outside(robots.load(name), varied(name, *texts)) == expected
 
 
 @given(low=st.integers(-99, 300), width=st.integers(0, 300))

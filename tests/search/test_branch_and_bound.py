@@ -9,7 +9,6 @@ import pytest
 
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop.field import leaves
-from lyapcheck.check.loop.schur import proves
 from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.robots import load
@@ -126,23 +125,6 @@ def test_errors_are_left_to_the_tail_from_its_radius_on(direction, monkeypatch):
     for share, left in ((0.5, False), (0.999, False), (1.001, True)):
         point = np.array([0.0, *(share * task.loop.radius * np.array(direction))])
         assert task.proved(np.stack([point, point])[None]).item() is left
-
-
-def test_certified_epsilon_comes_near_the_falsified_and_not_beyond():
-    result = certified_epsilon(controlled("reyes-kelly2", 0), FALSIFIED[0] * F(11, 10), 50_000)
-    assert result.proof is not None
-    assert result.eps0 is not None
-    assert F(9, 10) < result.eps0 / FALSIFIED[0] < 1
-    assert proves(result.proof.loop, result.proof.by.tree)
-    assert "more boxes would not help" in result.reason
-    assert result.looked_at >= result.proof.boxes
-
-
-@pytest.mark.parametrize("budget", [0, 1, 20])
-def test_a_spent_budget_is_said(budget):
-    result = certified_epsilon(controlled("reyes-kelly2", 1), FALSIFIED[1], budget)
-    assert result.proof is None
-    assert f"within {budget} boxes" in result.reason
 
 
 def test_gains_out_of_reach_are_said():

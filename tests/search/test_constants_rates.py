@@ -123,24 +123,6 @@ def heavier(link):
     return replace(link, mass=link.mass * 2)
 
 
-def test_three_joints_with_skew_axes(tmp_path):
-    arm = arm_of("leaning", tmp_path)
-    statement, proof = shown_for("leaning", tmp_path)
-    reached = extreme(arm, "k_c")[1]
-    assert reached <= statement.high <= reached * 2
-    assert not refused(replace(statement, high=100 * statement.high), proof)
-
-
-@pytest.mark.parametrize("joints", [2, 5])
-def test_an_arm_whose_angles_change_nothing_has_no_coriolis_torque(joints, tmp_path):
-    """Joints about one axis, on which all bodies have their centres of mass."""
-    links = (arm_of("pelican2", tmp_path).chain.links * 3)[:joints]
-    chain = Chain(tuple(replace(link, origin=NOWHERE, com=NOWHERE) for link in links), NOWHERE)
-    shown = storage_proof(chain, "k_c")
-    assert shown is not None
-    assert shown.bound < F(1, 500)
-
-
 def test_a_last_body_without_mass_changes_little(tmp_path):
     links = arm_of("pelican2", tmp_path).chain.links
     last = replace(links[1], mass=F(0), com=NOWHERE, inertia=(NOWHERE,) * 3)

@@ -12,15 +12,13 @@ from lyapcheck.check.kinds.chain import (
 from lyapcheck.check.loop.storage import invariant_form
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
-from lyapcheck.claims import run_proof
 from lyapcheck.constants import arm_constants, extreme
 from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
 from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.verdicts import Verdict
 from tests.helpers import arm_texts
 from tests.helpers.shares import but
-from tests.helpers.urdf_texts import ARMS, generic
+from tests.helpers.urdf_texts import ARMS
 
 FIRST = {"ixx": 0.03, "iyy": 0.04, "izz": 0.05, "ixy": 0.01, "iyz": -0.01}
 SECOND = {"ixx": 0.02, "iyy": 0.03, "izz": 0.025, "ixz": 0.005}
@@ -78,18 +76,6 @@ def test_no_state_lies_outside_and_some_come_close(name, tmp_path):
         assert abs(result[key] - inside) <= F(1, 100) * inside
 
 
-def test_one_joint_has_its_moment_and_its_weight(tmp_path):
-    """I + m l² and m g l."""
-    file = tmp_path / "one.toml"
-    link = ("a", (0, 1, 0), (0, 0, 0), 2, (0.5, 0, 0), 0.1, 1)
-    file.write_text(arm_texts.arm_of(link, gravity=(0, 0, -10)))
-    chain = load(file).chain
-    result = {name: storage_proof(chain, name).bound for name in ("lambda_min", "lambda_max", "k_g1")}
-    assert float(result["lambda_min"]) == pytest.approx(0.6, rel=1e-6)
-    assert float(result["lambda_max"]) == pytest.approx(0.6, rel=1e-6)
-    assert float(result["k_g1"]) == pytest.approx(10, rel=1e-4)
-
-
 # What must not be accepted -----
 
 
@@ -113,26 +99,6 @@ def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name, tmp_path):
     assert (result.verdict, result.grade) == ("refuted", "enclosure")
 
 
-@pytest.mark.parametrize("name", [*NAMES, "k_c"])
-def test_of_an_arm_the_size_of_a_finger_extremes_are_in_proportion(name, tmp_path):
-    """Lengths a sixteenth and masses a hundred-and-twenty-eighth: inertias 2⁻¹⁵, torques of gravity 2⁻¹¹."""
-    arm, long, heavy = arm_of("leaning", tmp_path), F(1, 16), F(1, 128)
-    assert arm.chain is not None
-    links = tuple(
-        replace(
-            link,
-            origin=tuple(long * x for x in link.origin),
-            mass=heavy * link.mass,
-            com=tuple(long * x for x in link.com),
-            inertia=tuple(tuple(long**2 * heavy * x for x in row) for row in link.inertia),
-        )
-        for link in arm.chain.links
-    )
-    small = replace(arm, dynamics=replace(arm.chain, links=links))
-    share = long * heavy if name == "k_g" else long**2 * heavy
-    assert float(extreme(small, name)[1] / share) == pytest.approx(float(extreme(arm, name)[1]), rel=1e-5)
-
-
 def test_joints_without_torque_are_shown_exactly(tmp_path):
     arm = arm_of("ur5", tmp_path)
     result = storage_proof(arm.chain, "k_g5", still=True)
@@ -141,13 +107,3 @@ def test_joints_without_torque_are_shown_exactly(tmp_path):
     assert storage_proof(arm.chain, "k_g4", still=True) is None
     leaning = replace(result.statement, fall=(F(0), F(1), F(-9)), joints=(1,))
     assert refused(leaning, NoTorque())
-
-
-@pytest.mark.slow
-def test_properties_of_seven_skew_joints_are_decided(tmp_path):
-    """The bounds of M, C and g by forms along the links, as polynomials are too long; 2.7 and 2.8 too."""
-    file = tmp_path / "skew.urdf"
-    file.write_text(generic(7))
-    ids = [f"2.{k}" for k in (1, 2, 3, 4, 5, 6, 8)]
-    result = {row.id: row for row in run_proof("published.py", [1], str(file), only=ids).claims}
-    assert [name for name in ids if result[name].verdict is not Verdict.PROVED] == []

@@ -19,14 +19,6 @@ def ask(aim, *constraints, variables=()):
     return solved(aim, constraints, variables)
 
 
-def test_an_answer_is_one():
-    x = cp.Variable(2)
-    solution = ask(cp.sum(x), x <= np.array([1.0, 2.0]), variables=[x])
-    assert solution.ended is Ended.SOLVED
-    assert solution.values[0] == pytest.approx([1, 2], abs=1e-6)
-    assert solution.reason == ""
-
-
 def test_what_has_no_answer_says_why():
     x = cp.Variable()
     assert ask(x, x <= 1, x >= 2, variables=[x]).reason == "Clarabel says infeasible"
@@ -85,12 +77,6 @@ def least(constant, tolerance=1e-8):
     """The least x with x ≥ 1 and x·0 ≤ constant."""
     one = np.eye(1)
     return solved_cones(np.ones(1), [(-one, {0: one}), (constant * one, {0: 0 * one})], tolerance)
-
-
-def test_matrices_are_solved():
-    solution = least(1.0)
-    assert (solution.ended, solution.reason) == (Ended.SOLVED, "")
-    assert solution.values[0] == pytest.approx([1.0], abs=1e-6)
 
 
 def test_of_matrices_without_an_answer_the_last_point_is_kept_apart():

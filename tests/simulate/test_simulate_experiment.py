@@ -19,7 +19,7 @@ from lyapcheck.simulate.run import SimulationFailed
 from lyapcheck.simulate.task import PAPER_TASK, set_up
 from lyapcheck.simulate.trial import experiment
 from tests.helpers.arm_texts import arm_of
-from tests.helpers.shares import but, one_in
+from tests.helpers.shares import but
 
 TABLE2 = (
     *read_gain_file(paper_gain_file("table2")).gains,
@@ -71,25 +71,6 @@ def test_dry_friction_holds_a_joint_that_is_pushed_too_little():
     assert np.max(np.abs(run.q)) < 2.0 * 1e-3 * math.atanh(2 / 7)
     free = experiment(gain_set, replace(model, coulomb=(None,)), [1.0], T=2.0)
     assert np.max(np.abs(free.q)) > 0.5
-
-
-@pytest.mark.slow
-def test_friction_leaves_an_error_in_steady_state():
-    still = experiment(TABLE2[0], robots.load("buap3"), PAPER_TASK.q_d)
-    assert np.all(np.abs(still.w[-1]) < 5e-3)
-    assert np.max(np.abs(still.indices.final_error)) > 0.5
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("gain_set", one_in(3, TABLE2), ids=lambda g: g.name)
-def test_the_published_experiment_is_resolved(gain_set):
-    run = table_run(gain_set)
-    assert run.complete
-    assert run.t.size == 2001
-    assert run.t[-1] == pytest.approx(5.0)
-    assert run.accuracy < 0.02
-    assert math.isnan(run.energy_balance)
-    assert any("2.5 ms" in note for note in run.notes)
 
 
 STIFF = arm_of(

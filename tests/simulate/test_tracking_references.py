@@ -44,14 +44,6 @@ def test_rates_and_accelerations_are_the_derivatives(reference: Reference):
 
 
 @pytest.mark.parametrize("reference", ALL.values(), ids=ALL)
-def test_two_derivatives_are_continuous(reference: Reference):
-    """Where the minimum jerk has its ends, too."""
-    places = np.concatenate((np.linspace(0.0, 5.0, 12)[1:-1], [2.0]))
-    gap = reference.at(places + 1e-9) - reference.at(places - 1e-9)
-    assert np.max(np.abs(gap)) < 1e-6
-
-
-@pytest.mark.parametrize("reference", ALL.values(), ids=ALL)
 def test_the_bounds_hold_at_all_times_and_are_not_idle(reference: Reference):
     at = reference.at(np.linspace(0.0, 5.0, 20_001))
     bounds = reference.suprema()
@@ -72,16 +64,6 @@ def test_the_speed_of_sines_of_one_frequency_is_exact():
     line = Sine(row(10, 10), row(1, 1), row(0, 0), row(0, 0)).suprema().speed
     assert float(circle) == pytest.approx(10 * RAD * 2 * math.pi, rel=1e-11)
     assert float(line) == pytest.approx(math.sqrt(2) * 10 * RAD * 2 * math.pi, rel=1e-11)
-
-
-def test_the_minimum_jerk_is_at_rest_at_both_ends():
-    motion = MinimumJerk(row(0), row(90), Fraction(2))
-    ends = motion.at(np.array([0.0, 2.0, 7.0]))[:, :, 0]
-    np.testing.assert_allclose(ends, [[0, 0, 0], [math.pi / 2, 0, 0], [math.pi / 2, 0, 0]], atol=1e-15)
-    assert float(motion.suprema().speed) == pytest.approx(15 / 8 * (math.pi / 2) / 2, rel=1e-11)
-    assert float(motion.suprema().acceleration_norm) == pytest.approx(
-        10 / math.sqrt(3) * (math.pi / 2) / 4, rel=1e-11
-    )
 
 
 def written(folder: Path, text: str) -> Path:

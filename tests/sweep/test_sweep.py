@@ -95,21 +95,6 @@ def test_every_row_names_certificates_that_the_checker_accepts(plan, tmp_path):
         assert words[own["verdict"]] == row["verdict"]
 
 
-@pytest.mark.slow
-def test_the_command_leaves_rows_and_certificates(plan, tmp_path):
-    out = tmp_path / "out"
-    done = command("sweep", plan, "--out", out, "--jobs", 1)
-    assert done.returncode == 1  # some are rejected
-    assert "16 questions" in done.stdout
-    left = contents(out)
-    assert {path.partition("/")[0] for path in left} <= {"rows.jsonl", "rows.parquet", "certificates"}
-    refused = command("sweep", plan, "--out", out, "--jobs", 1)
-    assert refused.returncode == 2
-    assert "add --resume" in refused.stderr
-    assert command("sweep", plan, "--out", out, "--jobs", 1, "--resume").returncode == 1
-    assert contents(out) == left
-
-
 def test_a_sweep_that_was_broken_off_is_resumed_to_the_same_bytes(plan, tmp_path, monkeypatch):
     list(lyapcheck.sweep(plan, workers=1, out=tmp_path / "whole"))
     whole = contents(tmp_path / "whole")
