@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from lyapcheck.answers.robot import build
-from lyapcheck.answers.robot.certified import bound_questions, certified
-from lyapcheck.answers.robot.properties import answered, certificates
+from lyapcheck.answers.robot.properties import answered, bound_questions, certificates, certified
 from lyapcheck.claims.decision import judge_afresh
 from lyapcheck.constants import arm_constants
 from lyapcheck.robots import load

@@ -8,8 +8,7 @@ import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.robot import RobotReport, build
-from lyapcheck.answers.robot.certified import CertifiedBounds
-from lyapcheck.answers.robot.properties import PropertyResult
+from lyapcheck.answers.robot.properties import CertifiedBounds, PropertyResult
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.claims.decision import undecided
 from lyapcheck.constants import ConstantResult, arm_constants

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from lyapcheck._types import Progress
 from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.check.run import proposed_proof
-from lyapcheck.answers.robot.certified import CertifiedBounds, bound_questions, certified
 from lyapcheck.answers.robot.numbers import (
     JOINT,
     NONE,
@@ -22,9 +21,12 @@ from lyapcheck.answers.robot.numbers import (
 )
 from lyapcheck.answers.robot.properties import (
     IDS,
+    CertifiedBounds,
     PropertyResult,
     answered,
+    bound_questions,
     certificates,
+    certified,
     print_questions,
     properties,
 )

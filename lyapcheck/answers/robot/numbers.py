@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers import arm_words
-from lyapcheck.answers.robot.certified import SYMBOLS, CertifiedBounds
+from lyapcheck.answers.robot.properties import SYMBOLS, CertifiedBounds
 from lyapcheck.check.kinds.inertia import mass_entries, mass_text
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
