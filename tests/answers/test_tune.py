@@ -294,6 +294,12 @@ def test_every_format_holds_the_gains(form):
     assert "63.112" in run("buap3", "--m", "1", "--viscous-min", "0.406", "--format", form).stdout
 
 
+def test_the_first_line_tells_in_which_steps_there_are_no_gains():
+    refused = tune("buap3", [2], Targets.of(digits=0)).document()
+    assert refused.title == "✗ buap3: no gains in steps of 1 N·m within (10p), (19) and the targets for m = 2"
+    assert "raise --digits" in refused.blocks[0].items[0]
+
+
 def test_a_record_is_a_joint():
     first, *others = tune("buap3", [1, 2]).records()
     assert (first["name"], first["joint"], first["kp"]) == ("tau_m1", "base", "28.633")

@@ -30,7 +30,7 @@ BOUNDS = {"10p": "(10p)", "19": "(19)", "damping": "damping"}
 MARKS = {TUNED: "✓", INFEASIBLE: "✗", UNDECIDED: "?"}
 MOST_REASONS = 3
 NONE_FOUND = {
-    INFEASIBLE: "no gains within (10p) and (19)",
+    INFEASIBLE: "no gains in steps of {} N·m within (10p), (19) and the targets",
     UNDECIDED: "its limits are not known, so no gains",
 }
 LIMITS = ("(10p): k_p + k_v < (τmax − k_g)/(√n γ), N·m.", "(19): k_v < λmin(B)/(√n γ), N·m.")
@@ -222,7 +222,8 @@ class Tuning(Answer):
         for status, words in NONE_FOUND.items():
             failed = [str(item.m) for item in self.sets if item.status == status]
             if failed:
-                return f"{MARKS[status]} {self.robot}: {words} for m = {', '.join(failed)}"
+                step = decimal_text(Fraction(1, 10**self.targets.digits))
+                return f"{MARKS[status]} {self.robot}: {words.format(step)} for m = {', '.join(failed)}"
         return f"{'!' if self._hardly else '✓'} {self.robot}: the largest gains within (10p) and (19)"
 
     @property
