@@ -109,8 +109,19 @@ def show_math(self, node):
     raise SkipNode
 
 
+def name_parts(app, page, template, context, doctree):
+    """Give headings of the navigation their level, and let the keyboard reach all that scrolls."""
+    tree = context.get("furo_navigation_tree", "")
+    context["furo_navigation_tree"] = tree.replace('role="heading"', 'role="heading" aria-level="2"')
+    body = context.get("body", "").replace(
+        '<div class="table-wrapper', '<div tabindex="0" class="table-wrapper'
+    )
+    context["body"] = body.replace("<pre>", '<pre tabindex="0">')
+
+
 def setup(app):
-    """Register the navigation, the notebooks and the formulas."""
+    """Register the navigation, the notebooks, the formulas and what readers of the screen need."""
     app.connect("source-read", add_navigation)
     app.add_source_parser(NotebookParser)
+    app.connect("html-page-context", name_parts, priority=900)  # after the theme
     app.add_html_math_renderer("mathml", (show_math, None), (show_math, None))

@@ -113,8 +113,8 @@ def blocks(result: Iterable[doc.Block], level: int, drawn: Drawn = linked) -> It
                 yield Markup("<table>")
                 if block.caption:
                     yield element("caption", block.caption)
-                heads = [
-                    element("th", head, style=_side(side), scope="col")
+                heads = [  # a column of signs has no head, and an empty one confuses screen readers
+                    element("th", head, style=_side(side), scope="col") if head.strip() else element("td")
                     for head, side in zip(block.heads, block.align, strict=True)
                 ]
                 yield element("thead", element("tr", heads))

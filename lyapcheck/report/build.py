@@ -27,7 +27,7 @@ from lyapcheck.report.plots import draw_epsilon, draw_family, draw_set
 from lyapcheck.report.tiles import drawn_motion, tiles
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.gate import GateAnswer
+    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.report.model import Notes
     from lyapcheck.report.plots import Files
 
@@ -43,10 +43,14 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
 
     Soundness: every verdict is the one of the command of the same name.
     """
+    from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.answers.table import build_table
     from lyapcheck.robots import load
 
-    model, notes, gate = load(subject.robot), published_notes(), _gate(subject)
+    model, notes, judged = load(subject.robot), published_notes(), _judged(subject)
+    # the page has the names of gain files alone; the commands of the tiles find the files themselves
+    names = {one.file.path: replace(one.file, path=one.file.path.rsplit("/", 1)[-1]) for one in judged}
+    gate = GateAnswer(replace(one, file=names[one.file.path]) for one in judged)
     with temporary_folder() as place, pool(WORKERS, place) as workers:
         with main_unnamed():
             jobs = _submit(subject, notes, workers)
@@ -86,21 +90,17 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         certificates=dict(sorted(certificates.items())),
         versions={name: version(name) for name in sorted(packages)},
         seed=SEED,
-        tiles={one.name: tiles(one, model, run_of.get(one.name)) for one in gate if subject.own},
+        tiles={one.name: tiles(one, model, run_of.get(one.name)) for one in judged if subject.own},
         motions={name: one for name, one in moved.items() if one is not None},
     )
 
 
-def _gate(subject: Subject) -> GateAnswer:
-    """What the gate says of the gain sets that the report is about, with the names of their files alone."""
-    from lyapcheck.answers.gate import GateAnswer, gate
+def _judged(subject: Subject) -> list[GateResult]:
+    """What the gate says of the gain sets that the report is about."""
+    from lyapcheck.answers.gate import gate
 
     results = [result for file in subject.gain_files for result in gate(file, subject.robot)]
-    return GateAnswer(
-        replace(result, file=replace(result.file, path=result.file.path.rsplit("/", 1)[-1]))
-        for result in results
-        if result.m is None or result.m in subject.ms
-    )
+    return [result for result in results if result.m is None or result.m in subject.ms]
 
 
 def _submit(subject: Subject, notes: Notes, workers: ProcessPoolExecutor) -> dict[Job, str]:

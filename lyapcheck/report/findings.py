@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.check import ClaimResult
+from lyapcheck.answers.gate import accepting, proved_otherwise
 from lyapcheck.answers.gate.words import Row, advice
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
@@ -15,7 +16,7 @@ from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import decided, judge_afresh
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing
-from lyapcheck.control.conditions import REJECTED
+from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.files.fields import file_stem
 from lyapcheck.report.model import ClaimRow, Finding, Note, applies, behind
 
@@ -46,8 +47,7 @@ def own_findings(
     gate: Sequence[GateResult], epsilon: Sequence[EpsilonRow], claims: Sequence[ClaimRow]
 ) -> tuple[Finding, ...]:
     """About an arm and gains: conditions that are not met, and Properties that the arm lacks."""
-    stable = {row.name for row in epsilon if row.certified is not None}
-    result = [*_rejected(gate, stable), *_contradicted(epsilon)]
+    result = [*_rejected(gate), *_contradicted(epsilon)]
     for row in claims:
         if row.verdict == "refuted" and row.section.startswith("Section 2"):
             text = witness_words(row)
@@ -105,20 +105,22 @@ def _ms(rows: Sequence[ClaimRow]) -> tuple[int, ...]:
     return tuple(sorted({row.m for row in rows if row.m is not None}))
 
 
-def _rejected(gate: Sequence[GateResult], stable: Collection[str]) -> Iterator[Finding]:
-    """What breaks; where that is (19) alone and stability is proved, the gate that asks for the proof."""
+def _rejected(gate: Sequence[GateResult]) -> Iterator[Finding]:
+    """Each condition that breaks, at its first joint; and with which others the gate accepts these gains."""
     for result in gate:
-        broken = result.failures
         if result.verdict == REJECTED and applies(result):
-            first, rest = advice(result, broken[0]), len(broken) - 1
-            more = f" (and {rest} more)" if rest else ""
-            title = f"{result.name} breaks ({broken[0].id})"
-            if result.name in stable and {check.id for check in broken} == {"19"}:
-                more += (
-                    ". (19) is only sufficient, and dV/dt < 0 has a proof for these gains: "
-                    "lyapcheck gate --condition 10p --condition global asks for that proof instead"
-                )
-            yield Finding("B", f"gains {result.name}", (), _member(result.m), title, first + more)
+            broken: dict[str, list[Check]] = {}
+            for check in result.failures:
+                broken.setdefault(check.id, []).append(check)
+            said = [
+                advice(result, checks[0]) + (f" (and {len(checks) - 1} more)" if checks[1:] else "")
+                for checks in broken.values()
+            ]
+            if accepting(result):
+                proved = proved_otherwise(result)
+                said.append(f"{proved[:1].upper()}{proved[1:]}")
+            title = f"{result.name} breaks {and_list([f'({name})' for name in broken])}"
+            yield Finding("B", f"gains {result.name}", (), _member(result.m), title, ". ".join(said))
 
 
 def _contradicted(epsilon: Sequence[EpsilonRow]) -> Iterator[Finding]:

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import ceil, degrees
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers import arm_words, file_words
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest
 from lyapcheck.answers.gate.words import advices
 from lyapcheck.answers.running import runs_of
+from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, falls, farthest_unknown
 from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck
+from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions
 from lyapcheck.control.sampling import time_text
 from lyapcheck.family.base import named
-from lyapcheck.files.decimals import decimal_text
+from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.output.digits import at_least
 from lyapcheck.output.document import command
+from lyapcheck.promise import all_say
 from lyapcheck.report.findings import and_list
-from lyapcheck.report.model import Motion, Tile
+from lyapcheck.report.model import Motion, Tile, keeps_limits
 
 if TYPE_CHECKING:
     from lyapcheck._types import Array
@@ -30,6 +34,8 @@ if TYPE_CHECKING:
 
 NARROW = 10
 """Per cent that a motor has in reserve, below which a tile is amber."""
+USUAL_RATE = 1000
+"""Hz, asked about where a file gives no rate."""
 SWINGS = 20
 """Per cent of a step, overshoot above which a tile is amber."""
 FAR = 5
@@ -39,14 +45,17 @@ FAR = 5
 def tiles(result: GateResult, model: RobotModel, run: RunRow | None) -> tuple[Tile, ...]:
     """The six tiles of a gain set: motors, stability, rate, behaviour, dry friction, assumed numbers."""
     robot = result.limits.robot or model.name
-    arm, gate = arm_words(robot), command("gate", *file_words(result.file, robot))
+    gate = ("gate", *file_words(result.file, robot))
+    member = () if result.m is None else ("--m", result.m)
+    targets = ("--overshoot", 5, "--settle", 2.5, "--rest-error", FAR, "--out", "tuned.toml")
+    tune = command("tune", *arm_words(robot), *member, *targets)
     return (
-        _motors(result, gate),
-        _stability(result, gate),
+        _motors(result, command(*gate)),
+        _stability(result, command(*gate, "--condition", "lasalle")),
         _rate(result, model, gate),
-        _behaviour(run, command("tune", *arm, "--settle", "2", "--overshoot", "5")),
-        _friction(result, model, command("tune", *arm, "--rest-error", FAR)),
-        _assumed(model, command("robot", *arm, "--assumptions")),
+        _behaviour(run, tune),
+        _friction(result, model, tune),
+        _assumed(model, command("robot", *arm_words(robot), "--assumptions")),
     )
 
 
@@ -63,7 +72,7 @@ def with_before(report: Report, old: Mapping[str, Any]) -> Report:
     return replace(report, tiles=changed)
 
 
-def _motors(result: GateResult, gate: str) -> Tile:
+def _motors(result: GateResult, ask: str) -> Tile:
     """Whether k_p + k_v leaves the motors within their limits at every state, by (10i)."""
     subject, joints = "Motors", result.limits.joints
     every = Conditions(result.limits, named(result.gains.family, result.m).gamma).all(result.gains, ("10i",))
@@ -73,7 +82,7 @@ def _motors(result: GateResult, gate: str) -> Tile:
         names = and_list([joints[one.joint or 0] for one in failed])
         most = ", ".join(f"{joints[one.joint or 0]} {_largest(one)}" for one in failed)
         todo = f"Lower k_p + k_v, with these largest values in N·m: {most}."
-        return Tile(subject, "can saturate", f"{names}: (10i) fails.", "bad", (todo, gate))
+        return Tile(subject, "can saturate", f"{names}: (10i) fails.", "bad", (todo, ask))
     known = [
         (int(100 * (check.limit.lower - check.value) / check.limit.lower), check)  # rounded down
         for check in checks
@@ -85,8 +94,8 @@ def _motors(result: GateResult, gate: str) -> Tile:
         return Tile(subject, "not known", text, "open", ("Give each joint a torque limit.", ""))
     share, least = min(known, key=lambda pair: pair[0])
     name = joints[least.joint or 0]
-    at = decimal_text(least.value or 0)
-    text = f"No motor can saturate (proved). {name} is closest, at k_p + k_v = {at} N·m."
+    at, end = decimal_text(least.value or 0), "" if least.limit is None else at_least(least.limit.lower)
+    text = f"No motor can saturate (proved). {name} is closest: k_p + k_v = {at} of {end} N·m."
     for _, check in known:
         text = check.own_promise.says(text)
     tone = "good" if share >= NARROW else "warn"
@@ -97,53 +106,71 @@ def _largest(check: Check) -> str:
     return "none" if check.largest_admissible is None else check.largest_admissible.text
 
 
-def _stability(result: GateResult, gate: str) -> Tile:
-    """Stability of (11), for a controller of infinite rate."""
+def _stability(result: GateResult, ask: str) -> Tile:
+    """Stability of (11), for a controller of infinite rate that knows gravity and motors without limits."""
     subject, proof = "Stability", result.stable
-    if proof is not None and proof.verdict == ACCEPTED:
+    known = result.record is None or result.record.knows_gravity
+    end = f"for a controller of infinite rate{'' if known else ' that knows all gravity'}."
+    if proof is not None:
         how = "by LaSalle's theorem" if proof.id == "lasalle" else f"ε₀ = {at_least(proof.value or 0)}"
-        said = proof.own_promise.says(f"Proved at every state, {how}, for a controller of infinite rate.")
-        return Tile(subject, proof.own_promise.says("stable"), said, "good")
-    if result.verdict == ACCEPTED:
-        said = result.says("Proved by (19), for a controller of infinite rate.")
-        return Tile(subject, result.says("stable"), said, "good")
-    reason = next(iter(advices(result)), "No proof was found.")
-    todo = ("Look for another proof.", f"{gate} --condition lasalle")
-    return Tile(subject, "undecided", f"{reason}.", "open", todo)
+        where = " at nominal numbers" if result.limits.nominal else ""
+        said, promises = f"Proved at every state{where}, {how}, {end}", [proof.own_promise]
+    elif result.verdict_of(("19",)) == ACCEPTED:
+        said = f"Proved by (19), {end}"
+        promises = [check.own_promise for check in result.checks if check.id == "19"]
+    else:
+        reason = next(iter(advices(result)), "No proof was found")
+        return Tile(subject, "undecided", f"{reason}.", "open", ("Look for another proof.", ask))
+    if keeps_limits(result):
+        number = "stable" if known else "stable if all gravity is known"
+        return Tile(subject, all_say(promises, number), all_say(promises, said), "good" if known else "warn")
+    text = f"{said} Nothing shows that the motors stay within their limits."
+    number = "stable while no motor saturates"
+    return Tile(subject, all_say(promises, number), all_say(promises, text), "warn")
 
 
-def _rate(result: GateResult, model: RobotModel, gate: str) -> Tile:
+def _rate(result: GateResult, model: RobotModel, gate: Sequence[object]) -> Tile:
     """Stability as a computer runs the gains; without a rate, the periods that a usual computer may take."""
     subject = "Sampling rate"
     check = next(one for one in runs_of(result) if one.id == SAMPLED)
-    ask = f"{gate} --rate 1000"
+    refuted = check.refuted if isinstance(check, SampledCheck) else None
+    growing = refuted.proof if refuted is not None and isinstance(refuted.proof, GrowingMotion) else None
+    fast = USUAL_RATE if growing is None else max(USUAL_RATE, ceil(2 / growing.period))
+    if isinstance(check, SampledCheck) and check.most is not None:
+        fast = max(USUAL_RATE, ceil(1 / check.most))
+    ask = command(*gate, "--rate", fast)
     if not isinstance(check, SampledCheck):
         return Tile(subject, "not known", f"{check.reason}.", "open", ("Ask at a rate.", ask))
     text = ". ".join(one[:1].upper() + one[1:] for one in check.sentences(False)) or check.reason
     text = f"{text}." if text and not text.endswith(".") else text
+    posture = None if growing is None else _posture(model, [float(x) for x in growing.goal])
+    # of (P) nothing is known before it is asked for, and of an arm with dry friction it does not speak
+    from_rest = not check.rests and check.record.within is None
+    simulated = command("simulate", *gate[1:], "--rate", fast)
+    prove = ("Ask for a proof from rest.", f"{ask} --within 90")
+    unproved = prove if from_rest else ("No rate is proved: lower k_v, or look at a simulation.", simulated)
     if check.named and check.value is not None:
-        period, slower = time_text(check.value), ("Raise the rate, or lower k_v.", ask)
+        period = time_text(check.value)
         if check.verdict == ACCEPTED:
-            return Tile(subject, check.own_promise.says(f"{period}: stable"), text, "good")
+            number = f"{period}: {'comes to rest' if check.rests else 'stable'}"
+            number = f"stable {check.narrow}" if check.narrow else number
+            return Tile(subject, check.own_promise.says(number), text, "good")
+        todo = unproved if check.most is None and growing is None else ("Raise the rate, or lower k_v.", ask)
         word, tone = ("unstable", "bad") if check.verdict == REJECTED else ("undecided", "open")
-        return Tile(subject, f"{period}: {word}", text, tone, slower, posture=_posture(check, model))
-    stated = ("State the rate: rate = … under [loop] in the gain file.", ask)
+        return Tile(subject, f"{period}: {word}", text, tone, todo, posture=posture)
+    stated = (f"State the rate, for example rate = {fast} under [loop] in the gain file.", ask)
     if check.most is not None and check.up_to is not None:
         return Tile(subject, check.up_to.says(f"at most {time_text(check.most)}"), text, "warn", stated)
-    proof = None if check.refuted is None else check.refuted.proof
-    known = isinstance(proof, GrowingMotion)
-    number = f"unstable at {time_text(proof.period)}" if isinstance(proof, GrowingMotion) else "no rate known"
-    return Tile(subject, number, text, "warn" if known else "open", stated, posture=_posture(check, model))
+    if growing is None:
+        return Tile(subject, "no rate known", text, "open", unproved)
+    return Tile(subject, f"unstable at {time_text(growing.period)}", text, "warn", stated, posture=posture)
 
 
-def _posture(check: SampledCheck, model: RobotModel) -> Motion | None:
-    """The arm at the goal near which motions grow."""
+def _posture(model: RobotModel, degrees: Sequence[float]) -> Motion | None:
+    """The arm at one place, drawn as a motion that stands still."""
     import numpy as np
 
-    proof = None if check.refuted is None else check.refuted.proof
-    if not isinstance(proof, GrowingMotion):
-        return None
-    return drawn_motion(model, np.zeros(1), np.radians([[float(x) for x in proof.goal]]))
+    return drawn_motion(model, np.zeros(1), np.radians([degrees]))
 
 
 def _behaviour(run: RunRow | None, tune: str) -> Tile:
@@ -156,45 +183,74 @@ def _behaviour(run: RunRow | None, tune: str) -> Tile:
     goal = f"{', '.join(f'{x:g}' for x in run.target)}"
     text = f"Simulated from {', '.join(f'{x:g}' for x in run.start)} to {goal}°, without dry friction."
     number = f"{over:.0f} % overshoot, "
-    if len(settled) == len(run.settling) and run.complete:
-        return Tile(
-            subject, f"{number}settled in {max(settled):.2g} s", text, "good" if over < 20 else "warn"
-        )
-    todo = ("Ask for a settling time.", tune)
-    return Tile(subject, f"{number}not settled in {run.time:g} s", text, "warn", todo)
+    if len(settled) < len(run.settling) or not run.complete:
+        todo = ("Ask for a settling time.", tune)
+        return Tile(subject, f"{number}not settled in {run.time:g} s", text, "warn", todo)
+    number = f"{number}settled in {max(settled):.2g} s"
+    if over < SWINGS:
+        return Tile(subject, number, text, "good")
+    return Tile(subject, number, text, "warn", ("Ask for less overshoot.", tune))
 
 
 def _friction(result: GateResult, model: RobotModel, tune: str) -> Tile:
-    """How far from the goal dry friction may leave the arm."""
+    """How far from the goal dry friction and unknown gravity may leave the arm."""
     subject = "Dry friction"
-    known = farthest(result.gains, model)
-    if known is None:
-        text = "The arm file gives no dry friction."
-        return Tile(subject, "none known", text, "open")
-    most, words = known
+    stated = result.record is not None and not result.record.knows_gravity
+    loads = [check for check in result.checks if check.id == HOLDS and stated]
+    if fallen := [check for check in loads if isinstance(check, HoldsCheck) and check.verdict == REJECTED]:
+        return _fallen(fallen, result.limits.joints, model, tune)
+    dry, loaded = farthest(result.gains, model), farthest_unknown(loads)
+    if loads and loaded is None:
+        reason = next((check.reason for check in loads if check.reason), "")
+        return Tile(subject, "no bound", f"{reason}.", "open", ("Raise k_p, or lower the unknown load.", ""))
+    known = [one for one in (loaded, dry) if one is not None]
+    if not known:
+        return Tile(subject, "none known", "The arm file gives no dry friction.", "open")
+    most, words = max(known, key=lambda one: one[0])
     text = f"{words[:1].upper()}{words[1:]}."
+    if dry is None:
+        text += " The arm file gives no dry friction."
     if most >= ANYWHERE:
-        todo = ("Raise k_p, or lower the friction.", "")
-        return Tile(subject, "no bound", text, "bad", todo)
-    number = f"up to {decimal_text(most)}°"
+        return Tile(subject, "no bound", text, "bad", ("Raise k_p, or lower the friction.", tune))
+    number = f"up to {decimal_text(significant_up(most, 4) if most else most)}°"
     if model.of_unknown_friction:
         todo = ("State the dry friction of each joint.", "")
         return Tile(subject, f"{number}, known in part", text, "open", todo)
-    if most <= FAR:
-        return Tile(subject, number, text, "good")
-    return Tile(subject, number, text, "warn", ("Ask for a smaller error at rest.", tune))
+    near = most <= FAR
+    todo = ("", "") if near else ("Ask for a smaller error at rest.", tune)
+    return Tile(subject, number, text, "good" if near else "warn", todo)
 
 
-def _assumed(model: RobotModel, listed: str) -> Tile:
+def _fallen(checks: Sequence[HoldsCheck], joints: Sequence[str], model: RobotModel, tune: str) -> Tile:
+    """The joints that fall under an unknown load, and the arm where the first of them does."""
+    names = and_list([joints[one.joint or 0] for one in checks])
+    text = ". ".join(falls(one, joints) for one in checks)
+    first = checks[0]
+    proof = None if first.judgement is None else first.judgement.proof
+    place = [degrees(x) for x in proof.q] if isinstance(proof, PostureWitness) else None
+    return Tile(
+        "Dry friction",
+        f"{names} {'falls' if len(checks) == 1 else 'fall'}",
+        f"{text}.",
+        "bad",
+        (f"Raise k_p, or lower the unknown load, {first.unknown}.", tune),
+        posture=None if place is None else _posture(model, place),
+    )
+
+
+def _assumed(model: RobotModel, ask: str) -> Tile:
     """How many numbers of the arm nobody measured."""
     numbers = list(model.numbers.values())
-    assumed = sum(number.assumed for number in numbers)
-    number = f"{assumed} of {len(numbers)} numbers"
+    assumed = [number for number in numbers if number.assumed]
+    number = f"{len(assumed)} of {len(numbers)} numbers"
     if not assumed:
-        return Tile("Assumed", number, "All numbers of the arm are from its file.", "good")
-    text = "The verdicts are about the arm with these numbers."
-    todo = ("Measure them, or give each a range.", listed)
-    return Tile("Assumed", number, text, "warn", todo)
+        return Tile("Assumed", number, "All numbers of the arm are from its source.", "good")
+    exact = sum(not one.ranged for one in assumed)
+    if exact:
+        text, todo = f"{exact} of them without a range.", "Measure them, or give each a range."
+    else:
+        text, todo = "Each of them has a range.", "Measure them to narrow their ranges."
+    return Tile("Assumed", number, text, "warn", (todo, ask))
 
 
 # --- The arm as a picture: places of its joints along the simulated motion, seen from the side.

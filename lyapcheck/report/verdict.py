@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lyapcheck.answers.gate import GateAnswer
-from lyapcheck.answers.gate.judge import GateResult
+from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.check.kinds.sampled import SampledStable
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.files.decimals import decimal_text
@@ -215,8 +215,8 @@ def _of_gains(row: GateResult) -> Badge:
     if not applies(row):
         return Badge(row.name, "conditions do not apply", "open")
     (said,) = GateAnswer((row,)).data()["results"]
-    tones = {ACCEPTED: "good", REJECTED: "bad" if row.stable is None or not keeps_limits(row) else "warn"}
-    return Badge(row.name, said["standing"], tones.get(row.verdict, "open"))
+    tones = {ACCEPTED: "good", REJECTED: "bad", BREAKS_19: "warn"}
+    return Badge(row.name, said["standing"], tones.get(row.standing, "open"))
 
 
 # --- The loop on a computer in a report: a tile, and a card with what its claims suppose.

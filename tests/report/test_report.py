@@ -11,6 +11,7 @@ from html.parser import HTMLParser
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import pytest
@@ -31,6 +32,7 @@ from lyapcheck.report.model import ClaimRow, EpsilonRow, anchor, published_notes
 from lyapcheck.report.page import graph
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Grade, Verdict
+from tests.helpers.heard import unnamed
 
 VOID = {"meta", "link", "img", "br", "input"}
 
@@ -42,8 +44,10 @@ class Balance(HTMLParser):
         super().__init__()
         self.open: list[str] = []
         self.targets: list[str] = []
+        self.ids: set[str | None] = set()
 
     def handle_starttag(self, tag, attrs):
+        self.ids.add(dict(attrs).get("id"))
         self.targets += [value or "" for key, value in attrs if key in ("href", "src")]
         if tag not in VOID:
             self.open.append(tag)
@@ -52,17 +56,29 @@ class Balance(HTMLParser):
         assert self.open.pop() == tag
 
 
+def dead_links(page, files):
+    """The links of a page to other files than these, or to no part of the page; all tags are closed."""
+    reader = Balance()
+    reader.feed(page)
+    assert reader.open == []
+    assert reader.targets
+    parts = (target.partition("#") for target in reader.targets)
+    return [
+        f"{path}#{place}"
+        for path, _, place in parts
+        if unquote(path) not in {"", *files}
+        or not (place in {"", *reader.ids} or re.fullmatch("[mp][0-9a-f]{10}", place))
+    ]
+
+
 def test_pages_are_balanced_and_their_links_lead_somewhere(files):
-    ids = set(re.findall(r' id="([^"]*)"', files["index.html"]))
-    for name, page in files.items():
-        if name.endswith(".html"):
-            reader = Balance()
-            reader.feed(page)
-            assert reader.open == []
-            for target in reader.targets:
-                path, _, place = target.partition("#")
-                assert path in {"", *files}
-                assert place in {"", *ids} or re.fullmatch("[mp][0-9a-f]{10}", place), target
+    pages = [page for name, page in files.items() if name.endswith(".html")]
+    assert pages
+    assert [dead_links(page, files) for page in pages] == [[]] * len(pages)
+
+
+def test_everything_has_a_name_for_readers_of_the_screen(files):
+    assert unnamed(files["index.html"]) == []
 
 
 def test_the_page_is_one_file_and_asks_for_nothing(files):
@@ -223,11 +239,18 @@ def test_a_refusal_in_another_process_comes_back_whole():
     assert str(again) == str(refused)
 
 
-@pytest.mark.parametrize(("broken", "certified"), [("19", "0.1"), ("19", None), ("10p", "0.1")])
-def test_gains_that_break_19_alone_are_told_of_the_proof_where_there_is_one(broken, certified):
+@pytest.mark.parametrize("broken", ["19", "10p"])
+def test_gains_that_break_19_alone_are_told_of_the_proof_where_there_is_one(broken):
     result = gate_result(1, Fraction(9, 10)) if broken == "19" else gate_result(99)
-    (finding,) = own_findings([result], [epsilon_row(m=1, certified=certified)], [])
-    assert ("--condition global" in finding.text) == (broken == "19" and certified is not None)
+    (finding,) = own_findings([result], [epsilon_row(m=1)], [])
+    assert ("--condition scalar accepts it" in finding.text) == (broken == "19")
+
+
+def test_each_condition_that_breaks_is_named():
+    (finding,) = own_findings([gate_result(99, Fraction(9, 10))], [epsilon_row(m=1)], [])
+    assert finding.title == "a breaks (10p) and (19)"
+    assert "(10p) base: " in finding.text
+    assert "(19) base: " in finding.text
 
 
 def test_the_graph_of_claims_shows_verdict_and_grade() -> None:

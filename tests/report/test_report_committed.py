@@ -8,18 +8,20 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.check.run import paper_case_data
+from lyapcheck.answers.gate import GateAnswer
 from lyapcheck.answers.table import build_table
 from lyapcheck.certificate import to_json
 from lyapcheck.check.kinds.decreasing import statement_of
 from lyapcheck.claims.handover import ScriptRequest
 from lyapcheck.claims.script import ask, find_script
 from lyapcheck.cli.commands.report import _subject
-from lyapcheck.report.build import _gate
+from lyapcheck.report.build import _judged
 from lyapcheck.report.jobs import BOXES, OTHERS, PROOF
 from lyapcheck.report.model import published_notes
 from lyapcheck.report.page import raw
 from lyapcheck.robots import load
 from lyapcheck.search.controlled_arm import ControlledArm
+from tests.helpers.heard import unnamed
 
 FOLDER = Path(__file__).parents[2] / "reports"
 REPORT = json.loads((FOLDER / "report.json").read_text(encoding="utf-8"))
@@ -52,6 +54,10 @@ def test_every_part_that_a_drawing_names_is_on_the_page():
     assert named <= set(re.findall(r' id="([^"]*)"', PAGE)), REPAIR
 
 
+def test_everything_has_a_name_for_readers_of_the_screen():
+    assert unnamed(PAGE) == [], REPAIR
+
+
 def decided(row):
     """What the gate decides about gains, without its advice."""
     keys = ("id", "joint", "verdict", "value", "limit")
@@ -62,7 +68,7 @@ def test_arm_gains_gate_and_table_are_those_of_today():
     subject, arm = _subject("", None, None), load(REPORT["robot"]["name"])
     assert (subject.robot, list(subject.ms)) == (arm.name, REPORT["m"])
     assert [decided(row) for row in REPORT["gate"]] == [
-        decided(row) for row in _gate(subject).data()["results"]
+        decided(row) for row in GateAnswer(_judged(subject)).data()["results"]
     ], REPAIR
     assert REPORT["table"] == json.loads(json.dumps(build_table(subject.ms).data()["rows"])), REPAIR
 

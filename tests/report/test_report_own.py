@@ -15,9 +15,10 @@ from lyapcheck.report.model import Report, Subject
 from lyapcheck.report.verdict import badges, sentences
 from lyapcheck.robots import load
 from tests.helpers.arm_texts import ONE_JOINT
+from tests.helpers.heard import unnamed
 from tests.helpers.one_process import one_process
 from tests.report.conftest import AtOnce
-from tests.report.test_report import KEPT, claim_row, epsilon_row
+from tests.report.test_report import KEPT, claim_row, dead_links, epsilon_row
 
 PENDULUM = """
 robot = "pendulum1"
@@ -27,7 +28,7 @@ m = 1
 kp = [3]
 kv = [0.05]
 [[gains]]
-name = "damped"
+name = "well damped"
 m = 1
 kp = [3]
 kv = [2]
@@ -89,7 +90,7 @@ def test_every_place_of_a_page_says_the_same(tmp_path):
     report = built(tmp_path, PENDULUM)
     places = list(said(report.claims, report.gate))
     assert sorted((name, condition) for name, condition, _, _ in places) == [
-        (name, condition) for name in ("damped", "nominal") for condition in ("10p", "19")
+        (name, condition) for name in ("nominal", "well damped") for condition in ("10p", "19")
     ]
     assert [(gate, claim) for _, _, gate, claim in places if gate != claim] == []
     document = json.loads(str(render(report, ("json",))["report.json"]))
@@ -101,15 +102,18 @@ def test_every_place_of_a_page_says_the_same(tmp_path):
         refuted = {one["id"] for one in own if one["verdict"] == "refuted"}
         assert refuted - {"18.gains"} == {f"{condition}.gains" for condition in failed}
     about = [row for row in report.every_claim if row.gains and row.id not in ("10p.gains", "19.gains")]
-    assert {row.gains for row in about} == {"nominal", "damped"}
-    page = str(render(report, ("html",))["index.html"])
+    assert {row.gains for row in about} == {"nominal", "well damped"}
+    files = render(report, ("html",))
+    page = str(files["index.html"])
+    assert dead_links(page, files) == []
+    assert unnamed(page) == []
     ids = re.findall(r' id="(?![pmh][0-9a-f]{10}")([^"]*)"', page)
     assert len(set(ids)) == len(ids)
     # It is about these gains alone.
     claims = {row.id for row in report.claims}
     assert not claims & {"16", "P", "T1.torque.m1.base"}
     assert claims >= {"2.1", "10p.gains", "19.gains"}
-    assert {badge.subject for badge in badges(report)} == {"nominal", "damped"}
+    assert {badge.subject for badge in badges(report)} == {"nominal", "well damped"}
     assert report.versions.keys() >= {"lyapcheck", "casadi", "numpy", "python-flint"}
     assert not re.search("printed proof|fig. 4|table 2 ", page.casefold())
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shlex
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,6 +18,8 @@ from lyapcheck.report.model import Report
 from lyapcheck.report.page import markup, raw, to_do
 from lyapcheck.report.tiles import drawn_motion, tiles, with_before
 from lyapcheck.robots.numeric import NumericModel
+from tests.helpers import command
+from tests.helpers.arm_texts import ONE_JOINT
 
 RUN = {"robot": "reyes-kelly2", "overshoot": [3.0, 0.0], "settling": [1.2, 0.9], "time": 5.0}
 RUN |= {"complete": True, "start": [0.0, 0.0], "target": [45.0, 45.0]}
@@ -69,6 +73,68 @@ def test_commands_name_an_arm_by_its_file(tmp_path):
     assert known["Assumed"].todo[1] == f"lyapcheck robot {path} --assumptions"
 
 
+def of_links(tmp_path, kp, kv, more="", viscous=0.5, torque=10, arm=""):
+    path = tmp_path / "arm.toml"
+    path.write_text(ONE_JOINT.format(viscous=viscous, torque=torque, more=arm), encoding="utf-8")
+    return told(tmp_path, f"[{kp}]", f"[{kv}]", more, None, str(path))
+
+
+def test_a_payload_that_the_controller_does_not_know_counts_with_dry_friction(tmp_path):
+    """Of ±0.1 N·m of friction and 1 kg at 0.1 m, which k_p = 4 N·m holds and k_p = 0.5 N·m does not."""
+    friction, load = "coulomb = 0.1", "[loop]\nunknown_payload = 1\n"
+    far = [of_links(tmp_path, 4, 1, more, arm=friction)["Dry friction"] for more in ("", load)]
+    assert far[0].number == "up to 1.433°"
+    assert far[1].number == f"up to {np.degrees(np.arctanh(1.081 / 4)):.2f}°"
+    assert far[1].tone == "warn"
+    tiles_ = of_links(tmp_path, 0.5, 1, load, arm=friction)
+    assert (tiles_["Dry friction"].number, tiles_["Dry friction"].tone) == ("joint falls", "bad")
+    (end,) = [frame[-1] for frame in tiles_["Dry friction"].posture.frames]
+    assert np.allclose(np.abs(end), (0.1, 0), atol=1e-3)  # the link lies level, where it is heaviest
+    assert tiles_["Stability"].tone == "warn"
+    assert "knows all gravity" in tiles_["Stability"].text
+
+
+def test_stable_is_said_with_what_it_supposes(tmp_path):
+    assert of_links(tmp_path, 4, 1)["Stability"].number == "stable"
+    over = of_links(tmp_path, 20, 1)["Stability"]
+    assert (over.number, over.tone) == ("stable while no motor saturates", "warn")
+    mass = "viscous = {value = 0.5, low = 0.4, high = 0.6}"
+    ranged = of_links(tmp_path, 4, 1, viscous=mass.removeprefix("viscous = "))["Stability"]
+    assert "at nominal numbers" in ranged.text
+
+
+def test_gains_that_are_accepted_by_torque_alone_are_not_called_stable_by_19(tmp_path):
+    """Without viscous friction (19) admits no gains, whatever else the file asks for."""
+    only = 'condition = ["10i"]\n'
+    path = tmp_path / "g.toml"
+    for viscous in (0, 0.5):
+        of_links(tmp_path, 4, 1, viscous=viscous)
+        path.write_text(path.read_text(encoding="utf-8") + only, encoding="utf-8")
+        (result,) = judged_sets(read_gain_file(path))
+        assert result.verdict == "accepted"
+        stability = tiles(result, robots.load(str(tmp_path / "arm.toml")), None)[1]
+        assert "(19)" not in stability.text
+
+
+def test_commands_to_do_are_about_the_files_of_the_user(tmp_path):
+    name = "<b>&'\" $(x).toml"
+    arm = tmp_path / name
+    arm.write_text(ONE_JOINT.format(viscous=0.5, torque=10, more="coulomb = 3"), encoding="utf-8")
+    path = tmp_path / f"gains of {name}"
+    sets = '[[gains]]\nname = "g"\nm = 1\nkp = [9]\nkv = [2]\n'
+    path.write_text(f"robot = {json.dumps(name)}\n{sets}", encoding="utf-8")
+    file = read_gain_file(path)
+    (result,) = judged_sets(file)
+    known = tiles(result, robots.load(file.robot), SimpleNamespace(**RUN))
+    commands = [one.todo[1] for one in known if one.todo[1]]
+    assert len(commands) == 3
+    for words in map(shlex.split, commands):
+        assert words[0] == "lyapcheck"
+        assert Path(words[2]) in (arm, path)
+        done = command.lyapcheck(*words[1:], folder=tmp_path)
+        assert done.returncode != 2, done.stderr
+
+
 def test_words_of_proof_come_from_promises_alone(tmp_path):
     with promises_as_seen():
         for one in told(tmp_path).values():
@@ -84,7 +150,9 @@ def test_the_older_answer_stands_in_the_tile_where_it_was_another(tmp_path):
 
 
 def blank(**known):
-    return Report(**(dict.fromkeys(Report.__dataclass_fields__) | {"motions": {}} | known))
+    return Report(
+        **(dict.fromkeys(Report.__dataclass_fields__) | {"motions": {}, "own": True, "gate": ()} | known)
+    )
 
 
 def first_screen(report):
@@ -94,9 +162,10 @@ def first_screen(report):
 def test_each_step_to_do_stands_once_and_what_is_wrong_first(tmp_path):
     known = tuple(told(tmp_path, kp="[400, 5]").values())
     page = first_screen(blank(tiles={"a": known, "b": known}))
-    steps = re.findall(r"<li>(\w[\w ]*): ", page)
-    assert len(steps) == len(set(steps))
-    assert steps[0] == "Motors"
+    steps = re.findall(r"<li>(.*?): .*?<code>(.*?)</code>", page)
+    assert steps[0][0] == "a, Motors; b, Motors"
+    commands = [command for _, command in steps]
+    assert len(commands) == len(set(commands)) > 1
 
 
 def test_the_arm_is_drawn_where_its_links_are():

@@ -10,13 +10,14 @@ from importlib import resources
 from itertools import groupby
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 from lyapcheck.files.fields import file_stem
 from lyapcheck.output.document import Block, Figure
 from lyapcheck.output.html import Markup, blocks, element, joined, latex, sentence
 from lyapcheck.report import findings
 from lyapcheck.report.document import evidence, four_epsilons, known, rests
-from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, Tile, anchor, behind
+from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, anchor, behind
 from lyapcheck.report.verdict import badges, chain, route, sampled_section, sentences
 from lyapcheck.verdicts import Verdict
 
@@ -25,13 +26,19 @@ if TYPE_CHECKING:
 
 NEAR = 0.05
 """Sides that differ by less than this share of each other are told apart by their difference."""
-_ARROW = re.compile(r"\s*\\;\s*(?=\\(?:Rightarrow|longrightarrow))")
-"""Where a formula may go on in the next line."""
+LONG = 150
+"""Letters of LaTeX from which on a formula is too wide for a sheet of paper."""
+_BREAKS = re.compile(
+    r"(?P<open>\\left\\?.|\\begin\{\w+\}|[{(\[])|(?P<close>\\right\\?.|\\end\{\w+\}|[})\]])"
+    r"|\\;(?P<arrow> ?\\(?:Rightarrow|longrightarrow))|(?P<sign> [+>-] )|(?P<gap>\\q?quad )"
+)
+"""Where a formula may go on in the next line, outside all brackets."""
 
 
 def render(report: Report) -> str:
     """The whole page."""
-    title = f"Gains on {report.robot.name}" if report.own else report.notes.paper.title
+    files = ", ".join(dict.fromkeys(result.file.path for result in report.gate))
+    about = f"Gains of {files} on {report.robot.name}"
     by_heading: dict[str, list[ClaimRow]] = {}
     used_by: dict[str, list[str]] = {}  # by the anchor of a claim those that use it
     for row in report.every_claim:
@@ -47,13 +54,14 @@ def render(report: Report) -> str:
     first = [row for row in report.claims if row.m in (report.ms[0], None)]
     return markup(
         "page.html",
-        title=f"Proof check: {title}",
+        title=about if report.own else f"Proof check: {report.notes.paper.title}",
         report=report,
-        files=", ".join(dict.fromkeys(result.file.path for result in report.gate)),
+        about=about,
         todo=to_do(report),
         figure=partial(_figure, report),
         shown=partial(_shown, report),
         groups=groups,
+        here={anchor(row.proof, row.id) for row in report.every_claim},
         used_by=used_by,
         graph=graph(first, report.notes.titles),
         falls=falls(first),
@@ -90,9 +98,23 @@ def _templates() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    functions = (anchor, badges, chain, drawn_arm, file_stem, latex, raw, route, sentence, sentences, apart)
+    functions = (
+        anchor,
+        badges,
+        chain,
+        drawn_arm,
+        file_stem,
+        latex,
+        lines,
+        quote,
+        raw,
+        route,
+        sentence,
+        sentences,
+        apart,
+    )
     result.globals |= {one.__name__: one for one in functions}
-    result.globals |= {"findings": findings, "split": _ARROW.split, "SIGNS": SIGNS, "WEIGHTS": WEIGHTS}
+    result.globals |= {"findings": findings, "SIGNS": SIGNS, "WEIGHTS": WEIGHTS}
     result.globals |= {"VERDICTS": tuple(Verdict)}
     return result
 
@@ -138,11 +160,20 @@ def _shown(report: Report, result: Iterable[Block]) -> list[Markup]:
 # --- One's own arm: what is to be done, and its picture.
 
 
-def to_do(report: Report) -> list[Tile]:
-    """The tiles with something to do, each thing once, what is wrong first."""
+def to_do(report: Report) -> list[tuple[str, dict[str, list[str]]]]:
+    """Each command once with what it is for, and the tiles that ask for it; what is wrong first."""
     order = ("bad", "warn", "open")
-    every = [tile for known in report.tiles.values() for tile in known if tile.todo[0] and tile.tone in order]
-    return list({one.todo: one for one in sorted(every, key=lambda one: order.index(one.tone))}.values())
+    every = [
+        (tile, f"{name}, {tile.subject}" if len(report.tiles) > 1 else tile.subject)
+        for name, known in report.tiles.items()
+        for tile in known
+        if tile.todo[0] and tile.tone in order
+    ]
+    result: dict[str, dict[str, list[str]]] = {}
+    for tile, about in sorted(every, key=lambda one: order.index(one[0].tone)):
+        what, command = tile.todo
+        result.setdefault(command, {}).setdefault(what, []).append(about)
+    return list(result.items())
 
 
 def drawn_arm(motion: Motion, wide: float = 320.0, margin: float = 14.0) -> dict[str, Any]:
@@ -159,6 +190,20 @@ def drawn_arm(motion: Motion, wide: float = 320.0, margin: float = 14.0) -> dict
 
 
 # --- Findings and claims.
+
+
+def lines(formula: str) -> list[str]:
+    """A formula in parts, between which a line may end: at an arrow, and of a long one at every sign."""
+    result, depth, start = [""], 0, 0
+    for found in _BREAKS.finditer(formula):
+        depth += bool(found["open"]) - bool(found["close"])
+        if not depth and (found["arrow"] or (len(formula) > LONG and (found["sign"] or found["gap"]))):
+            result[-1] += formula[start : found.start()]
+            # an empty term before a sign keeps its space after it
+            result.append(f"{{}}{found['sign']}" if found["sign"] else found["arrow"] or "")
+            start = found.end()
+    result[-1] += formula[start:]
+    return [part.strip() for part in result]
 
 
 def apart(row: ClaimRow) -> str:
