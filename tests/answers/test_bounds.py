@@ -83,11 +83,26 @@ def test_what_is_proved_is_not_rounded_down_and_runs_are_called_simulated(sound)
     assert document.lead == ("simulated: not within 10° of the goal in 2 s",)
 
 
-def test_runs_that_know_more_of_gravity_than_the_bounds_say_so(sound):
-    unknown = replace(sound, unknown=(Check("holds", 0),))
-    assert Comparisons((unknown,), FILE).document().lead == (
-        "simulated with all gravity known: not within 10° of the goal in 2 s",
+@pytest.mark.parametrize(
+    ("unlike", "ideal"),
+    [
+        ({"unknown": (Check("holds", 0),)}, "all gravity known"),
+        ({"sampled": True}, "infinite rate"),
+        ({"unknown": (Check("holds", 0),), "sampled": True}, "all gravity known and infinite rate"),
+    ],
+)
+def test_runs_that_leave_out_what_the_file_has_say_so(sound, unlike, ideal):
+    assert Comparisons((replace(sound, **unlike),), FILE).document().lead == (
+        f"simulated with {ideal}: not within 10° of the goal in 2 s",
     )
+
+
+def test_a_file_with_a_rate_is_simulated_without_it(tmp_path):
+    file = tmp_path / "gains.toml"
+    gains = Path(FILE.path).read_text(encoding="utf-8")
+    file.write_text(gains.replace("[[gains]]", "[loop]\nrate = 1000\n\n[[gains]]", 1), encoding="utf-8")
+    text = lyapcheck("bounds", str(file), "--time", "0.2").stdout
+    assert "simulated with infinite rate: " in " ".join(text.split())
 
 
 def test_gain_sets_are_judged_one_by_one_at_their_lines(compared):

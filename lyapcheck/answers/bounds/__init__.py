@@ -87,7 +87,8 @@ class Comparisons(Answer):
             name = f"{result.gains.name}, " if len(self.results) > 1 else ""
             within = f"within {math.degrees(result.delta):g}° of the goal"
             time = result.simulated_time
-            run = f"{name}simulated{' with all gravity known' if result.unknown else ''}"
+            ideal = ["all gravity known"] * bool(result.unknown) + ["infinite rate"] * result.sampled
+            run = f"{name}simulated{' with ' * bool(ideal)}{' and '.join(ideal)}"
             if time is None:
                 yield f"{run}: not {within} in {result.task.T:g} s"
             else:

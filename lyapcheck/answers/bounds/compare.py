@@ -62,6 +62,7 @@ class BoundsComparison:
         varies: the ranges over which the bounds hold, as typed.
         corners: at which of their corners runs were made; the worst of them counts.
         unknown: what gravity that the controller does not know makes of them, where a record says so.
+        sampled: whether a record has a rate, which runs leave out.
     """
 
     gains: GainSet
@@ -77,6 +78,7 @@ class BoundsComparison:
     varies: tuple[str, ...] = ()
     corners: str = ""
     unknown: tuple[Check, ...] = ()
+    sampled: bool = False
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -133,7 +135,7 @@ def compare(
         delta: δ, rad.
         dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
         varied: the arm with ranges, and what varies; the bounds are asked over them as well.
-        record: what the controller does not know of gravity; runs know all of it.
+        record: what the controller does not know of gravity; runs know all of it, at infinite rate.
         on_progress: receives the share done.
 
     Raises:
@@ -171,6 +173,7 @@ def compare(
         unknown=()
         if record is None or record.knows_gravity
         else holds_checks(gain_set, whole, record, known if len(known) == len(most) else None),
+        sampled=record is not None and record.period is not None,
     )
 
 

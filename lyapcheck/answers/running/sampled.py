@@ -306,7 +306,9 @@ def shown_from_rest(
     asked = replace(asked, viscous=viscous_of(arm, low))
     proof = falling_energy(asked, chains_of(arm, arm.ranges))
     if proof is None:
-        return None, f"(P) finds no proof from rest within {decimal_text(within)}° over the ranges of the arm"
+        ranging = any(low < high for low, high in (*asked.viscous, *asked.parameters))
+        over = " over the ranges of the arm" if ranging else ""
+        return None, f"(P) finds no proof from rest within {decimal_text(within)}°{over}"
     return promised(asked, judged_statement(asked, [proof]))
 
 
