@@ -290,6 +290,8 @@ def _by_sizes_and_boxes(
         found = storage_proof(arm.chain, name)
         if found is not None and (best is None or sign * found.bound < sign * best.bound):
             best = found
+    if arm.n > FEW_JOINTS:  # M(q) as a source prints it: its boxes would take minutes
+        return best, coarse
     start, margins = (_unfolded(arm), MARGINS_OF_CORIOLIS) if name == "k_c" else (inner, MARGINS)
     for margin in margins:
         value = rounded(start * (1 + sign * margin), sign)

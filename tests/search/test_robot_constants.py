@@ -3,10 +3,12 @@
 from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from lyapcheck.check.kinds.inertia import HarmonicSizes
 from lyapcheck.check.verify import verify
 from lyapcheck.constants import arm_constants, robot_bounds, robot_constants
 from lyapcheck.robots import load
@@ -14,6 +16,7 @@ from lyapcheck.robots.numeric import NumericModel
 from tests.helpers.robot_cases import BUILT_IN
 
 F = Fraction
+ROOT = Path(__file__).parents[2]
 
 
 def angles(n, count=20_000):
@@ -90,3 +93,16 @@ def test_an_indefinite_inertia_is_not_called_positive():
     result = robot_constants(wrong)
     assert result.lambda_min.upper < 0
     assert np.linalg.eigvalsh(NumericModel(wrong).mass(angles(2))).min() >= result.lambda_min.lower
+
+
+def test_an_arm_of_many_joints_without_links_has_the_sizes_of_harmonics():
+    """Boxes would take minutes; of λmin(M) no more is known than that M is not larger."""
+    arm = load(ROOT / "examples" / "px100.toml").fixed()
+    printed = replace(arm, dynamics=arm.dynamics.polynomials)
+    smallest, largest = arm_constants(printed, names=("lambda_min", "lambda_max"))
+    known = arm_constants(arm, names=("lambda_max",))[0].enclosure
+    assert largest.shown is not None
+    assert largest.shown.proof == HarmonicSizes()
+    assert known.lower * F(999, 1000) <= largest.enclosure.lower <= known.upper < largest.enclosure.upper
+    assert smallest.shown is None
+    assert -largest.enclosure.upper <= smallest.enclosure.lower < 0 < smallest.enclosure.upper
