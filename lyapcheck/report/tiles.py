@@ -53,7 +53,7 @@ def tiles(result: GateResult, model: RobotModel, run: RunRow | None) -> tuple[Ti
         _motors(result, command(*gate)),
         _stability(result, command(*gate, "--condition", "lasalle")),
         _rate(result, model, gate),
-        _behaviour(run, tune),
+        _behaviour(run, result, tune, command("simulate", *gate[1:])),
         _friction(result, model, tune),
         _assumed(model, command("robot", *arm_words(robot), "--assumptions")),
     )
@@ -173,8 +173,8 @@ def _posture(model: RobotModel, degrees: Sequence[float]) -> Motion | None:
     return drawn_motion(model, np.zeros(1), np.radians([degrees]))
 
 
-def _behaviour(run: RunRow | None, tune: str) -> Tile:
-    """What one simulated motion does."""
+def _behaviour(run: RunRow | None, result: GateResult, tune: str, look: str) -> Tile:
+    """What one simulated motion of (11) does; of a loop that a computer runs it is a hint only."""
     subject = "Behaviour"
     if run is None:
         return Tile(subject, "not run", "No motion was simulated.", "open")
@@ -183,6 +183,10 @@ def _behaviour(run: RunRow | None, tune: str) -> Tile:
     goal = f"{', '.join(f'{x:g}' for x in run.target)}"
     text = f"Simulated from {', '.join(f'{x:g}' for x in run.start)} to {goal}°, without dry friction."
     number = f"{over:.0f} % overshoot, "
+    if result.record is not None:
+        text = text.replace("without", "at an infinite rate, with all gravity known, without")
+        todo = ("Look at the loop as a computer runs it.", look)
+        return Tile(subject, f"{number}if ideal", text, "warn", todo)
     if len(settled) < len(run.settling) or not run.complete:
         todo = ("Ask for a settling time.", tune)
         return Tile(subject, f"{number}not settled in {run.time:g} s", text, "warn", todo)

@@ -62,6 +62,14 @@ def test_without_a_rate_the_tile_asks_for_one_and_with_one_it_judges(tmp_path):
     assert "unstable" not in small.number
 
 
+def test_a_motion_of_the_ideal_loop_says_little_of_one_that_a_computer_runs(tmp_path):
+    assert told(tmp_path)["Behaviour"].tone == "good"
+    slow = told(tmp_path, more="[loop]\nrate = 50\n")["Behaviour"]
+    assert slow.tone == "warn"
+    assert "at an infinite rate" in slow.text
+    assert slow.todo[1] == f"lyapcheck simulate {tmp_path / 'g.toml'}"
+
+
 def test_dry_friction_that_holds_a_joint_anywhere_is_red(tmp_path):
     assert told(tmp_path, kp="[5, 1]", kv="[0.1, 0.1]")["Dry friction"].tone == "bad"
 
