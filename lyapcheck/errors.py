@@ -80,7 +80,8 @@ def argument_error(name: str, value: object, rule: str, repair: str) -> InputErr
 
 def argument_problem(name: str, value: object, rule: str, repair: str) -> Problem:
     """What is wrong with one argument, to be said with what is wrong with others."""
-    return Problem("argument", None, name, str(value), rule, repair)
+    typed = str(value).removesuffix(".0") if isinstance(value, float) else str(value)
+    return Problem("argument", None, name, typed, rule, repair)
 
 
 def file_error(name: str, rule: str, repair: str) -> InputError:
@@ -89,11 +90,17 @@ def file_error(name: str, rule: str, repair: str) -> InputError:
 
 
 def near(word: str, names: Iterable[str]) -> str:
-    """The name that a word is a slip of the pen for, if need be in other letters; empty where none is."""
+    """The name that a word is a slip of the pen for, if need be in other letters; empty where none is.
+
+    The dashes of an option do not count: all options have them.
+    """
     from difflib import get_close_matches
 
+    def bare(name: str) -> str:
+        return name.lstrip("-") or name
+
     known = list(names)
-    for fold in (str, str.casefold):
+    for fold in (bare, lambda name: bare(name).casefold()):
         folded = {fold(name): name for name in known}
         if close := get_close_matches(fold(word), folded, 1, 0.65):
             return folded[close[0]]

@@ -14,6 +14,7 @@ from lyapcheck import store
 from lyapcheck.answers import assumed_line, file_words
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
+from lyapcheck.answers.running.holds import NO_LINKS
 from lyapcheck.answers.running.sampled import SampledCheck, largest, question
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
@@ -219,7 +220,8 @@ class Export(Answer):
     def _next(self, worst: str) -> str:
         words = file_words(self.file, self.robot)
         loop = self.sets[0].controller.loop
-        if worst == "✗" or loop.period is None:
+        unknown = any(check.reason == NO_LINKS for check in self.sets[0].judged.checks)
+        if worst == "✗" or loop.period is None or unknown:
             return command("gate", *words)
         rate = decimal_text(1 / loop.period)
         timing = ["--period", f"{decimal_text(loop.period)} s"] if "/" in rate else ["--rate", rate]

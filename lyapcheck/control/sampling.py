@@ -16,7 +16,7 @@ from lyapcheck.check.loop.field import size_of
 from lyapcheck.check.statement import Proof
 from lyapcheck.control.gravity import least_along
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
-from lyapcheck.errors import InputError, argument_error
+from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.files.decimals import DECIMAL, decimal_text
 from lyapcheck.files.fields import Fields, Notes
 from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
@@ -150,9 +150,17 @@ def loop_of_options(options: Mapping[str, Any]) -> LoopEntry:
     notes = Notes("argument", lambda _: None)
     result = read_loop(Fields(data, (), notes))
     if notes.problems:
-        problems = (replace(one, key=f"--{one.key.replace('_', '-')}") for one in notes.problems)
-        raise InputError([*problems])
+        raise InputError([_of_option(one, options) for one in notes.problems])
     return result
+
+
+def _of_option(problem: Problem, options: Mapping[str, Any]) -> Problem:
+    """What is wrong with a key of ``[loop]``, said of the option that has its name and of what was typed."""
+    key, _, _ = problem.key.partition("[")
+    option = f"--{key.replace('_', '-')}"
+    begin, of_file, value = problem.repair.partition(f"write {key} = ")
+    repair = f"{begin}write {option} {value.replace(chr(34), '')}" if of_file else begin
+    return replace(problem, key=option, value=str(options[key]).strip(), repair=repair)
 
 
 def _typed(value: Any) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from datetime import date, time
 from fractions import Fraction
 from hashlib import sha256
 from typing import Any, Self
@@ -163,8 +164,7 @@ def key_text(path: KeyPath) -> str:
 
 def _shown(value: object) -> str:
     try:
-        exact = float(value) if isinstance(value, Fraction) else value  # of an option, read before
-        text = printable(exact if isinstance(exact, str) else repr(exact))
+        text = printable(value if isinstance(value, str) else _in_toml(value))
     except (
         ValueError,
         OverflowError,
@@ -174,6 +174,21 @@ def _shown(value: object) -> str:
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'"{value}"'  # the quotes are what is wrong with it
     return text if len(text) <= 60 else text[:57] + "…"
+
+
+def _in_toml(value: object) -> str:
+    """A value as a file has it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, dict) and value:
+        return f"{{ {', '.join(f'{key} = {_in_toml(one)}' for key, one in value.items())} }}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_in_toml, value))}]"
+    if isinstance(value, Fraction):  # of an option, read before
+        return repr(float(value))
+    return str(value) if isinstance(value, date | time) else repr(value)
 
 
 # --- Names of users as names of files.

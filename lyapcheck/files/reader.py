@@ -87,10 +87,13 @@ def read_text(path: str | Path, bound: Bound, shown: str | None = None, newline:
     """
     content = read_bytes(path, bound, shown)
     try:
-        return io.TextIOWrapper(io.BytesIO(content), encoding="utf-8-sig", newline=newline).read()
+        text = io.TextIOWrapper(io.BytesIO(content), encoding="utf-8-sig", newline=newline).read()
     except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:  # as in UTF-16 without the mark of its byte order
         name = sayable(str(path) if shown is None else shown)
-        raise file_error(name, "is not UTF-8 text", "save it as UTF-8") from None
+        raise file_error(name, "is not UTF-8 text", "save it as UTF-8")
+    return text
 
 
 def holds(path: Path, content: bytes) -> bool:

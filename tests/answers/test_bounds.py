@@ -163,3 +163,20 @@ def test_the_command_writes_what_recheck_accepts(tmp_path):
     weak = lyapcheck(*asked, "--friction", "1,6")
     assert weak.returncode == 3
     assert "does not exceed its dry friction of 6 N·m: raise k_p" in " ".join(weak.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("robot", "words", "told"),
+    [
+        ("buap3", (), "for dry friction as the arm file assumes it"),
+        ("buap3", ("--friction", "1,1,1"), ""),
+        ("reyes-kelly2", (), ""),
+        ("reyes-kelly2", ("--friction", "0,0"), "without any dry friction"),
+    ],
+)
+def test_the_headline_says_of_which_dry_friction_the_bound_is(tmp_path, robot, words, told):
+    n = 3 if robot == "buap3" else 2
+    gains = f'robot = "{robot}"\n[[gains]]\nname = "a"\nm = 1\nkp = {[20] * n}\nkv = {[1] * n}\n'
+    (tmp_path / "g.toml").write_text(gains, encoding="utf-8")
+    second = lyapcheck("bounds", "g.toml", "--time", "0.1", *words, folder=tmp_path).stdout.splitlines()[1]
+    assert second.strip() == told or (not told and second.startswith("  simulated: "))

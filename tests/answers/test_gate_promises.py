@@ -112,3 +112,38 @@ def test_the_headline_tells_that_stability_is_shown_at_nominal_numbers(tmp_path,
     broken = invoke("gate", files(tmp_path, number(1, low, 1, "kg"), 2, "", "kp = [5]\nkv = [3]"), *vary)
     nominal = " at nominal numbers" if "nominal" in where else ""
     assert f"proved stable (scalar){nominal}; --condition 10p --condition scalar accepts it" in said(broken)
+
+
+# --- the loop and the ranges in the headline ------------------------------------------------------
+
+
+def headline(*words):
+    """The lines before the table, and all that is said."""
+    done = invoke("gate", *words)
+    return done.exit_code, done.stdout.split("\n\n", 1)[0].splitlines(), said(done)
+
+
+def swinging(folder):
+    """Gains on an arm with dry friction that are stable by a proof, and swing if they run slowly."""
+    path = files(folder, 6, 0.5, "coulomb = 1", "kp = [20]\nkv = [3]")
+    return path, "--condition", "10i", "--condition", "scalar"
+
+
+def test_a_loop_that_is_unstable_but_for_dry_friction_is_told_with_the_acceptance(tmp_path):
+    code, lines, _ = headline(*swinging(tmp_path), "--rate", "5")
+    assert (code, len(lines)) == (0, 3)
+    assert lines[2] == "  open: sampled; unstable at 200 ms without dry friction or unknown gravity"
+    _, lines, text = headline(*swinging(tmp_path), "--rate", "100")
+    assert ("unstable at" in text, lines[2]) == (True, "  open: sampled")
+
+
+def test_an_unknown_payload_without_a_rate_is_judged_at_an_infinite_one(tmp_path):
+    for words in (("--unknown-payload", "0.1"), ()):
+        _, lines, _ = headline(*swinging(tmp_path), *words)
+        assert lines[-1].endswith("no [loop] gives a rate: judged for an infinite rate, as in (11)")
+
+
+@pytest.mark.parametrize(("low", "where"), [(1, "ratio, at"), (0.9, "ratio at nominal numbers, at")])
+def test_a_damping_ratio_out_of_ranges_is_at_nominal_numbers(tmp_path, low, where):
+    path = files(tmp_path, number(1, low, 1, "kg"), 2, "", "kp = [5]\nkv = [1]")
+    assert f"estimated damping {where} the posture of most inertia" in headline(path)[2]

@@ -112,10 +112,10 @@ BAD = [
     ("robot pelican2 --tip hand", ["has no links to choose from"]),
     ("simulate", ["the following arguments are required: FILE"]),
     ("simulate none.toml", ["none.toml: file: cannot be read"]),
-    ("simulate TABLE2 --time 0", ["--time = 0.0: must be from 1e-06 to 3600 s"]),
+    ("simulate TABLE2 --time 0", ["--time = 0: must be from 1e-06 to 3600 s"]),
     (
         "simulate TABLE2 --time nan --eps0 -1 --target 1,2 --start a,b,c",
-        ["--time = nan", "--eps0 = -1.0", "--target = 1,2: has 2 numbers", "--start = a,b,c: each must be"],
+        ["--time = nan", "--eps0 = -1", "--target = 1,2: has 2 numbers", "--start = a,b,c: each must be"],
     ),
     ("simulate TABLE2 --experiment --time 0.001", ["T = 0.001"]),
     ("simulate TABLE2 --robot pelican2 --target 10,20", ["gains"]),

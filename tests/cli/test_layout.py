@@ -26,6 +26,9 @@ ASKED = {
     "gate, several files": ("gate", "gains.toml", "own.toml"),
     "gate, ranges": ("gate", "gains.toml", "--vary", "viscous=-30%..+30%", "--vary", "payload=0..1"),
     "gate, as run": ("gate", "gains.toml", "--rate", "1000", "--unknown-payload", "0.2"),
+    "gate, breaks (19) at nominal numbers": ("gate", "ranged.toml"),
+    "gate, undecided as run": ("gate", "gains.toml", "--period", "20 ms", "--condition", "sampled"),
+    "gate, falls": ("gate", "gains.toml", "--unknown-payload", "8"),
     "gate, seven joints": ("gate", PANDA),
     "bounds": ("bounds", "gains.toml", "--time", "1"),
     "bounds, several sets": ("bounds", TABLE2, "--time", "1"),
@@ -46,6 +49,8 @@ ASKED = {
     "simulate": ("simulate", "gains.toml"),
     "simulate, another arm": ("simulate", "free.toml", "--robot", "arm.toml"),
     "bounds, another arm": ("bounds", "free.toml", "--robot", "arm.toml", "--time", "1"),
+    "simulate, as run": ("simulate", "gains.toml", "--rate", "1000"),
+    "simulate, random starts": ("simulate", "gains.toml", "--runs", "4", "--time", "1"),
     "simulate, at the bench": ("simulate", TABLE2, "--experiment"),
     "tune, the largest": ("tune", "buap3", "--m", "1:2"),
     "tune, seven joints": ("tune", "panda", "--m", "1"),
@@ -96,7 +101,14 @@ m = [1]
 kp = [[20, 5]]
 kv = [0.02]
 """
-FILES = {"saturating.toml": SATURATING, "own.toml": OWN, "free.toml": FREE, "plan.toml": PLAN}
+RANGED = SATURATING.replace("[60, 40, 5]", "[20, 40, 5]").replace("[0.2, 0.2, 0.2]", "[3, 4, 1]")
+FILES = {
+    "saturating.toml": SATURATING,
+    "ranged.toml": RANGED,
+    "own.toml": OWN,
+    "free.toml": FREE,
+    "plan.toml": PLAN,
+}
 TALL = 24
 """Lines for three joints."""
 SLOW = (

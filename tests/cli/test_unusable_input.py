@@ -93,3 +93,57 @@ def test_others_read_what_is_written(place: Path, capsys: pytest.CaptureFixture[
     suites.update_statistics()
     assert (suites.tests, suites.errors) == (2, 1)
     assert loader.load_sarif_file(str(place / "s.sarif")).get_result_count() == 1
+
+
+SAID = {
+    "gate good.toml --delay 1.5": "--delay = 1.5: must be a whole number from 0 to 1000; write --delay 0",
+    "gate good.toml --rate 9 --velocity slow": "--velocity = slow: must be one of difference, measured; "
+    "write --velocity difference",
+    "gate good.toml --rate 1e9": "--rate = 1e9: must be a period from 0.1 µs to 10 s; "
+    "give the rate of the controller",
+    "gate good.toml --rate 9 --filter a,b": "--filter = a,b: must be 1 to 100 taps of a filter, numbers that "
+    "are not all 0; give one for each past difference, the newest first, such as 0.5, 0.5",
+    "simulate good.toml --time 1e9": "--time = 1000000000: must be from 1e-06 to 3600 s; "
+    "give seconds, for instance 5",
+    "simulate good.toml --time 0": "--time = 0: must be from 1e-06 to 3600 s; give seconds, for instance 5",
+    "tune two.urdf --best": "--best: has a meaning with targets only; "
+    "add --overshoot, --settle or --rest-error",
+    "tune two.urdf --torque 5": "--torque = 5: has 1 value for 2 joints; give 2, separated by commas",
+    "gate good.toml --sets none": "--sets: is not an option here; see lyapcheck gate --help",
+    "gate good.toml --rat 5": "--rat: is not an option here; did you mean --rate?",
+}
+"""Command lines with a slip, and what is said: the option and the value as typed, and a repair to type."""
+
+
+@pytest.mark.usefixtures("place")
+@pytest.mark.parametrize(("words", "said"), SAID.items())
+def test_an_option_is_named_as_it_was_typed(words: str, said: str) -> None:
+    with pytest.raises(InputError) as caught:
+        run(words.split())
+    (problem,) = caught.value.problems
+    assert problem.said == said
+
+
+@pytest.mark.parametrize(
+    ("written", "shown"),
+    [
+        ("kp = [true, 1]", "kp[1] = true: "),
+        ("kp = [1, 2024-01-31]", "kp[2] = 2024-01-31: "),
+        ('kp = [[2.5, true, "x"], [0, 1]]', 'kp = [[2.5, true, "x"], [0, 1]]: '),
+        ("kp = { elbow = 1 }", "kp = { elbow = 1 }: "),
+        ('condition = ["10q"]', 'condition = ["10q"]: '),
+    ],
+)
+def test_a_value_is_shown_as_the_file_has_it(place: Path, written: str, shown: str) -> None:
+    kept = [line for line in GOOD.splitlines() if line.split()[0] != written.split(maxsplit=1)[0]]
+    (place / "good.toml").write_text("\n".join([*kept, written, ""]), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        run(["gate", "good.toml"])
+    assert any(problem.said.startswith(f"gains[1].{shown}") for problem in caught.value.problems)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-32-le"])
+def test_text_of_two_bytes_a_letter_is_not_taken_for_toml(place: Path, encoding: str) -> None:
+    (place / "good.toml").write_bytes(GOOD.encode(encoding))
+    with pytest.raises(InputError, match="file: is not UTF-8 text; save it as UTF-8"):
+        run(["gate", "good.toml"])

@@ -80,7 +80,7 @@ def test_gains_by_joint_are_the_list_in_the_order_of_the_arm(place: Path) -> Non
             "m = 1\nkp = [0, 2]\nkv = [1, 1]",
             "kp = [0, 2]: has 2 whole numbers, some of them 0, and no gain is 0; write 0.2",
         ),
-        ("m = 1\nkp = { shoulder = 1 }\nkv = [1, 1]", "kp = {'shoulder': 1}: has no gain for elbow"),
+        ("m = 1\nkp = { shoulder = 1 }\nkv = [1, 1]", "kp = { shoulder = 1 }: has no gain for elbow"),
         (
             "m = 1\nkp = { shoulder = 1, elbo = 1 }\nkv = [1, 1]",
             "kp.elbo = 1: is no joint of this arm; did you mean elbow?",

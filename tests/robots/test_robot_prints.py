@@ -92,7 +92,7 @@ BROKEN = [
     (
         "C22 = []",
         'C22 = [[1, "s2"]]',
-        "printed.C22[1] = [1, 's2']: must have exactly one of the rates w1 … w2",
+        'printed.C22[1] = [1, "s2"]: must have exactly one of the rates w1 … w2',
     ),
     ("C22 = []", 'C22 = [[1, "s2 w1 w2"]]', "must have exactly one of the rates w1 … w2"),
     ("C22 = []", 'C22 = [[1, "s2 w3"]]', "must have exactly one of the rates w1 … w2"),

@@ -222,7 +222,7 @@ def test_an_arm_file_around_a_urdf_without_a_title_lacks_that_alone(tmp_path: Pa
         ('"two.urdf"', '"two.toml"', "arm.toml:2: urdf = two.toml: must be the path of a file of a robot"),
         ('"two.urdf"', '""', "arm.toml:2: urdf: must be a non-empty text"),
         ('"tool"', '"tol"', "two.urdf:2: tip = tol: is no link of this file; name one, for instance tool"),
-        ("0.75", "-1", "joints[1].viscous = {'value': -1"),
+        ("0.75", "-1", "joints[1].viscous = { value = -1"),
         ("encoder", "encodr", "joints[1].encodr = 4096: is not a known key here; did you mean encoder?"),
         ("[0, 0, -1.62]", "[0, 0, { value = -1.6, low = -2, high = -1 }]", "gravity"),
         ("[[joints]]", "[model]\n[[joints]]", "model = {}: is not a known key here"),

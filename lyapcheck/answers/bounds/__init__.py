@@ -180,7 +180,7 @@ def _source(result: BoundsComparison) -> str:
     rows = zip(result.model.coulomb, result.dry, strict=True)
     if any(x is not None and x.assumed and f == x.bounds[1] for x, f in rows):
         return "for dry friction as the arm file assumes it"
-    return "" if any(f is None or f for f in result.dry) else "the arm has no dry friction"
+    return "" if any(f is None or f for f in result.dry) else "without any dry friction"
 
 
 def _farthest(result: BoundsComparison) -> int:

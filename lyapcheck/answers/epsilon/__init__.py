@@ -149,7 +149,7 @@ class _Said(Answer):
             (one,) = self.sets
             if one.promise is None:
                 return f"? no ε₀ is certified for {one.name} on {robots}"
-            eps0 = decimal_text(one.certified or Fraction(0))
+            eps0 = at_least(one.certified or Fraction(0), DIGITS)
             return one.promise.says(f"✓ ε₀ = {eps0} is certified for {one.name} on {robots}")
         if not promises:
             return f"? no gain set of {count} has a certified ε₀ on {robots or 'no arm'}"

@@ -256,7 +256,7 @@ class BenchTuning(Answer):
             )
         if self.lacking and not self.missed(best):
             met = f"{best.gains.name} meets the targets on {self.model.name}"
-            return f"? simulated: whether {met} is open; the error at rest is not known"
+            return f"? simulated: whether {met} is open; error at rest unknown"
         return f"? simulated: no set meets the targets on {self.model.name}; the best is {best.gains.name}"
 
     @property

@@ -234,7 +234,8 @@ def _limits(
 
     values = read(option, text)
     if values is not None and n is not None and len(values) != n:
-        rule, given = f"has {len(values)} values for {n} joints", ",".join(map(decimal_text, values))
+        rule = f"has {len(values)} value{'s' * (len(values) > 1)} for {n} joint{'s' * (n > 1)}"
+        given = ",".join(map(decimal_text, values))
         raise argument_error(option, given, rule, f"give {n}, separated by commas")
     if values is not None and (min(values) < 0 or (positive and min(values) == 0)):
         rule = "must be positive" if positive else "must not be negative"
@@ -258,8 +259,8 @@ def _refuse(options: dict[str, Any], names: tuple[str, ...], rule: str, repair: 
     for name in names:
         value = options[name]
         if value not in (None, False):
-            shown = value[0] if isinstance(value, list) else value
-            raise argument_error(_option(name), str(shown), rule, repair)
+            shown = value[0] if isinstance(value, list) else "" if value is True else value
+            raise argument_error(_option(name), shown, rule, repair)
 
 
 def _option(name: str) -> str:
