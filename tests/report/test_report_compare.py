@@ -6,7 +6,9 @@ from copy import deepcopy
 import pytest
 
 from lyapcheck.errors import InputError
-from lyapcheck.report.compare import SCHEMA, compare, read_report
+from lyapcheck.report.compare import SCHEMA, ReportChange, ReportComparison, compare, read_report
+from lyapcheck.report.page import compared_page
+from tests.helpers.heard import unnamed
 
 CHECK = {"id": "19", "joint": "base", "margin": "0.1"}
 OLD = {
@@ -87,3 +89,14 @@ def test_a_report_with_other_rows_is_refused(key, rows, tmp_path):
         return
     with pytest.raises(InputError, match="has other rows than a report"):
         read_report(path)
+
+
+def test_the_page_of_what_changed_is_whole():
+    """With a language and a title, as those who hear it need them; names are escaped."""
+    change = ReportChange("gate", "<b>&", "accepted", "rejected", worse=True)
+    page = compared_page(ReportComparison((change,), "before").document())
+    assert page.startswith('<!DOCTYPE html>\n<html lang="en">')
+    assert "<title>✗ 1 worse, 0 other changes since before</title>" in page
+    assert page.count("<h1>") == 1
+    assert "&lt;b&gt;&amp;" in page
+    assert unnamed(page) == []

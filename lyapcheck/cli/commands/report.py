@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from lyapcheck.cli.parser import Parser
     from lyapcheck.report.model import Report, Subject
 
-COMPARED = {"html": "html", "md": "markdown", "json": "json"}
-"""The files of a comparison by the formats they are in."""
+COMPARED = {"md": "markdown", "json": "json"}
+"""The files of a comparison beside its page, by the formats they are in."""
 FIRST = {"html": "index.html", "md": "report.md", "json": "report.json", "pdf": "report.pdf"}
 """The file of each format that is read first."""
 ORDER = ("good", "warn", "open", "bad")
@@ -74,6 +74,7 @@ def run(
     from lyapcheck.report.compare import compare as compared
     from lyapcheck.report.compare import read_report
     from lyapcheck.report.document import ReportAnswer
+    from lyapcheck.report.page import compared_page
     from lyapcheck.report.pdf import require_typst
     from lyapcheck.report.tiles import with_before
 
@@ -95,6 +96,7 @@ def run(
     changed = None if old is None else compared(old, ReportAnswer(report).data(), str(compare))
     if changed is not None:
         files |= {f"compare.{end}": changed.written(name) for end, name in COMPARED.items()}
+        files["compare.html"] = compared_page(changed.document())
     write(files, out)
     from lyapcheck.output.text import render as text
 

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from lyapcheck.files.fields import file_stem
-from lyapcheck.output.document import Block, Figure
+from lyapcheck.output.document import Block, Document, Figure
 from lyapcheck.output.html import Markup, blocks, element, joined, latex, sentence
+from lyapcheck.output.html import render as whole
 from lyapcheck.report import findings
 from lyapcheck.report.document import evidence, four_epsilons, known, rests
 from lyapcheck.report.model import SIGNS, WEIGHTS, ClaimRow, Motion, Report, anchor, behind
@@ -73,6 +74,11 @@ def render(report: Report) -> str:
         evidence=(*known(report), *evidence(report), *rests(report)),
         sampled=list(blocks(sampled_section(report), 3)),
     )
+
+
+def compared_page(document: Document) -> str:
+    """What changed since an older report, as a page of its own."""
+    return markup("compare.html", title=document.title, body=Markup(whole(document, 1)))
 
 
 def raw(name: str) -> Markup:
