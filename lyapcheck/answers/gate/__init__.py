@@ -34,7 +34,7 @@ _SINGLE = "(10p) fails, but by its √n only: |τ_i| ≤ γ (k_p + k_v) + k_g ke
 _NO_FRICTION = (
     "no viscous friction is known of a joint (λmin(B) = 0), so (19) admits no k_v. Without it the origin "
     "is still globally asymptotically stable; what is not known is how fast: no ε₀, no certified time or "
-    "error, no bound under a disturbance. A measured friction goes into [bounds] viscous_min"
+    "error, no bound under a disturbance. State a measured friction as viscous in the arm file"
 )
 
 
