@@ -47,8 +47,8 @@ def tiles(result: GateResult, model: RobotModel, run: RunRow | None) -> tuple[Ti
     robot = result.limits.robot or model.name
     gate = ("gate", *file_words(result.file, robot))
     member = () if result.m is None else ("--m", result.m)
-    targets = ("--overshoot", 5, "--settle", 2.5, "--rest-error", FAR, "--out", "tuned.toml")
-    tune = command("tune", *arm_words(robot), *member, *targets)
+    targets = ("--overshoot", 5, "--settle", 2.5, *(("--rest-error", FAR) if model.dry else ()))
+    tune = command("tune", *arm_words(robot), *member, *targets, "--out", "tuned.toml")
     return (
         _motors(result, command(*gate)),
         _stability(result, command(*gate, "--condition", "lasalle")),

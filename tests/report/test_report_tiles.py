@@ -102,6 +102,15 @@ def test_a_payload_that_the_controller_does_not_know_counts_with_dry_friction(tm
     assert "knows all gravity" in tiles_["Stability"].text
 
 
+def test_an_error_at_rest_is_asked_for_where_dry_friction_is_known(tmp_path):
+    wide = RUN | {"overshoot": [50.0]}
+    for friction in ("", "coulomb = 0.1"):
+        path = tmp_path / "arm.toml"
+        path.write_text(ONE_JOINT.format(viscous=0.5, torque=10, more=friction), encoding="utf-8")
+        words = told(tmp_path, "[4]", "[1]", run=wide, robot=str(path))["Behaviour"].todo[1]
+        assert ("--rest-error 5" in words) == bool(friction)
+
+
 def test_stable_is_said_with_what_it_supposes(tmp_path):
     assert of_links(tmp_path, 4, 1)["Stability"].number == "stable"
     over = of_links(tmp_path, 20, 1)["Stability"]
