@@ -2,6 +2,7 @@
 
 import json
 import re
+from html import escape
 from pathlib import Path
 
 from myst_parser.parsers.sphinx_ import MystParser
@@ -93,9 +94,8 @@ def markdown(notebook, name):
                 parts.append(f"```text\n{text.rstrip()}\n```")
             if "image/png" in data:
                 picture = "".join(data["image/png"]).replace("\n", "")
-                parts.append(
-                    f'<img alt="Figure drawn by the code above" src="data:image/png;base64,{picture}">'
-                )
+                title = escape("".join(data["text/plain"]))
+                parts.append(f'<img alt="{title}" src="data:image/png;base64,{picture}">')
     return "\n\n".join([*parts, f"A test runs this notebook and compares its output: {{download}}`{name}`."])
 
 

@@ -28,6 +28,9 @@ class Certificate(read.Certificate):
 
     versions: Mapping[str, str] = field(default_factory=made_with)
 
+    def __repr__(self) -> str:
+        return f"<Certificate: {self.claim.id}, {self.verdict}>"
+
     @classmethod
     def of(cls, one: read.Certificate) -> Certificate:
         """The same as one that was read."""

@@ -68,6 +68,9 @@ class Exported:
     sampled: Promise | None
     reason: str
 
+    def __repr__(self) -> str:
+        return f"<Exported: {', '.join(sorted(self.files))}>"
+
     @cached_property
     def record(self) -> dict[str, Any]:
         """All that is to be known of the files."""

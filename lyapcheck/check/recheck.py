@@ -121,6 +121,9 @@ class Checked:
     grade: str = ""
     given: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Checked: {self.file}, {self.status}>"
+
     @property
     def file(self) -> str:
         return self.document.file
@@ -160,6 +163,10 @@ class Outcome:
     granted: dict[str, tuple[str, ...]] = field(default_factory=dict)
     rules: dict[str, tuple[tuple[str, str], ...]] = field(default_factory=dict)
     limited: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        accepted = sum(one.accepted for one in self.checked)
+        return f"<Outcome: {accepted} of {len(self.checked)} accepted>"
 
     @property
     def code(self) -> int:

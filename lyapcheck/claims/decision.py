@@ -59,6 +59,9 @@ class Decision:
         if (self.verdict is Verdict.PROVED) is (self.promise is None):
             raise ValueError("what is proved carries a promise, and nothing else does")
 
+    def __repr__(self) -> str:
+        return f"<Decision: {self.word}, {self.method}>"
+
     @property
     def word(self) -> str:
         """The verdict as answers say it."""

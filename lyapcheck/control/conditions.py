@@ -70,6 +70,10 @@ class Check:
     admitted: JudgedStatement | None = None
     threshold: Threshold | None = field(default=None, compare=False, repr=False)
 
+    def __repr__(self) -> str:
+        where = "" if self.joint is None else f" of joint {self.joint}"
+        return f"<{type(self).__name__}: ({self.id}){where}, {self.verdict}>"
+
     @property
     def verdict(self) -> str:
         """``accepted``, ``rejected`` or ``undecided``, as the checker says."""

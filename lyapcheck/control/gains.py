@@ -111,6 +111,9 @@ class GainFile:
     loop: LoopEntry = NOTHING
     certificates: str | None = None
 
+    def __repr__(self) -> str:
+        return f"<GainFile: {self.path}, {', '.join(one.name for one in self.gains)}>"
+
     def place(self, gain_set: GainSet, key: str = "", joint: int | None = None) -> Place | None:
         """Where a gain of a set stands; ``joint`` counts from 0."""
         if self.document is None:

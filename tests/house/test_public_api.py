@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import lyapcheck
-from lyapcheck import _HOMES, store
+from lyapcheck import _HOMES, claims, store
 from lyapcheck import __all__ as PUBLIC
 from tests.helpers.shares import but
 
@@ -116,6 +116,42 @@ def test_gains_and_arms_print_as_one_short_line():
     gains = lyapcheck.read_gain_file(lyapcheck.paper_gain_file("table2")).gains[0]
     assert repr(gains) == "<GainSet: tau_m1, m = 1, kp = [28, 60, 5], kv = [0.233, 0.233, 0.233]>"
     assert repr(lyapcheck.load_robot("buap3")) == "<RobotModel: buap3, 3 joints, 10 of 18 numbers assumed>"
+
+
+@pytest.mark.slow
+def test_each_object_of_the_eight_tasks_prints_as_one_short_line(tmp_path):
+    gains = tmp_path / "gains.toml"
+    gains.write_text('robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [0.1]\nkv = [0.02]\n')
+    file, arm, x = lyapcheck.read_gain_file(gains), lyapcheck.load_robot("pendulum1"), claims.var("x")
+    answers = [
+        lyapcheck.gate(file),
+        lyapcheck.bounds(file),
+        lyapcheck.tune_gains("pendulum1", [1]),
+        lyapcheck.tune_for_targets("pendulum1", overshoot=30),
+        lyapcheck.run_proof("published.py", [1], n=1, only=["19"]),
+        lyapcheck.export_controller(file, rate=1000),
+    ]
+    gate, bounds, largest, tuned, proof, exported = answers
+    (folder := tmp_path / "certificates").mkdir()
+    for name, certificate in proof.certificates.items():
+        (folder / name).write_text(certificate.text(), encoding="utf-8")
+    outcome = lyapcheck.recheck(lyapcheck.read_certificates([folder]))
+    parts = [
+        file,
+        *gate,
+        *next(iter(gate)).checks,
+        bounds.results[0],
+        *largest.sets,
+        tuned.best,
+        *proof.claims,
+    ]
+    parts += [*proof.certificates.values(), outcome, *outcome.checked, *exported.sets]
+    parts += [lyapcheck.decide(claims.identity(x, x)), lyapcheck.epsilon(file.gains[0], arm, max_boxes=500)]
+    parts += [lyapcheck.simulate_motion(file.gains[0], arm, target_deg=[45], seconds=1)]
+    for one in (*answers, *parts):
+        assert repr(one).startswith(f"<{type(one).__name__}: ")
+        assert len(repr(one)) < 160
+        assert "\n" not in repr(one)
 
 
 def test_what_is_kept_of_an_arm_has_its_own_key():

@@ -80,6 +80,9 @@ class BoundsComparison:
     unknown: tuple[Check, ...] = ()
     sampled: bool = False
 
+    def __repr__(self) -> str:
+        return f"<BoundsComparison: {self.gains.name} on {self.model.name}>"
+
     @property
     def joints(self) -> tuple[str, ...]:
         """Names of the joints, base first."""

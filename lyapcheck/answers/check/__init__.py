@@ -85,6 +85,9 @@ class ClaimResult:
     seconds: float
     stands: str
 
+    def __repr__(self) -> str:
+        return f"<ClaimResult: {self.id}, {self.verdict.value}>"
+
     @cached_property
     def _text(self) -> str:
         if not isinstance(self.stated, Statement):

@@ -66,6 +66,9 @@ class GateResult:
     grounds: Grounds = NO_GROUNDS
     record: LoopRecord | None = None
 
+    def __repr__(self) -> str:
+        return f"<GateResult: {self.name}, {self.verdict}>"
+
     @property
     def name(self) -> str:
         """The gain set's name."""

@@ -61,7 +61,7 @@ UNBOUNDED = "h is unbounded, and no error at rest is judged of it"
 NOTHING = "nothing unknown is stated: add unknown_payload = … or gravity_error = … under [loop]"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class HoldsCheck(Check):
     """`Check` of one joint: its value is sup |Δg_i| + f_i, its limit k_pi, in N·m.
 

@@ -60,7 +60,7 @@ LONGEST = 20
 """Times the period asked: how far a refuted one is looked for."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SampledCheck(Check):
     """`Check` of all joints, named after the tightest: its value is the period, its limit the largest, in s.
 

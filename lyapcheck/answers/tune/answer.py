@@ -82,6 +82,9 @@ class TunedSet:
     program: str = ""
     runs: tuple[Check, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<TunedSet: {self.gains or '; '.join(self.reasons)}>"
+
     @property
     def gains(self) -> GainSet | None:
         """As the gate reads them."""

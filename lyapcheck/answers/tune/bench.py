@@ -74,6 +74,9 @@ class Candidate:
     result: GateResult | None = None
     runs: tuple[Check, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Candidate: {self.gains}>"
+
     @property
     def stable(self) -> str:
         """What shows stability; empty where the gate does not accept the set."""
