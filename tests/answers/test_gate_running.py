@@ -16,10 +16,11 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.answers.gate import GateResult, accepting, gate
 from lyapcheck.answers.running.holds import HoldsCheck
-from lyapcheck.answers.running.sampled import SampledCheck
+from lyapcheck.answers.running.sampled import SampledCheck, shown_from_rest
 from lyapcheck.control.conditions import Check
-from lyapcheck.control.gains import read_gain_file
+from lyapcheck.control.gains import GainSet, read_gain_file
 from lyapcheck.control.limits import arm_limits
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import JUDGED_FORMATS
 from lyapcheck.robots.numeric import NumericModel
@@ -349,3 +350,12 @@ def test_an_arm_with_ranges_is_shown_from_rest_at_its_nominal_inertia(tmp_path: 
     over = judged(file, loop, ("sampled",), arms={robot: replace(arm_limits(robot), varied=True)})
     assert over.verdict == "undecided"
     assert "no proof from rest within 90° over" in only(over, "sampled")[0].reason
+
+
+def test_ranges_with_too_many_corners_are_not_tried_on_long_arms(monkeypatch):
+    monkeypatch.setattr("lyapcheck.answers.running.sampled.MOST_CORNERS", 1)
+    arm = varied(robots.load("px100"), [Vary.parsed("payload=0..0.1")])
+    gains = GainSet("a", 1, (Fraction(1),) * arm.n, (Fraction(1),) * arm.n)
+    promise, why = shown_from_rest(gains, arm, LoopRecord(period=MS, within=Fraction(5)), None)
+    assert promise is None
+    assert why == "(P) asks for at most 1 corners of the ranges of so many joints"

@@ -18,6 +18,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.asked import sampled, sampled_from_rest, viscous_of
+from lyapcheck.check.judgement import MOST_CORNERS
 from lyapcheck.check.kinds.sampled_from_rest import FARTHEST, MOST_DELAY, SampledFromRest
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.conditions import REJECTED, Check
@@ -304,7 +305,7 @@ def shown_from_rest(
     except TooManyTerms:
         return None, "M(q) of these links is too long to be written out, which (P) asks for"
     asked = replace(asked, viscous=viscous_of(arm, low))
-    proof = falling_energy(asked, chains_of(arm, arm.ranges))
+    proof = falling_energy(asked, chains_of(arm, arm.ranges) if _few_corners(arm) else ())
     if proof is None:
         ranging = any(low < high for low, high in (*asked.viscous, *asked.parameters))
         over = " over the ranges of the arm" if ranging else ""
@@ -329,6 +330,10 @@ def _asked(
     return replace(asked, viscous=viscous_of(arm, low))
 
 
+def _few_corners(arm: RobotModel) -> bool:
+    return bool(2 ** sum(low < high for low, high in arm.ranges) <= MOST_CORNERS)
+
+
 def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
     """Why (P) does not speak of this loop; empty where it does."""
     rules = {
@@ -336,6 +341,9 @@ def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
         f"asks for the links of an arm of more than {FEW_JOINTS} joints": arm is None
         or arm.n <= FEW_JOINTS
         or isinstance(arm.dynamics, Chain),
+        f"asks for at most {MOST_CORNERS} corners of the ranges of so many joints": arm is None
+        or arm.n <= FEW_JOINTS
+        or _few_corners(arm),
         "speaks of differences without a filter": (record.velocity, record.filter) == ("difference", ONE),
         "speaks of constant intervals: longest must be the period": record.longest in (None, record.period),
         f"speaks of delays to {MOST_DELAY} samples": record.delay <= MOST_DELAY,
