@@ -35,12 +35,14 @@ if TYPE_CHECKING:
     from lyapcheck.family.base import Family
     from lyapcheck.family.base import named as named_family
     from lyapcheck.family.members.hyperbolic import gamma_less_than
+    from lyapcheck.files.loop import LoopEntry
     from lyapcheck.lyapunov.graph import LyapunovGraph, lyapunov_graph
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.report.build import build as build_report
+    from lyapcheck.report.model import Subject
     from lyapcheck.robots import load as load_robot
     from lyapcheck.robots import names as robot_names
-    from lyapcheck.robots.fields import Number
+    from lyapcheck.robots.fields import Number, Vary
     from lyapcheck.robots.numeric import NumericModel
     from lyapcheck.robots.plant import RobotModel
     from lyapcheck.simulate.bench import Bench
@@ -79,6 +81,7 @@ __all__ = [
     "Grade",
     "InputError",
     "Limits",
+    "LoopEntry",
     "LyapunovGraph",
     "LyapunovNumeric",
     "Number",
@@ -91,10 +94,12 @@ __all__ = [
     "RobotModel",
     "Rows",
     "Run",
+    "Subject",
     "Table",
     "Targets",
     "TrackingRun",
     "Tuning",
+    "Vary",
     "Verdict",
     "__version__",
     "bounds",
@@ -148,6 +153,7 @@ _HOMES = {
     "Grade": "verdicts",
     "InputError": "errors",
     "Limits": "control.limits",
+    "LoopEntry": "files.loop",
     "LyapunovGraph": "lyapunov.graph",
     "LyapunovNumeric": "lyapunov.numeric",
     "Number": "robots.fields",
@@ -160,10 +166,12 @@ _HOMES = {
     "RobotModel": "robots.plant",
     "Rows": "answers.sweep",
     "Run": "simulate.run",
+    "Subject": "report.model",
     "Table": "answers.table",
     "Targets": "answers.tune.targets",
     "TrackingRun": "simulate.tracking",
     "Tuning": "answers.tune.answer",
+    "Vary": "robots.fields",
     "Verdict": "verdicts",
     "bounds": "tasks",
     "build_report": "report.build:build",

@@ -16,26 +16,27 @@ import pytest
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateAnswer, GateResult
+    from lyapcheck.robots import ArmLike
 
 
 class AcceptedGains(Protocol):
     """What the fixture hands to a test."""
 
     def __call__(
-        self, path: str | Path, *, robot: str | None = None, conditions: Sequence[str] | None = None
+        self, path: str | Path, *, robot: ArmLike | None = None, conditions: Sequence[str] | None = None
     ) -> GateAnswer:
         """See :func:`assert_accepted`; a relative path is meant from pytest's root directory."""
         ...
 
 
 def assert_accepted(
-    path: str | Path, *, robot: str | None = None, conditions: Sequence[str] | None = None
+    path: str | Path, *, robot: ArmLike | None = None, conditions: Sequence[str] | None = None
 ) -> GateAnswer:
     """Fail unless every gain set of a file is accepted by the conditions.
 
     Args:
         path: a gain file.
-        robot: an arm that replaces the one the file names.
+        robot: an arm, its name or the path of its file, instead of the arm of the gain file.
         conditions: which must hold; if missing those that the file names, else (10p) and (19).
 
     Returns:
@@ -67,7 +68,7 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
     root = request.config.rootpath
 
     def accepted(
-        path: str | Path, *, robot: str | None = None, conditions: Sequence[str] | None = None
+        path: str | Path, *, robot: ArmLike | None = None, conditions: Sequence[str] | None = None
     ) -> GateAnswer:
         __tracebackhide__ = True
         return assert_accepted(root / path, robot=robot, conditions=conditions)

@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from lyapcheck.check.statement import Statement
     from lyapcheck.claims.decision import Decision
     from lyapcheck.control.gains import GainFile, GainSet
-    from lyapcheck.robots.plant import RobotModel
+    from lyapcheck.robots import ArmLike, RobotModel
     from lyapcheck.simulate.run import Run
     from lyapcheck.simulate.task import Task
 
 
 def tune_for_targets(
-    robot: str,
+    robot: ArmLike,
     *,
     members: Sequence[int] = (1,),
     overshoot: float | None = None,
@@ -43,7 +43,7 @@ def tune_for_targets(
     """Find gains that meet targets in a simulated motion and that the gate accepts.
 
     Args:
-        robot: a built-in arm, or the path of an arm file.
+        robot: an arm, its name or the path of its file.
         members: the orders m to try.
         overshoot: largest overshoot, % of the step.
         settle: largest settling time (2 %), s.
@@ -61,18 +61,19 @@ def tune_for_targets(
     """
     from lyapcheck.answers.tune.search import tune_for
     from lyapcheck.answers.tune.trial import Trials, Wishes
-    from lyapcheck.robots import load
+    from lyapcheck.robots import arm_of
 
     wishes = Wishes(overshoot, settle, peak_share, rest_error)
     if not wishes.given:
         raise argument_error("targets", "", "are missing", "give overshoot=5, settle=1.5 or rest_error=2")
-    task = _task(load(robot), target_deg, start_deg, seconds)
-    return tune_for(robot, Trials(wishes, (task,)), members, on_progress=on_progress)
+    model = arm_of(robot)
+    task = _task(model, target_deg, start_deg, seconds)
+    return tune_for(model, Trials(wishes, (task,)), members, on_progress=on_progress)
 
 
 def bounds(
     gain_file: GainFile | str | Path,
-    robot: str | None = None,
+    robot: ArmLike | None = None,
     *,
     target_deg: Sequence[float] | None = None,
     start_deg: Sequence[float] | None = None,
@@ -83,7 +84,7 @@ def bounds(
 
     Args:
         gain_file: a gain file or its path.
-        robot: an arm that replaces the arm of the file.
+        robot: an arm, its name or the path of its file, instead of the arm of the gain file.
         target_deg: desired joint angles. Default: 45 degrees per joint.
         start_deg: initial joint angles. Default: 0.
         seconds: duration of the motion.
@@ -97,12 +98,13 @@ def bounds(
     file, model = _on_arm(gain_file, robot)
     task = _task(model, target_deg, start_deg, seconds)
     delta = math.radians(within_deg)
-    return Comparisons(tuple(compare(one, model, task, delta) for one in file.gains), file)
+    results = tuple(compare(one, model, task, delta) for one in file.gains)
+    return Comparisons(results, file, model.address)
 
 
 def simulate_motion(
     gain_set: GainSet | str | Path,
-    robot: RobotModel | str | Path,
+    robot: ArmLike,
     *,
     target_deg: Sequence[float] | None = None,
     start_deg: Sequence[float] | None = None,
@@ -131,13 +133,13 @@ def simulate_motion(
 
 
 def export_controller(
-    gain_file: GainFile | str | Path, robot: str | None = None, *, rate: float | str
+    gain_file: GainFile | str | Path, robot: ArmLike | None = None, *, rate: float | str
 ) -> Export:
     """Write each gain set as C99; ``answer.sets[i].files`` has the text of each file.
 
     Args:
         gain_file: a gain file or its path.
-        robot: an arm that replaces the arm of the file.
+        robot: an arm, its name or the path of its file, instead of the arm of the gain file.
         rate: of the controller, Hz.
 
     Raises:
@@ -153,12 +155,12 @@ def export_controller(
     file, model = _on_arm(gain_file, robot)
     loop = record_of(LoopEntry(period=1 / hertz), file.loop, model.loop)
     assert loop is not None
-    return export(file, model, loop, robot)
+    return export(file, model, loop)
 
 
 def torque(
     gain_set: GainSet | str | Path,
-    model: RobotModel | str | Path,
+    model: ArmLike,
     q_rad: ArrayLike,
     velocity_rad: ArrayLike,
     target_rad: ArrayLike,
@@ -227,17 +229,19 @@ def decide(statement: Statement, m: int | None = None, n: int | None = None) -> 
     return decided(finding, judge_afresh({key: made}).get(key), statement)
 
 
-def _on_arm(gain_file: GainFile | str | Path, robot: str | None) -> tuple[GainFile, RobotModel]:
+def _on_arm(gain_file: GainFile | str | Path, robot: ArmLike | None) -> tuple[GainFile, RobotModel]:
     """The gain file and its arm.
 
     Raises:
         InputError: no arm is named.
     """
     from lyapcheck.control.gains import gain_file_of
-    from lyapcheck.robots import load
+    from lyapcheck.robots import RobotModel, load
     from lyapcheck.robots.choice import named
 
     file = gain_file_of(gain_file)
+    if isinstance(robot, RobotModel):
+        return file, robot
     name = named(robot, file.robot)
     if name is None:
         raise argument_error("robot", "", "is missing", 'give robot="buap3", or robot = "…" in the gain file')

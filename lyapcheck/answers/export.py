@@ -292,7 +292,6 @@ def export(
     gain_file: GainFile,
     model: RobotModel,
     loop: LoopRecord,
-    robot: str | None = None,
     *,
     wrapped: bool = False,
     hold: int = 3,
@@ -303,7 +302,6 @@ def export(
         gain_file: the gains.
         model: the arm; uncertain parameters are at their nominal values.
         loop: how ``NAME_step`` is called; with a period, and velocities by differences.
-        robot: an arm that replaces the one the file names.
         wrapped: whether readings jump at a full turn.
         hold: samples without a good reading for which the last torque is sent.
 
@@ -312,7 +310,7 @@ def export(
 
     Soundness: the bound is computed in balls, outward (``lyapcheck.export``); no certificate shows it.
     """
-    limits = limits_for(gain_file, robot)
+    limits = limits_for(gain_file, model)
     arm = model.fixed()
     result = []
     for gains, name in zip(gain_file.gains, c_names([one.name for one in gain_file.gains]), strict=True):
@@ -322,11 +320,11 @@ def export(
         except Unbounded as reason:
             rule = f"has no bound of rounding: {reason}"
             raise argument_error("gains", gains.name, rule, "choose numbers of a usual size") from None
-        (judged,) = gate(replace(gain_file, gains=(gains,)), robot)
+        (judged,) = gate(replace(gain_file, gains=(gains,)), model)
         period = _certified_period(gains, replace(limits, model=model), loop, gain_file.bounds.viscous_min)
         proofs = {name: one.digest for name, one in certificates([judged])[0].items()}
         result.append(Exported(controller, rounding, judged, proofs, controller.texts(), *period))
-    return Export(tuple(result), gain_file, model, robot or gain_file.robot or "")
+    return Export(tuple(result), gain_file, model, model.address)
 
 
 def _certified_period(

@@ -96,7 +96,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("--m", metavar="M", default=default, help=about)
 
     def add_vary(self) -> None:
-        """``--vary``, as `lyapcheck.robots.vary.Vary.parsed` reads it."""
+        """``--vary``, as `lyapcheck.robots.fields.Vary.parsed` reads it."""
         self.add_argument("--vary", metavar="NAME=LO..HI", action="append", help=RANGES)
 
     def add_loop(self, names: Iterable[str] = LOOP) -> None:

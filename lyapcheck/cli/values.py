@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
     from lyapcheck.files.loop import LoopEntry
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
 
 Value = TypeVar("Value")
 _WHOLE = re.compile(r"-?[0-9]{1,1000}")
@@ -197,7 +197,7 @@ def varies(texts: list[str] | None) -> tuple[Vary, ...]:
     """
     if not texts:
         return ()
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
 
     return tuple(Complaints().each(Vary.parsed, texts))
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lyapcheck.errors import InputError, Problem, argument_error, nearest
 from lyapcheck.extensions import shipped
@@ -18,6 +18,9 @@ from lyapcheck.files.loop import NOTHING, LoopEntry, read_loop
 from lyapcheck.files.toml import GAINS, KeyPath, Place, TomlFile, open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.choice import named, placed, split
+
+if TYPE_CHECKING:
+    from lyapcheck.robots import ArmLike
 
 # --- Which conditions decide about a gain set: those asked for, else its own, else the paper's two.
 
@@ -148,7 +151,7 @@ def one_gain_set(gains: GainSet | str | Path) -> GainSet:
     return file.gains[0]
 
 
-def read_gain_file(path: str | Path, robot: str | None = None, *, undamped: bool = False) -> GainFile:
+def read_gain_file(path: str | Path, robot: ArmLike | None = None, *, undamped: bool = False) -> GainFile:
     """The gain sets of a TOML file, every decimal exact.
 
     Args:
@@ -167,11 +170,12 @@ def read_gain_file(path: str | Path, robot: str | None = None, *, undamped: bool
     condition = conditions_of(top)
     tables = top.tables("gains", required=True)
     by_name = any(isinstance(table.data.get(key), dict) for table in tables for key in ("kp", "kv"))
-    joints, arm = None, named(robot, own)
+    joints = None
     if by_name:
-        from lyapcheck.robots import load
+        from lyapcheck.robots import RobotModel, arm_of
 
-        joints = () if arm is None else load(arm).joints
+        arm = robot if isinstance(robot, RobotModel) else named(robot, own)
+        joints = () if arm is None else arm_of(arm).joints
     sets = [gain_set_of(table, index, condition, joints, undamped) for index, table in enumerate(tables)]
     gains = tuple(gain_set for gain_set in sets if gain_set is not None)
     bounds, table = Bounds(), top.table("bounds")
@@ -314,14 +318,14 @@ def beside(robot: str | None, file: Path) -> str | None:
 
 
 @contextmanager
-def arm_named_in(file: GainFile, replaced: str | None = None) -> Iterator[None]:
+def arm_named_in(file: GainFile, replaced: object = None) -> Iterator[None]:
     """Reading the arm that a gain file names: where there is none such, that line of the gain file is told.
 
     Other problems are those of the arm file.
 
     Args:
         file: the gain file.
-        replaced: the arm that is read in place of the one in the file, so that the file is not at fault.
+        replaced: what is read instead of the arm in the file, which then is not at fault.
     """
     try:
         yield

@@ -10,12 +10,12 @@ from lyapcheck.control.gains import arm_named_in
 from lyapcheck.control.gravity import Gravity, RefutedBound, computed_bounds, settled
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.robots import Number, RobotModel, load
+from lyapcheck.robots import ArmLike, Number, RobotModel, load
 from lyapcheck.robots.choice import named
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
 
 
 @dataclass(frozen=True)
@@ -88,8 +88,15 @@ def varied_limits(name: str, varies: tuple[Vary, ...]) -> Limits:
     Raises:
         InputError: no such arm, or a range of nothing that it has.
     """
-    nominal = arm_limits(name)
-    result = model_limits(load(name, vary=varies), nominal.model)
+    return limits_of(load(name, vary=varies))
+
+
+def limits_of(model: RobotModel) -> Limits:
+    """The limits of an arm, for all values in the ranges that it was loaded with."""
+    if not model.varies:
+        return model_limits(model)
+    nominal = arm_limits(model.address)
+    result = model_limits(model, nominal.model)
     pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, result.viscous_min)]
     pairs += [
         (f"{what} of {joint}", "N·m", before, after)
@@ -103,7 +110,7 @@ def varied_limits(name: str, varies: tuple[Vary, ...]) -> Limits:
         for what, unit, before, after in pairs
         if before != after and before is not None and after is not None
     ]
-    asked = ", ".join(one.text for one in varies)
+    asked = ", ".join(one.text for one in model.varies)
     note = f"--vary {asked}: {'; '.join(cost) or 'no limit changes'}"
     return replace(result, viscous_notes=(note, *result.viscous_notes), varied=True)
 
@@ -162,19 +169,26 @@ def _assumed(what: str, joints: tuple[str, ...], numbers: tuple[Number | None, .
 
 
 def limits_for(
-    gain_file: GainFile, robot: str | None = None, arms: dict[str, Limits] | None = None
+    gain_file: GainFile,
+    robot: ArmLike | None = None,
+    arms: dict[str, Limits] | None = None,
 ) -> Limits:
     """Return the limits for a gain file, from its own ``[bounds]`` first and then from the arm.
 
     Args:
         gain_file: the gains.
-        robot: an arm that replaces the one the file names.
+        robot: an arm, its name or the path of its file, instead of the arm that the gain file names.
         arms: arms already read, by name. Arms that are read now are added.
 
     Raises:
         InputError: no arm and no bounds, an unknown arm, or another number of joints.
     """
-    bounds, name, first = gain_file.bounds, named(robot, gain_file.robot), gain_file.gains[0]
+    bounds, first, given = gain_file.bounds, gain_file.gains[0], None
+    if isinstance(robot, RobotModel):
+        name: str | None = robot.address
+        given = limits_of(robot)
+    else:
+        name = named(robot, gain_file.robot)
     if name is None:
         if bounds.torque is None or bounds.gravity is None or bounds.viscous_min is None:
             rule = "is missing and [bounds] does not give viscous_min, torque and gravity"
@@ -186,10 +200,10 @@ def limits_for(
         numbers = bounds.torque, bounds.gravity, bounds.viscous_min, joints
         return Limits(*numbers, (premise,), gravity_notes=(premise,))
     known = {} if arms is None else arms
-    if name not in known:
+    if given is None and name not in known:
         with arm_named_in(gain_file, robot):
             known[name] = arm_limits(name)
-    arm = known[name]
+    arm = given or known[name]
     if arm.n != first.n:
         place = gain_file.place(first, "kp")
         rule = f"has gains for {first.n} joints, but the arm {arm.robot} has {arm.n}"

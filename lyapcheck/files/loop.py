@@ -37,7 +37,20 @@ _BITS = re.compile(r"([0-9]{1,2}) ?bits?")
 
 @dataclass(frozen=True)
 class LoopEntry:
-    """What one source says of the loop; ``None`` where it says nothing. Units are those of `LoopRecord`."""
+    """Describe the sampled loop. An entry that is ``None`` comes from the files, or is the default.
+
+    Args:
+        period: nominal sampling period, s.
+        longest: longest interval between two readings, s.
+        delay: whole samples from a reading to its torque.
+        velocity: ``difference`` or ``measured``.
+        filter: taps of a filter of the velocity, the newest first.
+        lowpass: cut-off of a first-order filter of the velocity, Hz.
+        encoder: counts per turn of every joint.
+        unknown_payload: largest unknown mass at the centre of mass of the last link, kg.
+        gravity_error: largest relative error of each gravity torque.
+        within: largest initial error, degrees, for a proof of stability of the sampled loop from rest.
+    """
 
     period: Fraction | None = None
     longest: Fraction | None = None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
@@ -20,14 +21,16 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.toml import open_document
 from lyapcheck.robots.armfile import EXACT, read_arm, with_ranges
 from lyapcheck.robots.choice import Choice, split
-from lyapcheck.robots.fields import Number
+from lyapcheck.robots.fields import Number, Vary
 from lyapcheck.robots.plant import RobotModel
-from lyapcheck.robots.vary import Vary, require_known
+from lyapcheck.robots.vary import require_known
 
 if TYPE_CHECKING:
     from lyapcheck.robots.fields import Number
 
 
+ArmLike = RobotModel | str | Path
+"""An arm, its name or the path of its file."""
 OWN = Path(__file__).parent / "arms"
 """The arms of lyapcheck itself."""
 
@@ -37,7 +40,7 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(_arms()))
 
 
-def arm_of(model: RobotModel | str | Path) -> RobotModel:
+def arm_of(model: ArmLike) -> RobotModel:
     """An arm as it is, or the one of that name or file, as `load` finds it."""
     return model if isinstance(model, RobotModel) else load(model)
 
@@ -80,7 +83,7 @@ def load(
         repair = f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
         raise argument_error("robot", name, "is neither a built-in arm nor a file", repair)
     require_known(result, vary)
-    return result
+    return result if result.source else replace(result, source=str(name_or_path), varies=vary)
 
 
 def arm_file(name_or_path: str | Path) -> Path:
@@ -93,7 +96,7 @@ def arm_file(name_or_path: str | Path) -> Path:
 def _builtin(name: str, spread: Fraction, vary: tuple[Vary, ...]) -> RobotModel:
     path = _arms()[name]
     own = path.parent == OWN and not spread and not vary  # tests/robots look at those
-    return read_arm(path, f"{name}.toml", spread, vary, tested=own)
+    return replace(read_arm(path, f"{name}.toml", spread, vary, tested=own), source=name, varies=vary)
 
 
 def _examples() -> dict[str, Path]:

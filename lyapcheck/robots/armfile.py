@@ -30,19 +30,10 @@ from lyapcheck.files.toml import open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import ChainPlan, impossible_state, read_chain
 from lyapcheck.robots.choice import Choice
-from lyapcheck.robots.fields import PARTS, ArmFields, ArmNotes, Number, of_joints, read_motor
+from lyapcheck.robots.fields import PARTS, PAYLOAD, ArmFields, ArmNotes, Number, Vary, of_joints, read_motor
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.printed import PrintedPlan, read_model
-from lyapcheck.robots.vary import (
-    MASSES,
-    MOTOR,
-    PAYLOAD,
-    Vary,
-    require_movable,
-    varied,
-    varied_numbers,
-    with_bodies,
-)
+from lyapcheck.robots.vary import MASSES, MOTOR, require_movable, varied, varied_numbers, with_bodies
 
 EXACT = Fraction(0)
 

@@ -91,16 +91,17 @@ def split(arm: str) -> tuple[str, Choice]:
     return path, Choice(links.get("base", ""), links.get("tip", ""), fixed, xacro)
 
 
-def named(given: str | None, own: str | None) -> str | None:
+def named(given: str | Path | None, own: str | None) -> str | None:
     """The arm that ``--robot`` gives, else the one that a file names, with what is chosen of it.
 
     Args:
         given: an arm, or only a choice such as ``#tip=hand``.
         own: the arm of the file.
     """
-    if given is None or not given.startswith("#"):
-        return given or own
-    return None if own is None else split(given)[1].of(own)
+    text = str(given or "")
+    if not text.startswith("#"):
+        return text or own
+    return None if own is None else split(text)[1].of(own)
 
 
 def placed(robot: str, place: Callable[[str], str]) -> str:

@@ -9,6 +9,7 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any, cast
 
+from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import RETYPE, UNPRINTABLE, Fields, Notes
 from lyapcheck.files.toml import KeyPath
@@ -191,6 +192,72 @@ class ArmFields(Fields):
             return None
         origin = source or ("" if assumed else default)
         return Number(value, given or unit, origin, assumed, low, high, note)
+
+
+# --- A range that a user gives to a number of an arm, such as ``viscous=-30%..+0%``.
+
+OPTION = "--vary"
+PAYLOAD = "payload"
+_FORM = re.compile(r"(\w+)=([+-]?[\d.]+)(%?)\.\.([+-]?[\d.]+)(%?)", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Vary:
+    """One number of an arm, or one of every joint or link, with a range.
+
+    Args:
+        name: of a number such as ``base_inertia``, or the last part of such names: ``viscous``, ``mass``.
+            A ``payload`` is a mass at the centre of mass of the last link.
+        low, high: the range, in the number's unit or as shares of its value.
+        relative: whether they are shares: −30 % is 0.7.
+    """
+
+    name: str
+    low: Fraction
+    high: Fraction
+    relative: bool = False
+
+    @classmethod
+    def parsed(cls, text: str) -> Vary:
+        """The meaning of ``NAME=LO..HI``, both in percent of the number's value or both in its unit.
+
+        Raises:
+            InputError: text of another form, or an empty range.
+        """
+        result = _FORM.fullmatch(text.replace(" ", "").replace("−", "-"))
+        repair = "write --vary viscous=-30%..+0%, or --vary payload=0..3"
+        if result is None or bool(result[3]) != bool(result[5]):
+            raise argument_error(OPTION, text, "is not of the form NAME=LO..HI", repair)
+        try:
+            low, high = Fraction(result[2]), Fraction(result[4])
+        except ValueError:
+            raise argument_error(OPTION, text, "has an end that is no number", repair) from None
+        if low > high:
+            raise argument_error(OPTION, text, "is an empty range", "give the smaller end first")
+        if result[1] == PAYLOAD and (result[3] or low < 0):
+            rule = "is no mass: a payload is in kg, from 0 on"
+            raise argument_error(OPTION, text, rule, "write --vary payload=0..3")
+        if result[3]:
+            low, high = 1 + low / 100, 1 + high / 100
+        return cls(result[1], low, high, bool(result[3]))
+
+    @property
+    def text(self) -> str:
+        ends = [100 * (x - 1) if self.relative else x for x in (self.low, self.high)]
+        unit = "%" if self.relative else ""
+        return f"{self.name}={'..'.join(decimal_text(x) + unit for x in ends)}"
+
+    def matches(self, key: str) -> bool:
+        return key == self.name or key.endswith(f"_{self.name}")
+
+    def of(self, number: Number) -> Number:
+        """The number with the range in place of its own.
+
+        The value stays where it lies within. Else it is the nearest end, a member of the range and not the
+        nominal value any more; ``outside`` names such numbers.
+        """
+        low, high = sorted(x * number.value if self.relative else x for x in (self.low, self.high))
+        return replace(number, value=min(max(number.value, low), high), low=low, high=high)
 
 
 # --- What an arm file says of a joint: friction, limits, encoder.

@@ -21,6 +21,7 @@ from lyapcheck.robots.trig import ArmAtAngles, Dynamics, Lift, T, Tidy, to_terms
 
 if TYPE_CHECKING:
     from lyapcheck.check.statement import Monomials
+    from lyapcheck.robots.fields import Vary
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -44,6 +45,8 @@ class RobotModel:
         remarks: further assumptions, in sentences.
         printed: C and g that the source prints. Nothing is derived from them.
         loop: the sampled loop in the file.
+        source: the name or path that ``load_robot`` was given, empty for an arm made in Python.
+        varies: the ranges that ``load_robot`` was given. The gate judges gains for all of them.
 
     Soundness: M belongs to the physical arm only if ``numbers`` do. ``assumptions`` lists the numbers that no
     source prints.
@@ -65,6 +68,13 @@ class RobotModel:
     remarks: tuple[str, ...] = ()
     printed: PrintedTorques | None = None
     loop: LoopEntry = NOTHING
+    source: str = ""
+    varies: tuple[Vary, ...] = ()
+
+    @property
+    def address(self) -> str:
+        """What commands and gain files call the arm."""
+        return self.source or self.name
 
     @property
     def n(self) -> int:
@@ -165,7 +175,7 @@ class RobotModel:
             return self._nominal
         nominal = {name: number.value for name, number in self.parameters.items()}
         values = {name: Fraction(value) for name, value in (nominal | parameters).items()}
-        return replace(self, dynamics=self.dynamics.fixed(values), parameters={})
+        return replace(self, dynamics=self.dynamics.fixed(values), parameters={}, varies=())
 
     @cached_property
     def _nominal(self) -> RobotModel:

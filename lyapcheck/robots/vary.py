@@ -2,88 +2,25 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.errors import InputError, Problem, argument_error, nearest
+from lyapcheck.errors import InputError, Problem, nearest
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
-from lyapcheck.robots.fields import ROTOR, Number
+from lyapcheck.robots.fields import OPTION, PAYLOAD, ROTOR, Number, Vary
 
 if TYPE_CHECKING:
     from lyapcheck.robots.plant import RobotModel
 
-OPTION = "--vary"
-PAYLOAD = "payload"
 MOTOR = ("viscous", "coulomb", "torque_limit", "gravity_bound")
 """Numbers of a joint that enter neither M nor the potential."""
 MASSES = (ROTOR.removeprefix("_"), "mass")
 """Numbers of known links."""
 MOST_CORNERS = 32
-_FORM = re.compile(r"(\w+)=([+-]?[\d.]+)(%?)\.\.([+-]?[\d.]+)(%?)", re.ASCII)
-
-
-@dataclass(frozen=True)
-class Vary:
-    """One number of an arm, or one of every joint or link, with a range.
-
-    Args:
-        name: of a number such as ``base_inertia``, or what such names end in: ``viscous``, ``mass``. A
-            ``payload`` is a mass at the centre of mass of the last link.
-        low, high: the range, in the number's unit or as shares of its value.
-        relative: whether they are shares: −30 % is 0.7.
-    """
-
-    name: str
-    low: Fraction
-    high: Fraction
-    relative: bool = False
-
-    @classmethod
-    def parsed(cls, text: str) -> Vary:
-        """The meaning of ``NAME=LO..HI``, both in percent of the number's value or both in its unit.
-
-        Raises:
-            InputError: text of another form, or an empty range.
-        """
-        result = _FORM.fullmatch(text.replace(" ", "").replace("−", "-"))
-        repair = "write --vary viscous=-30%..+0%, or --vary payload=0..3"
-        if result is None or bool(result[3]) != bool(result[5]):
-            raise argument_error(OPTION, text, "is not of the form NAME=LO..HI", repair)
-        try:
-            low, high = Fraction(result[2]), Fraction(result[4])
-        except ValueError:
-            raise argument_error(OPTION, text, "has an end that is no number", repair) from None
-        if low > high:
-            raise argument_error(OPTION, text, "is an empty range", "give the smaller end first")
-        if result[1] == PAYLOAD and (result[3] or low < 0):
-            rule = "is no mass: a payload is in kg, from 0 on"
-            raise argument_error(OPTION, text, rule, "write --vary payload=0..3")
-        if result[3]:
-            low, high = 1 + low / 100, 1 + high / 100
-        return cls(result[1], low, high, bool(result[3]))
-
-    @property
-    def text(self) -> str:
-        ends = [100 * (x - 1) if self.relative else x for x in (self.low, self.high)]
-        unit = "%" if self.relative else ""
-        return f"{self.name}={'..'.join(decimal_text(x) + unit for x in ends)}"
-
-    def matches(self, key: str) -> bool:
-        return key == self.name or key.endswith(f"_{self.name}")
-
-    def of(self, number: Number) -> Number:
-        """The number with the range in place of its own.
-
-        The value stays where it lies within. Else it is the nearest end, a member of the range and not the
-        nominal value any more; ``outside`` names such numbers.
-        """
-        low, high = sorted(x * number.value if self.relative else x for x in (self.low, self.high))
-        return replace(number, value=min(max(number.value, low), high), low=low, high=high)
 
 
 def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dict[str, Number]:
@@ -286,4 +223,4 @@ def at_values(model: RobotModel, values: Mapping[str, Fraction]) -> RobotModel:
             else number
             for joint, number in rows
         )
-    return replace(fixed, **parts)
+    return replace(fixed, **parts, varies=())

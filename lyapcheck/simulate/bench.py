@@ -18,8 +18,9 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import VELOCITIES
 from lyapcheck.lyapunov import graph
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.fields import PAYLOAD, Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import PAYLOAD, Vary, varied
+from lyapcheck.robots.vary import varied
 from lyapcheck.simulate.integrate import MAX_STEPS, Compiled
 from lyapcheck.simulate.results import motor_limits
 from lyapcheck.simulate.task import Gains, Setup

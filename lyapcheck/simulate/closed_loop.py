@@ -34,7 +34,7 @@ from lyapcheck.simulate.task import Gains, Setup, set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots import ArmLike, RobotModel
 
 
 # --- What all simulations by the equations have in common: a graph, its integration, its run.
@@ -194,7 +194,7 @@ POINTS = 2001
 
 def simulate(
     gain_set: GainSet | str | Path,
-    model: RobotModel | str | Path,
+    model: ArmLike,
     target_rad: Sequence[float],
     start_rad: Sequence[float] | None = None,
     velocity_rad: Sequence[float] | None = None,

@@ -35,7 +35,7 @@ from lyapcheck.simulate.task import FASTEST, Gains, Setup, Task, gains_for, task
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots import ArmLike, RobotModel
 
 ROUNDING = 1e-9
 """How far dV/dt may be above its bound, relative to the larger of both: what doubles may do."""
@@ -227,7 +227,7 @@ TOLERANCE = 1e-10
 
 def track(
     gain_set: GainSet | str | Path,
-    model: RobotModel | str | Path,
+    model: ArmLike,
     reference: Reference,
     start_rad: Sequence[float] | None = None,
     velocity_rad: Sequence[float] | None = None,

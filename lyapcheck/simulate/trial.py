@@ -31,7 +31,7 @@ from lyapcheck.simulate.task import MOST_POINTS, Gains, Setup, set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots import ArmLike
 
 
 BENCH = Bench()
@@ -46,7 +46,7 @@ RUNAWAY = 1e6
 
 def experiment(
     gain_set: GainSet | str | Path,
-    model: RobotModel | str | Path,
+    model: ArmLike,
     target_rad: Sequence[float],
     start_rad: Sequence[float] | None = None,
     velocity_rad: Sequence[float] | None = None,

@@ -15,7 +15,8 @@ from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.output.answer import FORMATS, Level
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import Vary, corners
+from lyapcheck.robots.fields import Vary
+from lyapcheck.robots.vary import corners
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.command import invoke
 from tests.helpers.shares import but, one_in

@@ -23,8 +23,9 @@ from lyapcheck.control.limits import arm_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import JUDGED_FORMATS
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import Vary, varied
+from lyapcheck.robots.vary import varied
 from tests.helpers.arm_texts import ONE_JOINT, arm_of
 from tests.helpers.command import invoke
 from tests.helpers.shares import one_in

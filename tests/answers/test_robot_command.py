@@ -15,8 +15,8 @@ from lyapcheck.constants import ConstantResult, arm_constants
 from lyapcheck.errors import InputError
 from lyapcheck.output import text as plain
 from lyapcheck.output.answer import Level
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import Vary
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 from tests.helpers.urdf_texts import ARMS, TWO, generic

@@ -19,8 +19,9 @@ from lyapcheck.control.gains import Bounds, read_gain_file
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import FORMATS
 from lyapcheck.robots import load
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import Vary, at_values
+from lyapcheck.robots.vary import at_values
 from tests.helpers.command import invoke
 from tests.helpers.costly import costly
 from tests.helpers.shares import but
@@ -194,7 +195,7 @@ def largest_of(function):
 def gain_ranges(robot="buap3", m=2, **targets):
     model = load(robot)
     wanted = Targets(**targets).for_joints(model.n)
-    limits, _ = _limits(robot, model, wanted, Bounds())
+    limits, _ = _limits(model, wanted, Bounds())
     return _rooms(m, model, limits, wanted)
 
 

@@ -18,7 +18,7 @@ from lyapcheck.answers.gate import gate
 from lyapcheck.answers.tune.bench import BenchTuning, Candidate
 from lyapcheck.answers.tune.gain_file import bench_file_text
 from lyapcheck.answers.tune.search import Search, accepted, tune_for
-from lyapcheck.answers.tune.targets import arm_limits
+from lyapcheck.answers.tune.targets import limits_with
 from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
@@ -28,7 +28,7 @@ from lyapcheck.errors import InputError
 from lyapcheck.files.loop import NOTHING
 from lyapcheck.output.answer import FORMATS
 from lyapcheck.output.text import Depth, View, render
-from lyapcheck.robots.vary import Vary
+from lyapcheck.robots.fields import Vary
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.many import Starts
 from lyapcheck.simulate.task import PAPER_TASK, task_for
@@ -128,7 +128,8 @@ def test_the_worst_of_all_arms_and_motions_counts() -> None:
 @pytest.mark.parametrize("name", one_in(2, ["reyes-kelly2", "buap3"]))
 def test_the_search_is_never_worse_than_the_rule_of_thumb(name: str):
     """98 % of (10i) with damping ratio 0.9, of which it starts; every set that is tried keeps (10i)."""
-    model, limits = robots.load(name), arm_limits(name, robots.load(name).n, None, ())
+    model = robots.load(name)
+    limits = limits_with(model)
     bench = Trials(Wishes(overshoot=5, settle=1.5), (task_for(model.n, [0.8] * model.n, None, None, 5.0),))
     search = Search(bench, [model], limits, 1, BY_PROOF)
     thumb = search.set_of(search.first())
@@ -171,7 +172,7 @@ def test_gains_that_a_computer_cannot_run_are_told_from_those_that_it_can():
     seen = as_run(wild, [model], bench, record)
     assert seen.unrest.startswith("limit cycle seen: pivot")
     assert not seen.kept
-    found = Search(bench, [model], arm_limits("pendulum1", 1, None, ()), 1, BY_PROOF, record).run()
+    found = Search(bench, [model], limits_with(model), 1, BY_PROOF, record).run()
     assert not found.trial.unrest
     assert float(found.gains.kv[0]) <= 0.5 * 0.25 / (0.01 * 2)
 

@@ -7,7 +7,7 @@ from scipy.optimize import differential_evolution
 
 from lyapcheck import robots
 from lyapcheck.answers.tune.search import BRIEFLY, Search
-from lyapcheck.answers.tune.targets import arm_limits
+from lyapcheck.answers.tune.targets import limits_with
 from lyapcheck.answers.tune.trial import Trials, Wishes, tried, tried_all
 from lyapcheck.simulate.task import task_for
 
@@ -40,7 +40,7 @@ def row(name):
     model, (overshoot, settle) = robots.load(arm), ARMS[name]
     n, wishes = model.n, Wishes(overshoot, settle, 0.9)
     bench = Trials(wishes, (task_for(n, [np.pi / 4] * n, None, None, 5.0),))
-    search = Search(bench, (model,), arm_limits(arm, n, None, ()), 1, "proof")
+    search = Search(bench, (model,), limits_with(model), 1, "proof")
     start = time.process_time()
     found = search.run()
     ours, mine = time.process_time() - start, found.trial.worst(wishes)

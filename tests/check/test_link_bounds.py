@@ -18,7 +18,8 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.control.gains import read_gain_file
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import Vary, varied
+from lyapcheck.robots.fields import Vary
+from lyapcheck.robots.vary import varied
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof, unphysical
 from lyapcheck.search.link_bounds import ErrorBoxes, link_bounds, linked_proof
 from lyapcheck.search.worst_states import quadratic, sample

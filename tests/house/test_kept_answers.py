@@ -14,7 +14,7 @@ from lyapcheck.answers.epsilon.compute import Options, epsilon
 from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
 from lyapcheck.control.gains import GainSet
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import Vary
+from lyapcheck.robots.fields import Vary
 from tests.arena.attacks import encoded, sealed
 from tests.helpers.shares import one_in
 

@@ -118,10 +118,56 @@ def test_gains_and_arms_print_as_one_short_line():
     assert repr(lyapcheck.load_robot("buap3")) == "<RobotModel: buap3, 3 joints, 10 of 18 numbers assumed>"
 
 
+ONE = '[[gains]]\nname = "one"\nm = 1\nkp = [0.1]\nkv = [0.02]\n'
+ON_AN_ARM = {
+    "bounds": lambda file, arm: lyapcheck.bounds(file, arm, seconds=1),
+    "derivation": lambda file, arm: lyapcheck.derivation(1, robot=arm),
+    "export_controller": lambda file, arm: lyapcheck.export_controller(file, arm, rate=1000),
+    "gate": lyapcheck.gate,
+    "tune_for_targets": lambda file, arm: lyapcheck.tune_for_targets(arm, overshoot=30, seconds=1),
+    "tune_gains": lambda file, arm: lyapcheck.tune_gains(arm, [1]),
+}
+
+
+@pytest.mark.parametrize("task", ON_AN_ARM)
+def test_an_arm_is_an_object_a_name_or_a_path(task, tmp_path):
+    (tmp_path / "gains.toml").write_text(ONE)
+    file = lyapcheck.read_gain_file(tmp_path / "gains.toml")
+    by_name = str(ON_AN_ARM[task](file, "pendulum1"))
+    assert str(ON_AN_ARM[task](file, lyapcheck.load_robot("pendulum1"))) == by_name
+    assert str(ON_AN_ARM[task](file, Path("pendulum1"))) == by_name
+
+
+def test_an_arm_that_was_changed_in_python_is_the_arm_that_counts(tmp_path):
+    (tmp_path / "gains.toml").write_text('robot = "pendulum1"\n' + ONE)
+    arm = lyapcheck.load_robot("pendulum1")
+    (limit,) = arm.torque_limit
+    weak = replace(arm, torque_limit=(replace(limit, value=limit.value / 100),))
+    for robot, verdict in ((None, "accepted"), (arm, "accepted"), (weak, "rejected")):
+        assert [one.verdict for one in lyapcheck.gate(tmp_path / "gains.toml", robot)] == [verdict]
+    motorless = replace(arm, torque_limit=(None,))
+    assert lyapcheck.tune_gains(arm, [1]).sets[0].gains is not None
+    assert lyapcheck.tune_gains(motorless, [1]).sets[0].gains is None
+
+
+def test_gains_are_judged_over_the_ranges_that_an_arm_was_loaded_with(tmp_path):
+    (file := tmp_path / "gains.toml").write_text(ONE)
+    varies = (lyapcheck.Vary.parsed("viscous=-99%..+0%"),)
+    arm = lyapcheck.load_robot("pendulum1", vary=varies)
+    assert [one.verdict for one in lyapcheck.gate(file, "pendulum1", ["19"])] == ["accepted"]
+    (over,) = lyapcheck.gate(file, arm, ["19"])
+    assert over.verdict == "rejected"
+    assert over.limits.varied
+    by_name = lyapcheck.tune_gains("pendulum1", [1], varies=varies)
+    assert lyapcheck.tune_gains(arm, [1]).records() == by_name.records()
+    with pytest.raises(lyapcheck.InputError, match="come too late"):
+        lyapcheck.tune_gains(arm, [1], varies=varies)
+
+
 @pytest.mark.slow
 def test_each_object_of_the_eight_tasks_prints_as_one_short_line(tmp_path):
     gains = tmp_path / "gains.toml"
-    gains.write_text('robot = "pendulum1"\n[[gains]]\nname = "one"\nm = 1\nkp = [0.1]\nkv = [0.02]\n')
+    gains.write_text('robot = "pendulum1"\n' + ONE)
     file, arm, x = lyapcheck.read_gain_file(gains), lyapcheck.load_robot("pendulum1"), claims.var("x")
     answers = [
         lyapcheck.gate(file),

@@ -12,7 +12,7 @@ from lyapcheck.answers.gate.stability import positive
 from lyapcheck.check.kinds.gate_accepted import GateAccepted
 from lyapcheck.control.judgement import judged_statement, resting
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import Vary
+from lyapcheck.robots.fields import Vary
 from lyapcheck.search.certified import certified_epsilon
 from lyapcheck.search.controlled_arm import ControlledArm
 from tests.helpers.arm_texts import ONE_LINK

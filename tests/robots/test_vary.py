@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from lyapcheck import robots
 from lyapcheck.control.limits import varied_limits
 from lyapcheck.errors import InputError
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import Vary, corners, corners_text, outside
+from lyapcheck.robots.vary import corners, corners_text, outside
 from tests.helpers.arm_texts import PLANAR
 
 UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")

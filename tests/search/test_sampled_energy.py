@@ -28,9 +28,10 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.family.base import named
 from lyapcheck.robots import load
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.trig import to_terms
-from lyapcheck.robots.vary import Vary, varied
+from lyapcheck.robots.vary import varied
 from lyapcheck.search.controlled_arm import chains_of
 from lyapcheck.search.sampled import loops
 from lyapcheck.search.sampled_energy import falling_energy

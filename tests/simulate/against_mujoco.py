@@ -20,7 +20,7 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.answers.running.sampled import shown_from_rest
 from lyapcheck.answers.tune.search import Search
-from lyapcheck.answers.tune.targets import arm_limits
+from lyapcheck.answers.tune.targets import limits_with
 from lyapcheck.answers.tune.trial import BY_PROOF, Trials, Wishes
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.control.gains import GainSet
@@ -246,7 +246,7 @@ def test_gains_that_are_tuned_for_a_computer_settle() -> None:
     task = task_for(model.n, [GOAL] * model.n, None, None, T)
     bench, limits = (
         Trials(Wishes(overshoot=10, settle=2), (task,)),
-        arm_limits(str(EXAMPLES / "iiwa14.toml"), 7),
+        limits_with(model),
     )
     found = Search(bench, [model], limits, 1, BY_PROOF, LoopRecord(period=Fraction(1, 1000))).run()
     seen = sampled(model, found.gains, 1000, 1, 0)

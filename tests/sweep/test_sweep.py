@@ -22,7 +22,7 @@ from lyapcheck.answers.sweep.result import SweepAnswer, Tally
 from lyapcheck.control.gains import GainFile, GainSet
 from lyapcheck.control.limits import varied_limits
 from lyapcheck.family.members import tanh
-from lyapcheck.robots.vary import Vary
+from lyapcheck.robots.fields import Vary
 from tests.helpers.command import lyapcheck as command
 
 PLAN = """

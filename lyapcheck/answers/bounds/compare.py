@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.judgement import JudgedStatement
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
     from lyapcheck.simulate.task import Task
 
     Varied = tuple[RobotModel, Sequence[Vary]]

@@ -13,6 +13,7 @@ from lyapcheck.promise import told
 
 if TYPE_CHECKING:
     from lyapcheck.answers.derive.rows import Agreement, Formula
+    from lyapcheck.robots import ArmLike
 
 MOST_JOINTS = 7
 """Of the entries in which SymPy decides that V and dV/dt are what is printed."""
@@ -102,13 +103,13 @@ NOTES = (
 )
 
 
-def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None) -> Derivation:
+def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: ArmLike | None = None) -> Derivation:
     """Derive the formulas of the family, V and dV/dt from U_m by SymPy. The checker verifies each.
 
     Args:
         m: one order of the family, or several.
         n: number of joints. An arm has its own.
-        robot: a built-in arm or the path of an arm file.
+        robot: an arm, its name or the path of its file.
 
     Raises:
         InputError: an m or n out of range, an arm that cannot be read or whose M(q) is too long.
@@ -129,12 +130,12 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: str | None = None)
     from lyapcheck.answers.derive import rows as parts
     from lyapcheck.derive import written_arm
     from lyapcheck.derive.family import member
-    from lyapcheck.robots import load
+    from lyapcheck.robots import arm_of
 
     ms = tuple([m] if isinstance(m, int) else m)
     for one in ms:
         _require("m", one, LARGEST_M)
-    model = None if robot is None else load(robot)
+    model = None if robot is None else arm_of(robot)
     joints = n if model is None else model.n
     _require("n", joints, MOST_JOINTS)
     arm = None if model is None else written_arm(model)

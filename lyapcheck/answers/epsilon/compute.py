@@ -47,7 +47,7 @@ from lyapcheck.search.weights import Effort, Weighted, weighted_epsilon
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import RobotModel
+    from lyapcheck.robots import ArmLike, RobotModel
 
 USUAL = 20_000
 """Boxes for weights that nobody has asked for by name."""
@@ -80,7 +80,7 @@ class Contradiction(RuntimeError):
 
 def epsilon(
     gain_set: GainSet | str | Path,
-    model: RobotModel | str | Path,
+    model: ArmLike,
     *,
     max_boxes: int = MAX_BOXES,
     jobs: int = 1,

@@ -23,6 +23,7 @@ from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
     from lyapcheck._types import Progress
+    from lyapcheck.robots import ArmLike
 
 __all__ = ["DECIDING", "GateAnswer", "GateResult", "gate"]
 
@@ -76,7 +77,7 @@ class GateAnswer(tuple[GateResult, ...], Answer):
 
 def gate(
     gain_file: GainFile | str | Path,
-    robot: str | None = None,
+    robot: ArmLike | None = None,
     deciding: Sequence[str] | None = None,
     strict: bool = False,
     arms: dict[str, Limits] | None = None,
@@ -87,7 +88,7 @@ def gate(
 
     Args:
         gain_file: a gain file or its path.
-        robot: an arm that replaces the arm of the file.
+        robot: an arm, its name or the path of its file, instead of the arm of the gain file.
         deciding: the conditions that must hold. Default: the conditions of each set, else (10p) and (19).
         strict: True counts undecided as a failure.
         arms: arms already read, by name, for many files on one arm. Arms that are read now are added.

@@ -26,6 +26,7 @@ from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
     from lyapcheck.check.certificate import Certificate
+    from lyapcheck.robots import ArmLike
 
 BREAKS_19 = "breaks (19), stability proved otherwise"
 """What is said of a rejected set that its users may still want."""
@@ -167,7 +168,7 @@ class GateResult:
 
 def judged_sets(
     gain_file: GainFile,
-    robot: str | None = None,
+    robot: ArmLike | None = None,
     asked: Sequence[str] | None = None,
     strict: bool = False,
     arms: dict[str, Limits] | None = None,

@@ -14,7 +14,7 @@ from lyapcheck.check.certificate import digest_of
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
 from lyapcheck.robots import load
-from lyapcheck.robots.vary import Vary
+from lyapcheck.robots.fields import Vary
 from lyapcheck.simulate.task import PAPER_TASK, Task, task_for
 from lyapcheck.verdicts import Exit, Verdict
 

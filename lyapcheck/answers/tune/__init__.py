@@ -27,23 +27,23 @@ from lyapcheck.answers.tune.largest import (
     obstacle,
     propose,
 )
-from lyapcheck.answers.tune.targets import Targets, arm_limits, impossible, unknown
+from lyapcheck.answers.tune.targets import Targets, arms_over, impossible, limits_with, unknown
 from lyapcheck.control.conditions import ACCEPTED
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.limits import Limits
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import round_down
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import ArmLike, RobotModel
 
 if TYPE_CHECKING:
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
 
 WRITTEN_PLACES = 12
 
 
 def tune(
-    robot: str,
+    robot: ArmLike,
     members: Sequence[int] = (1, 2, 3),
     targets: Targets | None = None,
     bounds: Bounds | None = None,
@@ -53,11 +53,11 @@ def tune(
     """Find the largest k_p, and with it the largest k_v, that meet (10p), (19) and the targets.
 
     Args:
-        robot: a built-in arm, or the path of an arm file.
+        robot: an arm, its name or the path of its file.
         members: the order m of each gain set.
         targets: stiffness, damping and torque. Default: as much damping as (19) allows.
         bounds: limits that replace the arm's.
-        varies: ranges of the arm's numbers for the limits.
+        varies: ranges of the arm's numbers for the limits, if ``robot`` is a name or path.
         loop: the sampled loop, which replaces the arm file's.
 
     Raises:
@@ -79,31 +79,29 @@ def tune(
         ✓ reyes-kelly2: the largest gains within (10p) and (19)
         ...
     """
-    model = load(robot)
+    model, ranged = arms_over(robot, varies)
     wanted = (targets or Targets()).for_joints(model.n)
-    limits, repeated = _limits(robot, model, wanted, bounds or Bounds(), varies)
+    limits, repeated = _limits(ranged, wanted, bounds or Bounds())
     found = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
-    sets = _confirmed(found, robot, repeated, loop)
-    return Tuning(robot, model.title, wanted, limits, repeated, sets, loop)
+    sets = _confirmed(found, model, repeated, loop)
+    return Tuning(model.address, model.title, wanted, limits, repeated, sets, loop)
 
 
-def _repeated(bounds: Bounds, limits: Limits, varies: tuple[Vary, ...]) -> Bounds:
+def _repeated(bounds: Bounds, limits: Limits) -> Bounds:
     """The bounds that the gain file must repeat: all of them, where they are those of ranges.
 
     Of gravity those that the arm keeps, whatever was given.
     """
     known = tuple(limit for limit in limits.torque if limit is not None)
-    if not varies:
+    if not limits.varied:
         return replace(bounds, gravity=None if bounds.gravity is None else limits.gravity)
     return Bounds(limits.viscous_min or None, known if len(known) == limits.n else None, limits.gravity)
 
 
-def _limits(
-    robot: str, model: RobotModel, targets: Targets, bounds: Bounds, varies: tuple[Vary, ...] = ()
-) -> tuple[Limits, Bounds]:
+def _limits(arm: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
     """The limits to tune to, and those that the gain file must repeat."""
-    limits = arm_limits(robot, model.n, bounds, varies)
-    bounds = _repeated(bounds, limits, varies)
+    limits = limits_with(arm, bounds)
+    bounds = _repeated(bounds, limits)
     if all(share == 1 for share in targets.peak_share):
         return limits, bounds
     torque = tuple(
@@ -111,7 +109,7 @@ def _limits(
         for limit, share in zip(limits.torque, targets.peak_share, strict=True)
     )
     known = tuple(limit for limit in torque if limit is not None)
-    repeated = replace(bounds, torque=known if len(known) == model.n else bounds.torque)
+    repeated = replace(bounds, torque=known if len(known) == arm.n else bounds.torque)
     return replace(limits, torque=torque), repeated
 
 
@@ -149,7 +147,7 @@ def _joint(name: str, gain_range: GainRange, units: tuple[int, int]) -> TunedJoi
 
 
 def _confirmed(
-    sets: Sequence[TunedSet], robot: str, repeated: Bounds, loop: LoopEntry
+    sets: Sequence[TunedSet], model: RobotModel, repeated: Bounds, loop: LoopEntry
 ) -> tuple[TunedSet, ...]:
     """Let the gate judge the gain file that will be written.
 
@@ -162,8 +160,8 @@ def _confirmed(
     gains = tuple(item.gains for item in sets if item.gains is not None)
     if not gains:
         return tuple(sets)
-    file = GainFile("tuned gains", robot, gains, repeated, loop=loop)
-    answers = {result.name: result for result in gate(file)}
+    file = GainFile("tuned gains", None, gains, repeated, loop=loop)
+    answers = {result.name: result for result in gate(file, model)}
     return tuple(item if item.gains is None else _as_judged(item, answers[item.name]) for item in sets)
 
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate import GateResult
     from lyapcheck.control.conditions import Check
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
 
 IN_WORDS = {BY_19: "(19)", BY_PROOF: "proof"}
 STABLE_BY = {"19": "(19)", SCALAR: "proof", LASALLE: "LaSalle"}

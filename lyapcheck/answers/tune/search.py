@@ -20,18 +20,19 @@ from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.stability import LASALLE, SCALAR
 from lyapcheck.answers.running import runs_of
 from lyapcheck.answers.tune.bench import IN_WORDS, BenchTuning, Candidate
-from lyapcheck.answers.tune.targets import arm_limits, impossible, unknown
+from lyapcheck.answers.tune.targets import arms_over, impossible, limits_with, unknown
 from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried, tried_all
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.judgement import ACCEPTED
-from lyapcheck.control.limits import Limits, varied_limits
+from lyapcheck.control.limits import Limits, limits_of
 from lyapcheck.control.sampling import LoopRecord, record_of
 from lyapcheck.control.threshold import scaled
 from lyapcheck.family.base import named
 from lyapcheck.files.loop import NOTHING, LoopEntry
-from lyapcheck.robots import RobotModel, load
+from lyapcheck.robots import ArmLike, RobotModel
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import Vary, at_values, corners, corners_text, outside
+from lyapcheck.robots.vary import at_values, corners, corners_text, outside
 
 SHARE, DAMPING, FLOOR = 0.98, 0.9, 0.05
 """Of (10i), of the first set; the damping ratio of it, and what k_v alone gives every joint at least."""
@@ -220,7 +221,7 @@ CONDITIONS = {BY_19: ("19",), BY_PROOF: (SCALAR, LASALLE)}
 
 
 def tune_for(
-    robot: str,
+    robot: ArmLike,
     bench: Trials,
     members: Sequence[int] = (1,),
     bounds: Bounds | None = None,
@@ -231,7 +232,7 @@ def tune_for(
     """The gains that meet what is asked best, for each member and way to show stability.
 
     Args:
-        robot: a built-in arm, or the path of an arm file.
+        robot: an arm, its name or the path of its file.
         bench: what is asked, of which motions, and how stability may be shown.
         members: m of each gain set.
         bounds: limits to take instead of the arm's.
@@ -247,10 +248,10 @@ def tune_for(
 
     References: (6), (10), (11), (19) of reyes2019family.
     """
-    model = load(robot)
-    limits = arm_limits(robot, model.n, bounds, varies)
-    ranges = {robot: varied_limits(robot, varies)} if varies else None
-    arms, tried_on = _arms(robot, model, varies)
+    model, ranged = arms_over(robot, varies)
+    name, limits = model.address, limits_with(ranged, bounds)
+    known = {name: limits_of(ranged)}
+    arms, tried_on = _arms(model, ranged)
     record = record_of(loop, NOTHING, model.loop)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
@@ -268,13 +269,13 @@ def tune_for(
             reasons.append(f"m = {m}: {why}")
             continue
         result = search.run(told)
-        judged = accepted(result.gains, way, robot, bounds, ranges, loop)
+        judged = accepted(result.gains, way, name, bounds, known, loop)
         own = judged if judged.verdict == ACCEPTED else None
         gains = result.gains if own is None else own.gains
         held = tuple(_held(gains, search))
         sets.append(Candidate(gains, result.trial, way, held, own, runs_of(judged)))
     return BenchTuning(
-        robot,
+        name,
         model,
         bench,
         tuple(sets),
@@ -282,27 +283,26 @@ def tune_for(
         limits.assumptions,
         tried_on,
         bounds or Bounds(),
-        varies,
+        ranged.varies,
         loop,
     )
 
 
-def _arms(robot: str, model: RobotModel, varies: tuple[Vary, ...]) -> tuple[tuple[RobotModel, ...], str]:
+def _arms(model: RobotModel, ranged: RobotModel) -> tuple[tuple[RobotModel, ...], str]:
     """The arms that gains are tried on, and what these are; empty for the arm of the file alone.
 
-    Without ranges to vary: also the ends of what is assumed, all together; viscous friction that is assumed
+    Without ranges: also the ends of what is assumed, all together; viscous friction that is assumed
     without a range may be down to a tenth.
     """
-    if not varies:
+    if not ranged.varies:
         low, high = {}, {}
         for key, number in model.numbers.items():
             if number.assumed and (number.ranged or key.endswith("_viscous")):
                 low[key], high[key] = number.bounds if number.ranged else (number.value / 10, number.value)
         arms = [at_values(model, values) for values in (low, high) if values]
         return (model, *arms), "the arm of the file and both ends of its assumed numbers" if arms else ""
-    ranged = load(robot, vary=varies)
-    ends = tuple(arm for _, arm in corners(ranged, varies))
-    text = corners_text(ranged, varies)
+    ends = tuple(arm for _, arm in corners(ranged, ranged.varies))
+    text = corners_text(ranged, ranged.varies)
     if outside(model, ranged):
         return ends, f"{text}; the values of the file lie outside"
     return (model, *ends), f"the nominal arm and {text}"
@@ -313,14 +313,14 @@ def accepted(
     way: str,
     robot: str,
     bounds: Bounds | None,
-    ranges: dict[str, Limits] | None,
+    arms: dict[str, Limits] | None,
     loop: LoopEntry,
 ) -> GateResult:
     """The set as the gate accepts it, with the conditions by which it does; else as it does not."""
     for condition in CONDITIONS[way]:
         named = replace(gains, condition=("10i", condition))
-        file = GainFile("tuned gains", robot, (named,), bounds or Bounds(), loop=loop)
-        (result,) = gate(file, robot, arms=ranges)
+        file = GainFile("tuned gains", None, (named,), bounds or Bounds(), loop=loop)
+        (result,) = gate(file, robot, arms=arms)
         if result.verdict == ACCEPTED:
             break
     return result

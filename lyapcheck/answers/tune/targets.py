@@ -9,13 +9,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
-from lyapcheck.control.limits import Limits, limits_for, varied_limits
-from lyapcheck.errors import InputError, Problem
+from lyapcheck.control.limits import Limits, limits_for
+from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.files.decimals import decimal_text, round_down
+from lyapcheck.robots import ArmLike, RobotModel, load
 from lyapcheck.robots.choice import split
 
 if TYPE_CHECKING:
-    from lyapcheck.robots.vary import Vary
+    from lyapcheck.robots.fields import Vary
 
 MOST_DIGITS = 12
 Number = int | str | Fraction | Decimal
@@ -136,20 +137,29 @@ def _complaints(option: str, values: Sequence[Fraction], top: Fraction | None, n
 # --- What the limits of an arm leave to gains, and why there may be none.
 
 
-def arm_limits(robot: str, n: int, bounds: Bounds | None = None, varies: tuple[Vary, ...] = ()) -> Limits:
+def limits_with(arm: RobotModel, bounds: Bounds | None = None) -> Limits:
     """The limits that the gate would judge gains for this arm by.
 
     Args:
-        robot: a built-in arm, or the path of an arm file.
-        n: its number of joints.
+        arm: the arm, with its ranges.
         bounds: limits to take instead of the arm's.
-        varies: ranges that the limits are to hold for.
     """
-    ones = (Fraction(1),) * n
-    arms = {robot: varied_limits(robot, varies)} if varies else None
-    return limits_for(
-        GainFile(robot, robot, (GainSet("limits", 1, ones, ones),), bounds or Bounds()), None, arms
-    )
+    ones = (Fraction(1),) * arm.n
+    gains = GainSet("limits", 1, ones, ones)
+    return limits_for(GainFile(arm.address, None, (gains,), bounds or Bounds()), arm)
+
+
+def arms_over(robot: ArmLike, varies: tuple[Vary, ...]) -> tuple[RobotModel, RobotModel]:
+    """The arm as its file describes it, and the same with ranges.
+
+    Raises:
+        InputError: no such arm, or ranges for an arm that is already loaded.
+    """
+    if isinstance(robot, RobotModel) and varies:
+        asked, rule = ", ".join(one.text for one in varies), "come too late for an arm that is loaded"
+        raise argument_error("varies", asked, rule, "give load_robot(name, vary=…) the ranges")
+    arm = robot if isinstance(robot, RobotModel) else load(robot, vary=varies)
+    return load(arm.address) if arm.varies else arm, arm
 
 
 def unknown(limits: Limits) -> list[str]:

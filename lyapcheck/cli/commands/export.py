@@ -65,7 +65,7 @@ def run(
     loop = _runnable(record_of(said, gain_file.loop, model.loop))
     if out is None:
         raise argument_error("--out", "", "is missing", "name a folder: --out controller")
-    answer = export(gain_file, model, loop, robot, wrapped=wrapped, hold=hold_samples)
+    answer = export(gain_file, model, loop, wrapped=wrapped, hold=hold_samples)
     files = {name: text for one in answer.sets for name, text in one.files.items()}
     folder = open_folder("--out", out)
     paths = {folder / name: text.encode() for name, text in files.items()}
