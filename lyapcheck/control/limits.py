@@ -56,6 +56,10 @@ class Limits:
     doubts: tuple[str, ...] = ()
     own: RobotModel | None = field(default=None, compare=False, repr=False)
 
+    def __repr__(self) -> str:
+        torque = ", ".join("?" if one is None else decimal_text(one) for one in self.torque)
+        return f"<Limits: {self.robot or 'no arm'}, {self.n} joints, torque ({torque}) N·m>"
+
     @property
     def n(self) -> int:
         return len(self.joints)

@@ -68,8 +68,8 @@ class RobotModel:
     remarks: tuple[str, ...] = ()
     printed: PrintedTorques | None = None
     loop: LoopEntry = NOTHING
-    source: str = ""
-    varies: tuple[Vary, ...] = ()
+    source: str = field(default="", repr=False)  # two paths of one file are one arm to the store
+    varies: tuple[Vary, ...] = field(default=(), repr=False)
 
     @property
     def address(self) -> str:

@@ -6,6 +6,7 @@ import inspect
 import subprocess
 import sys
 from dataclasses import replace
+from fractions import Fraction
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
@@ -115,7 +116,14 @@ def test_an_argument_that_is_an_angle_names_its_unit(name):
 def test_gains_and_arms_print_as_one_short_line():
     gains = lyapcheck.read_gain_file(lyapcheck.paper_gain_file("table2")).gains[0]
     assert repr(gains) == "<GainSet: tau_m1, m = 1, kp = [28, 60, 5], kv = [0.233, 0.233, 0.233]>"
-    assert repr(lyapcheck.load_robot("buap3")) == "<RobotModel: buap3, 3 joints, 10 of 18 numbers assumed>"
+    arm = lyapcheck.load_robot("buap3")
+    assert repr(arm) == "<RobotModel: buap3, 3 joints, 10 of 18 numbers assumed>"
+    limits = lyapcheck.limits_for(lyapcheck.read_gain_file(lyapcheck.paper_gain_file("table2")))
+    assert repr(limits) == "<Limits: buap3, 3 joints, torque (50, 150, 15) N·m>"
+    assert repr(lyapcheck.hyperbolic_constants(1).gamma) == "<Enclosure: 1.000000000>"
+    assert repr(lyapcheck.hyperbolic_constants(2).gamma) == "<Enclosure: [1.053569219 +/- 3.38e-11]>"
+    third = lyapcheck.Enclosure(Fraction(1, 3), Fraction(1, 2))
+    assert repr(third) == "<Enclosure: [0.4166666667 +/- 0.0834]>"
 
 
 ONE = '[[gains]]\nname = "one"\nm = 1\nkp = [0.1]\nkv = [0.02]\n'

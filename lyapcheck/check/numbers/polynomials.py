@@ -162,6 +162,10 @@ class Enclosure:
         if self.lower > self.upper:
             raise ValueError(f"enclosure ends out of order: {self.lower} > {self.upper}")
 
+    def __repr__(self) -> str:
+        ends = (arb(fmpq(x.numerator, x.denominator)) for x in (self.lower, self.upper))
+        return f"<Enclosure: {next(ends).union(next(ends)).str(10, more=True)}>"
+
     @classmethod
     def exact(cls, value: Fraction | int) -> Enclosure:
         return cls(Fraction(value), Fraction(value))
