@@ -1,7 +1,9 @@
 """The documents: their commands are ones that lyapcheck takes; tests/cli/test_wheel.py runs them."""
 
+import os
 import re
 import shlex
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from lyapcheck.cli.parser import Parser
 from tests.extending.page import exit_code
 
 ROOT = Path(__file__).parents[2]
+PUBLISH = ROOT / ".github" / "workflows" / "publish.yml"
 DOCS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
 EXTENDED = "extend.md"
 """Its commands are run as they stand by tests/extending, with the files that it adds."""
@@ -98,12 +101,27 @@ def test_every_page_has_its_place_in_the_site():
     assert {page.stem for page in (ROOT / "docs").glob("*.md")} - {"index"} <= listed
 
 
-def test_the_readme_fits_a_screen_and_a_package_index():
-    """An index of packages shows the README alone: only its picture may be a file beside it."""
+def test_the_readme_fits_a_screen():
+    """Its picture is a file beside it, or has the address that the workflow writes."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert len(text.splitlines()) <= SCREEN
-    assert re.findall(r"\]\((?![a-z]+:|#)([^)]+)\)", text) == ["docs/response.png"]
+    assert set(re.findall(r"\]\((?![a-z]+:|#)([^)]+)\)", text)) <= {"docs/response.png"}
     assert all((ROOT / name).exists() for name in re.findall(r"`([\w/]+\.(?:md|cff))`", text))
+
+
+@pytest.mark.skipif(not PUBLISH.exists(), reason="the workflows are not part of a source distribution")
+def test_a_published_readme_has_absolute_links(tmp_path):
+    """The steps of the workflow before it builds, run on copies."""
+    for name in ("README.md", "pyproject.toml"):
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    for step in re.findall(r"- run: ((?:sed|printf) .*)", PUBLISH.read_text(encoding="utf-8")):
+        env = {"PATH": os.environ["PATH"], "GITHUB_REPOSITORY": "who/where", "GITHUB_SHA": "abc"}
+        subprocess.run(step, shell=True, check=True, cwd=tmp_path, env=env)
+    text = (tmp_path / "README.md").read_text(encoding="utf-8")
+    assert "](https://raw.githubusercontent.com/who/where/abc/docs/response.png)" in text
+    assert re.findall(r"\]\((?!https:)", text) == []
+    project = tomllib.loads((tmp_path / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert project["urls"] == {"Repository": "https://github.com/who/where"}
 
 
 def test_scripts_that_are_named_are_there():
