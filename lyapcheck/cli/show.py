@@ -43,10 +43,8 @@ SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""
 LARGEST_SUMMARY = 1_000_000
 """Bytes; GitHub refuses more than a mebibyte."""
-SILENCE = 1.0
-"""Seconds between two lines of progress where there is no terminal."""
-PATIENCE = 2.0
-"""Seconds of work that need no word about it, where most work is quick."""
+PATIENCE, SILENCE = 2.0, 30.0
+"""Seconds before a bar of progress; without a terminal before the first line, and between lines."""
 
 
 def require_writable(option: str, path: Path) -> None:
@@ -256,22 +254,21 @@ def _append_summary(path: str, document: Document) -> None:
 
 
 @contextmanager
-def progress(label: str, patience: float = 0.0) -> Iterator[Progress]:
+def progress(label: str) -> Iterator[Progress]:
     """Show how far a piece of work has come; yields the function that the work calls to say so.
 
     What is shown never falls: work that begins anew, with fewer boxes or another ε₀, stays where it was.
-    Work that ends within ``patience`` seconds of its first word shows nothing.
+    Quick work shows nothing.
     """
-    begun: float | None = None
-    reached, shown = 0.0, None
+    begun, reached, shown = monotonic(), 0.0, None
+    terminal = sys.stderr.isatty()
     with ExitStack() as stack:
 
         def advance(fraction: float, note: str) -> None:
-            nonlocal begun, reached, shown
-            begun = monotonic() if begun is None else begun
+            nonlocal reached, shown
             reached = max(reached, fraction)
-            if shown is None and monotonic() - begun >= patience:
-                shown = stack.enter_context(_bar(label) if sys.stderr.isatty() else _lines(label))
+            if shown is None and monotonic() - begun >= (PATIENCE if terminal else SILENCE):
+                shown = stack.enter_context(_bar(label)) if terminal else _lines(label)
             if shown is not None:
                 shown(reached, note)
 
@@ -281,23 +278,22 @@ def progress(label: str, patience: float = 0.0) -> Iterator[Progress]:
 @contextmanager
 def _bar(label: str) -> Iterator[Progress]:
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
     label_column, note_column = TextColumn("{task.description}"), TextColumn("{task.fields[note]}")
-    columns = (label_column, BarColumn(), TimeElapsedColumn(), note_column)
+    columns = (label_column, BarColumn(), TaskProgressColumn(), TimeElapsedColumn(), note_column)
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(label, total=1.0, note="")
         yield lambda fraction, note: bar.update(task, completed=fraction, note=note)
 
 
-@contextmanager
-def _lines(label: str) -> Iterator[Progress]:
-    last, shown_at = "", -SILENCE
+def _lines(label: str) -> Progress:
+    shown_at = -SILENCE
 
     def advance(fraction: float, note: str) -> None:
-        nonlocal last, shown_at
-        if note and note != last and monotonic() - shown_at >= SILENCE:
+        nonlocal shown_at
+        if monotonic() - shown_at >= SILENCE:
             print(f"{label}: {round(100 * fraction):3d} % {note}", file=sys.stderr)
-            last, shown_at = note, monotonic()
+            shown_at = monotonic()
 
-    yield advance
+    return advance

@@ -7,7 +7,6 @@ import pytest
 
 from lyapcheck.answers.check import run
 from lyapcheck.answers.check.run import run_proof
-from lyapcheck.cli.show import progress
 from tests.helpers.command import lyapcheck
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
@@ -65,14 +64,6 @@ def test_what_is_assumed_about_an_arm_is_said_where_a_claim_looks_at_it(tmp_path
         for claim in ("2.7", "19")
     }
     assert said == {"2.7": True, "19": False}
-
-
-def test_progress_never_falls(capsys, monkeypatch):
-    monkeypatch.setattr("lyapcheck.cli.show.SILENCE", 0.0)
-    with progress("work") as advance:
-        for share, note in ((0.5, "first"), (0.1, "second"), (0.7, "third")):
-            advance(share, note)
-    assert [line.split()[1] for line in capsys.readouterr().err.splitlines()] == ["50", "50", "70"]
 
 
 def test_markdown_is_one_table_a_section(tmp_path):

@@ -1,9 +1,12 @@
-"""Progress of work that is mostly quick: silent until it has taken long."""
+"""Progress: silent for quick work, one line now and then without a terminal, and never back."""
+
+import io
+import sys
 
 import pytest
 
 from lyapcheck.cli import show
-from lyapcheck.cli.show import PATIENCE, progress
+from lyapcheck.cli.show import PATIENCE, SILENCE, progress
 
 
 @pytest.fixture
@@ -14,17 +17,33 @@ def clock(monkeypatch):
     return now
 
 
-def test_quick_work_shows_nothing(clock, capsys):
-    with progress("work", PATIENCE) as advance:
-        advance(0.0, "begun")
-        clock[0] += 0.9 * PATIENCE
-        advance(0.5, "half")
-    assert capsys.readouterr().err == ""
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
 
 
-def test_long_work_shows_what_it_says_when_it_has_taken_long(clock, capsys):
-    with progress("work", PATIENCE) as advance:
+def test_a_log_gets_a_line_every_half_minute(clock, capsys):
+    with progress("work") as advance:
+        for part in range(10):
+            advance(part / 10, f"part {part}")
+            clock[0] += 0.4 * SILENCE
+    assert capsys.readouterr().err == "work:  30 % part 3\nwork:  60 % part 6\nwork:  90 % part 9\n"
+
+
+@pytest.mark.parametrize(("share", "shown"), [(0.9, False), (1.0, True)])
+def test_a_terminal_gets_a_bar_after_some_seconds(share, shown, clock, monkeypatch):
+    monkeypatch.setattr(sys, "stderr", terminal := Terminal())
+    with progress("work") as advance:
         advance(0.0, "begun")
-        clock[0] += PATIENCE
+        clock[0] += share * PATIENCE
         advance(0.5, "half")
-    assert capsys.readouterr().err == "work:  50 % half\n"
+    assert ("50%" in terminal.getvalue() and "half" in terminal.getvalue()) == shown
+    assert bool(terminal.getvalue()) == shown
+
+
+def test_progress_never_falls(clock, capsys):
+    with progress("work") as advance:
+        for share, note in ((0.5, "first"), (0.1, "second"), (0.7, "third")):
+            clock[0] += SILENCE
+            advance(share, note)
+    assert [line.split()[1] for line in capsys.readouterr().err.splitlines()] == ["50", "50", "70"]

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.show import PATIENCE, certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.show import certificate_folder, progress, show, write_certificates
 from lyapcheck.cli.values import loop_of, varies
 from lyapcheck.errors import InputError, Problem
 
@@ -78,7 +78,7 @@ def run(
     problems: list[Problem] = []
     arms: dict[str, Limits] = {}
     ranges, run = varies(vary), loop_of(loop)
-    with progress("gate", PATIENCE) as advance:
+    with progress("gate") as advance:
         for done, file in enumerate(files):
             try:
                 gain_file = read_gain_file(file, robot, undamped=True)

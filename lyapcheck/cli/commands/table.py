@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lyapcheck.cli.show import PATIENCE, certificate_folder, progress, show, write_certificates
+from lyapcheck.cli.show import certificate_folder, progress, show, write_certificates
 from lyapcheck.cli.values import parse_m
 from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import FORMATS
@@ -47,7 +47,7 @@ def run(
     from lyapcheck.answers.table import certificates as certificates_of
 
     folder = certificate_folder(certificates)
-    with progress("table", PATIENCE) as advance:
+    with progress("table") as advance:
         table = build_table(members, digits, advance)
     if folder is not None:
         write_certificates(folder, certificates_of(table))
