@@ -49,6 +49,14 @@ RANGES = (
 )
 
 
+class Joined(argparse.Action):
+    """A list that may come in parts: ``--m 1 --m 2`` is ``--m 1,2``."""
+
+    def __call__(self, parser: object, namespace: object, values: Any, option: str | None = None) -> None:
+        before = getattr(namespace, self.dest)
+        setattr(namespace, self.dest, values if before is self.default else f"{before},{values}")
+
+
 class Parser(argparse.ArgumentParser):
     """What a command takes; its description has paragraphs, of which those with indented lines are kept."""
 
@@ -90,10 +98,10 @@ class Parser(argparse.ArgumentParser):
             action = "append" if "repeated" in about else "store"
             self.add_argument(f"--{name}", metavar=metavar, action=action, help=about)
 
-    def add_members(self, default: str | None, about: str = "") -> None:
+    def add_members(self, default: str | None, about: str = "Orders of h_m", more: str = "") -> None:
         """``--m``, as `lyapcheck.cli.values.parse_m` reads it."""
-        about = f"Orders of h_m, for example 3 or 1,2,5 or 1:12.{about}"
-        self.add_argument("--m", metavar="M", default=default, help=about)
+        about += f", for example 3 or 1,2,5 or 1:12.{more}"
+        self.add_argument("--m", metavar="M", action=Joined, default=default, help=about)
 
     def add_vary(self) -> None:
         """``--vary``, as `lyapcheck.robots.fields.Vary.parsed` reads it."""

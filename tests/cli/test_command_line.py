@@ -1,5 +1,6 @@
 """The command line as a whole: bad input, help, versions, faults and readers that go away."""
 
+import json
 import os
 import re
 import subprocess
@@ -252,6 +253,12 @@ def test_a_proof_script_cannot_choose_the_exit_code(script, run, tmp_path, monke
     code, out, err = run("check", "mine.py")
     assert (code, out) == (2, "")
     assert "SystemExit" in err
+
+
+@pytest.mark.parametrize("parts", [["--m", "1,3"], ["--m", "1", "--m", "3"], ["--m", "3", "--m", "1,3"]])
+def test_a_list_may_come_in_parts(parts):
+    rows = json.loads(lyapcheck("table", *parts, "--digits", "5", "--format", "json").stdout)["rows"]
+    assert [row["m"] for row in rows] == [1, 3]
 
 
 @pytest.mark.parametrize("arguments", [("gate", TABLE2), ("table", "--m", "1:300"), ("epsilon", TABLE2)])

@@ -60,8 +60,6 @@ BUYS = (
 RANGED = "published, over ranges: (18) with the worst end of each of its constants, about all arms in them."
 STAR = "Marked *: a number in floating point without a certificate. The checker proves less from norms."
 MOST_REMARKS = 3
-DIGITS = 7
-"""Of ε₀ for people: the search proposes no more."""
 RATE_DIGITS = 20
 PARTS = ("witness", "weighted")
 """What takes several columns where there is any."""
@@ -149,7 +147,7 @@ class _Said(Answer):
             (one,) = self.sets
             if one.promise is None:
                 return f"? no ε₀ is certified for {one.name} on {robots}"
-            eps0 = at_least(one.certified or Fraction(0), DIGITS)
+            eps0 = at_least(one.certified or Fraction(0))
             return one.promise.says(f"✓ ε₀ = {eps0} is certified for {one.name} on {robots}")
         if not promises:
             return f"? no gain set of {count} has a certified ε₀ on {robots or 'no arm'}"
@@ -205,7 +203,7 @@ def cell(kind: str, result: EpsilonResult) -> str:
     if value is None:
         return "—"
     star = "*" if kind == "scalar" and result.scalar_proof is None else ""
-    return f"{(at_most if kind == FALSIFIED else at_least)(value, DIGITS)}{star}"
+    return f"{(at_most if kind == FALSIFIED else at_least)(value)}{star}"
 
 
 def _six_places(ratio: Fraction) -> str:

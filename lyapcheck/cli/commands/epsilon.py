@@ -29,9 +29,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_gain_file()
     parser.add_robot()
-    parser.add_argument(
-        "--m", metavar="M", help="Only gain sets of these orders, for example 3 or 1,2,5 or 1:12."
-    )
+    parser.add_members(None, "Only gain sets of these orders")
     parser.add_number(
         "--max-boxes", int, "Largest number of boxes in branch and bound.", default=400_000, least=1
     )

@@ -31,7 +31,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("members", metavar="M", nargs="*", help="Orders of h_m, as for --m.")
     about = "Orders of h_m, for example 1 2 3 or 1,2,5 or 1:12. Default: 1:3, or the orders in the gain file."
-    parser.add_argument("--m", metavar="M", nargs="+", default=[], help=about)
+    parser.add_argument("--m", metavar="M", nargs="+", action="extend", default=[], help=about)
     parser.add_robot("Arm by name or file.")
     about = "Gain file. Default: Table 2 of the paper and its PD baseline."
     parser.add_argument("--gains", metavar="FILE", type=Path, help=about)

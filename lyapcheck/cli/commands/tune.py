@@ -42,7 +42,7 @@ def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_argument("robot", metavar="ROBOT", help="Arm by name or file (.toml, .urdf).")
     parser.add_choice_of_arm()
-    parser.add_members(None, " Default: 1:3, and 1 with targets and more than three joints.")
+    parser.add_members(None, more=" Default: 1:3, and 1 with targets and more than three joints.")
     parser.add_number("--digits", int, "Number of decimal places of the gains.", default=3)
     parser.add_number(
         "--overshoot", float, "Target for the largest overshoot, in percent of the step of a joint."
