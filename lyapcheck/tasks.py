@@ -80,7 +80,7 @@ def bounds(
     seconds: float = 10.0,
     within_deg: float = 1.0,
 ) -> Comparisons:
-    """Bound the steady-state error under dry friction, and simulate a motion.
+    """Bound the steady-state error under dry friction and unknown gravity, and simulate a motion.
 
     Args:
         gain_file: a gain file or its path.
@@ -94,11 +94,15 @@ def bounds(
         InputError: the file, the arm or an angle cannot be used.
     """
     from lyapcheck.answers.bounds import Comparisons, compare
+    from lyapcheck.control.sampling import record_of
+    from lyapcheck.files.loop import NOTHING
+    from lyapcheck.robots import load
 
-    file, model = _on_arm(gain_file, robot)
-    task = _task(model, target_deg, start_deg, seconds)
-    delta = math.radians(within_deg)
-    results = tuple(compare(one, model, task, delta) for one in file.gains)
+    file, arm = _on_arm(gain_file, robot)
+    model, varied = (load(arm.address), (arm, arm.varies)) if arm.varies else (arm, None)
+    task, delta = _task(model, target_deg, start_deg, seconds), math.radians(within_deg)
+    record = record_of(NOTHING, file.loop, model.loop)
+    results = tuple(compare(one, model, task, delta, varied=varied, record=record) for one in file.gains)
     return Comparisons(results, file, model.address)
 
 

@@ -16,6 +16,7 @@ import pytest
 import lyapcheck
 from lyapcheck import _HOMES, claims, store
 from lyapcheck import __all__ as PUBLIC
+from tests.helpers.command import lyapcheck as lyapcheck_command
 from tests.helpers.shares import but
 
 HEAVY = ("numpy", "scipy", "sympy", "casadi", "cvxpy", "matplotlib", "flint", "rich", "jinja2", "argparse")
@@ -144,6 +145,24 @@ def test_an_arm_is_an_object_a_name_or_a_path(task, tmp_path):
     by_name = str(ON_AN_ARM[task](file, "pendulum1"))
     assert str(ON_AN_ARM[task](file, lyapcheck.load_robot("pendulum1"))) == by_name
     assert str(ON_AN_ARM[task](file, Path("pendulum1"))) == by_name
+
+
+SAID = {
+    "bounds": (lyapcheck.bounds, ()),
+    "export": (lambda file: lyapcheck.export_controller(file, rate=1000), ("--out", "c")),
+    "gate": (lyapcheck.gate, ()),
+}
+
+
+@pytest.mark.parametrize("name", SAID)
+def test_a_task_says_what_its_command_says_of_a_file(name, tmp_path, monkeypatch):
+    """With all that the file says of the loop."""
+    monkeypatch.chdir(tmp_path)
+    loop = "[loop]\nrate = 1000\nunknown_payload = 0.1\n"
+    Path("gains.toml").write_text('robot = "pendulum1"\n' + loop + ONE)
+    task, options = SAID[name]
+    run = lyapcheck_command(name, "gains.toml", *options, folder=tmp_path)
+    assert run.stdout == f"{task('gains.toml')}\n"
 
 
 def test_an_arm_that_was_changed_in_python_is_the_arm_that_counts(tmp_path):
