@@ -12,11 +12,15 @@ author = copyright = "The lyapcheck authors"  # noqa: A001 (Sphinx asks for this
 release = re.search(r'^version = "(.*)"', Path("../pyproject.toml").read_text(encoding="utf-8"), re.M)[1]
 extensions = ["myst_parser"]
 source_suffix = {".md": "markdown", ".ipynb": "notebook"}
-exclude_patterns = ["README.md"]
+exclude_patterns = ["README.md", "_static", "_templates"]
+templates_path = ["_templates"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 nitpicky = True
+smartquotes = False  # they turn --out into an en dash, and no such command runs
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_title = f"lyapcheck {release}"
 html_copy_source = html_show_sphinx = False
 html_theme_options = {
