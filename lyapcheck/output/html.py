@@ -145,7 +145,9 @@ _GREEK = "α-ωΑ-Ω"
 _SIGNS = re.compile(rf"[{_GREEK}‖√≤≥≠≈≻⪰⇔⇒→∈∀∂∞·×°½¼−=<>+^_′ᵀ⁻⁰¹²³⁴-⁹ⁿ₀-₉ᵢ|]|[A-Za-z][{''.join(ACCENTS)}]")
 _LETTER = re.compile(r"[B-HJ-Zb-z](['’])?[.,;:]?")
 _NO_FORMULA = re.compile(r"^([A-Za-z]{2,}_|N·m|rad|\d+(\.\d+)?°)")
-_OPERAND = re.compile(r"\d[\d.]*[.,;:]?|dV/dt|det|sup|[A-Za-z]\(\S*|\S{0,2}[\])]|[\[(]\S|[A-Za-z][.,;:]?")
+_OPERAND = re.compile(
+    r"[\[(]?-?\d[\d.]*[.,;:]?|dV/dt|det|sup|[A-Za-z]\(\S*|\S{0,2}[\])]|[\[(]\S|[A-Za-z][.,;:]?"
+)
 OPEN_RIGHT = "=<>≤≥≈≠≻⪰⇔⇒→∈+−·,([√_" + "ⁿ²³"
 OPEN_LEFT = "=<>≤≥≈≠≻⪰⇔⇒→∈+−·√Θ)²"
 _BLANK = "\N{SIX-PER-EM SPACE}"
@@ -166,8 +168,13 @@ def sentence(text: str) -> Markup:
     parts: list[str] = []
     for is_formula, group in groupby(zip(words, _formulas(words), strict=True), lambda pair: pair[1]):
         result = [word for word, _ in group]
-        parts += map(formula, _clauses(result)) if is_formula else [joined(" ".join(result))]
+        parts += map(formula, _clauses(result)) if is_formula else map(_word, result)
     return Markup(" ".join(parts))
+
+
+def _word(word: str) -> Markup:
+    """A word outside all formulas; an option of a command is code, which no line ends inside."""
+    return element("code", word, style="white-space:nowrap") if word.startswith("--") else joined(word)
 
 
 def _clauses(words: Sequence[str]) -> Iterator[list[str]]:
@@ -204,11 +211,12 @@ def _is_formula(word: str) -> bool:
 
 
 def formula(words: Sequence[str]) -> Markup:
-    """A formula in letters and signs; a stop after it is outside."""
+    """A formula in letters and signs; a stop after it is text in it, as no line may begin with the stop."""
     text = " ".join(words)
     body = text.rstrip(".,;:")
     nodes = list(_Reader(body).nodes())
-    return Markup(element("math", element("mrow", nodes)) + text[len(body) :])
+    stop = element("mtext", text[len(body) :]) if text != body else None
+    return element("math", element("mrow", nodes, stop))
 
 
 class _Reader:

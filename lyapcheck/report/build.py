@@ -24,7 +24,7 @@ from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import render as page
 from lyapcheck.report.pdf import render as pdf
 from lyapcheck.report.plots import draw_epsilon, draw_family, draw_set
-from lyapcheck.report.tiles import drawn_motion, tiles
+from lyapcheck.report.tiles import drawn_motions, tiles
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
@@ -70,7 +70,6 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
     claims = tuple(row for row in rows if row.proof == "published")
     weighed = own_findings(gate, epsilon, claims) if subject.own else findings(notes, claims, epsilon)
     run_of = {row.name: row for row in runs}
-    moved = {part.row.name: drawn_motion(model, part.run.t, part.run.q) for part in parts if subject.own}
     packages = frozenset[str]().union(*(job.result().packages for job in jobs))
     return Report(
         notes=notes,
@@ -91,7 +90,9 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         versions={name: version(name) for name in sorted(packages)},
         seed=SEED,
         tiles={one.name: tiles(one, model, run_of.get(one.name)) for one in judged if subject.own},
-        motions={name: one for name, one in moved.items() if one is not None},
+        motions={
+            part.row.name: drawn_motions(model, part.run.t, part.run.q) for part in parts if subject.own
+        },
     )
 
 

@@ -210,9 +210,9 @@ def four_epsilons(report: Report) -> Iterator[Block]:
     yield table(
         EPSILON,
         [(row,) for row in report.epsilon],
-        "Published: the end of (18). Scalar: from two norms. The next has a certificate for this arm; of the "
-        "last a state with dV/dt > 0 is known. ε₀Λ: with weights, y = w − εΛh, the largest product with a "
-        "certificate. Rounded to the safe side, at nominal numbers.",
+        "Each ε₀ gives a V of (12). Published: the upper end of (18). Scalar: from norm bounds. Certified: V "
+        "decreases at every state of this arm, with a certificate. Falsified: V increases at a known state. "
+        "ε₀Λ: the same with one weight per joint. All at nominal numbers, rounded to the safe side.",
     )
     missing = [(row.name, kind, text) for row in report.epsilon for kind, text in row.reasons.items()]
     if missing:

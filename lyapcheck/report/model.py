@@ -256,10 +256,17 @@ SIGNS = {"good": "✓", "bad": "✗", "warn": "!", "open": "?"}
 
 @dataclass(frozen=True)
 class Motion:
-    """The arm drawn at some times, from start to goal: places of base, joints and end, in the plane, m."""
+    """The arm drawn at some times, from start to goal.
+
+    Args:
+        frames: places of base, joints and end, in the plane, m; of a dial the two ends of its hand.
+        seconds: from the first of them to the last.
+        joint: whose angle a dial shows, where the links of the arm are not known.
+    """
 
     frames: tuple[tuple[tuple[float, float], ...], ...]
     seconds: float
+    joint: str = ""
 
 
 @dataclass(frozen=True)
@@ -273,7 +280,7 @@ class Tile:
         tone: ``good``, ``warn``, ``bad``, or ``open`` where nothing is judged.
         todo: what to do about it, and the command for it; empty where nothing is to be done.
         before: the answer of an older report, where it was another one.
-        posture: the arm where something fails.
+        posture: the arm where something fails, drawn as in ``drawn_motions``.
     """
 
     subject: str
@@ -282,7 +289,7 @@ class Tile:
     tone: str
     todo: tuple[str, str] = ("", "")
     before: str = ""
-    posture: Motion | None = None
+    posture: tuple[Motion, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -308,7 +315,7 @@ class Report:
         versions: of the packages that the computations loaded.
         seed: the seed of every random search.
         tiles: what an engineer asks about gains on an arm of one's own, by gain set.
-        motions: the arm along the simulated run of a gain set, where its links are known.
+        motions: the arm along the simulated run of a gain set, or a dial for each of its joints.
     """
 
     notes: Notes
@@ -329,7 +336,7 @@ class Report:
     versions: Mapping[str, str] = field(default_factory=dict)
     seed: int = 0
     tiles: Mapping[str, tuple[Tile, ...]] = field(default_factory=dict)
-    motions: Mapping[str, Motion] = field(default_factory=dict, repr=False)
+    motions: Mapping[str, tuple[Motion, ...]] = field(default_factory=dict, repr=False)
 
     @property
     def every_claim(self) -> tuple[ClaimRow, ...]:

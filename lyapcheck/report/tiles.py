@@ -11,7 +11,7 @@ from lyapcheck.answers import arm_words, file_words
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest
 from lyapcheck.answers.gate.words import advices
 from lyapcheck.answers.running import runs_of
-from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, falls, farthest_unknown
+from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, HoldsCheck, falls, farthest_unknown
 from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
@@ -141,9 +141,15 @@ def _rate(result: GateResult, model: RobotModel, gate: Sequence[object]) -> Tile
     ask = command(*gate, "--rate", fast)
     if not isinstance(check, SampledCheck):
         return Tile(subject, "not known", f"{check.reason}.", "open", ("Ask at a rate.", ask))
-    text = ". ".join(one[:1].upper() + one[1:] for one in check.sentences(False)) or check.reason
-    text = f"{text}." if text and not text.endswith(".") else text
-    posture = None if growing is None else _posture(model, [float(x) for x in growing.goal])
+    said = check.sentences(False) or [check.reason]
+    if (
+        check.named
+        and check.verdict not in (ACCEPTED, REJECTED)
+        and (check.most, check.from_rest) == (None, None)
+    ):
+        said.insert(0, f"no proof and no counterexample at {time_text(check.value or 0)}")
+    text = "".join(f"{one[:1].upper()}{one[1:]}. " for one in said if one).rstrip()
+    posture = () if growing is None else _posture(model, [float(x) for x in growing.goal])
     # of (P) nothing is known before it is asked for, and of an arm with dry friction it does not speak
     from_rest = not check.rests and check.record.within is None
     simulated = command("simulate", *gate[1:], "--rate", fast)
@@ -166,11 +172,11 @@ def _rate(result: GateResult, model: RobotModel, gate: Sequence[object]) -> Tile
     return Tile(subject, f"unstable at {time_text(growing.period)}", text, "warn", stated, posture=posture)
 
 
-def _posture(model: RobotModel, degrees: Sequence[float]) -> Motion | None:
+def _posture(model: RobotModel, degrees: Sequence[float]) -> tuple[Motion, ...]:
     """The arm at one place, drawn as a motion that stands still."""
     import numpy as np
 
-    return drawn_motion(model, np.zeros(1), np.radians([degrees]))
+    return drawn_motions(model, np.zeros(1), np.radians([degrees]))
 
 
 def _behaviour(run: RunRow | None, result: GateResult, tune: str, look: str) -> Tile:
@@ -206,7 +212,9 @@ def _friction(result: GateResult, model: RobotModel, tune: str) -> Tile:
     dry, loaded = farthest(result.gains, model), farthest_unknown(loads)
     if loads and loaded is None:
         reason = next((check.reason for check in loads if check.reason), "")
-        return Tile(subject, "no bound", f"{reason}.", "open", ("Raise k_p, or lower the unknown load.", ""))
+        lower = "Raise k_p, or lower the unknown load."
+        todo = ("Give the arm by its links." if reason == NO_LINKS else lower, "")
+        return Tile(subject, "no bound", f"{reason[:1].upper()}{reason[1:]}.", "open", todo)
     known = [one for one in (loaded, dry) if one is not None]
     if not known:
         return Tile(subject, "none known", "The arm file gives no dry friction.", "open")
@@ -238,7 +246,7 @@ def _fallen(checks: Sequence[HoldsCheck], joints: Sequence[str], model: RobotMod
         f"{text}.",
         "bad",
         (f"Raise k_p, or lower the unknown load, {first.unknown}.", tune),
-        posture=None if place is None else _posture(model, place),
+        posture=() if place is None else _posture(model, place),
     )
 
 
@@ -263,8 +271,8 @@ def _assumed(model: RobotModel, ask: str) -> Tile:
 FRAMES = 40
 
 
-def drawn_motion(model: RobotModel, t: Array, q: Array, frames: int = FRAMES) -> Motion | None:
-    """The arm along a run; ``None`` where its links are not known.
+def drawn_motions(model: RobotModel, t: Array, q: Array, frames: int = FRAMES) -> tuple[Motion, ...]:
+    """The arm along a run; M(q) and g(q) alone give no lengths of links, so then a dial for each joint.
 
     Args:
         t: times, (N,), s.
@@ -272,10 +280,14 @@ def drawn_motion(model: RobotModel, t: Array, q: Array, frames: int = FRAMES) ->
     """
     import numpy as np
 
-    chain = model.fixed().chain
-    if chain is None:
-        return None
+    chain, seconds = model.fixed().chain, float(t[-1] - t[0])
     picked = np.unique(np.searchsorted(t, np.linspace(t[0], t[-1], frames)).clip(0, len(t) - 1))
+    if chain is None:
+        hands = np.stack([np.cos(q[picked]), np.sin(q[picked])], axis=-1)
+        return tuple(
+            Motion(tuple(((0.0, 0.0), (float(x), float(y))) for x, y in hands[:, i]), seconds, joint)
+            for i, joint in enumerate(model.joints)
+        )
     places = np.array([_places(chain.links, q[k]) for k in picked])
     up = -np.array([float(x) for x in chain.fall])
     up = up / np.linalg.norm(up) if np.linalg.norm(up) > 0 else np.array([0.0, 1.0, 0.0])
@@ -285,7 +297,7 @@ def drawn_motion(model: RobotModel, t: Array, q: Array, frames: int = FRAMES) ->
     side /= np.linalg.norm(side)
     flat = np.stack([places @ side, places @ up], axis=-1)
     rounded = [[(float(x), float(y)) for x, y in frame] for frame in np.round(flat, 4)]
-    return Motion(tuple(tuple(frame) for frame in rounded), float(t[-1] - t[0]))
+    return (Motion(tuple(tuple(frame) for frame in rounded), seconds),)
 
 
 def _places(links: Sequence[RigidLink], q: Array) -> list[Array]:

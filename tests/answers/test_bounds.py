@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from lyapcheck.answers.bounds import Comparisons, compare
+from lyapcheck.answers.bounds import Comparisons, compare, comparison_data
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
@@ -63,6 +63,15 @@ def test_the_first_line_says_whether_all_is_proved(compared):
     assert without.startswith("? tau_m2 on reyes-kelly2: no error at rest is proved for elbow\n")
     both = Comparisons((sound, sound)).document().title
     assert both == f"✓ {far} 2 of 2 gain sets, proved"
+
+
+def test_a_load_of_which_nothing_is_known_leaves_no_joint_a_bound(sound):
+    """Where a check is about no joint, what dry friction alone leaves is not the bound under both."""
+    open_ = replace(sound, unknown=(Check("holds", reason="the links are not known"),))
+    assert open_.unknown_degrees == (None, None)
+    assert Comparisons((open_,)).document().title.endswith("the errors under unknown gravity are undecided")
+    assert comparison_data(open_)["disturbance"]["unknown_rest"] == [None, None]
+    assert None not in comparison_data(open_)["disturbance"]["rest"]
 
 
 def test_what_is_proved_is_not_rounded_down_and_runs_are_called_simulated(sound):

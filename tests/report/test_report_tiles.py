@@ -16,7 +16,7 @@ from lyapcheck.control.gains import read_gain_file
 from lyapcheck.promise import GUARDED, promises_as_seen
 from lyapcheck.report.model import Report
 from lyapcheck.report.page import markup, raw, to_do
-from lyapcheck.report.tiles import drawn_motion, tiles, with_before
+from lyapcheck.report.tiles import drawn_motions, tiles, with_before
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers import command
 from tests.helpers.arm_texts import ONE_JOINT
@@ -96,7 +96,7 @@ def test_a_payload_that_the_controller_does_not_know_counts_with_dry_friction(tm
     assert far[1].tone == "warn"
     tiles_ = of_links(tmp_path, 0.5, 1, load, arm=friction)
     assert (tiles_["Dry friction"].number, tiles_["Dry friction"].tone) == ("joint falls", "bad")
-    (end,) = [frame[-1] for frame in tiles_["Dry friction"].posture.frames]
+    (end,) = [frame[-1] for frame in tiles_["Dry friction"].posture[0].frames]
     assert np.allclose(np.abs(end), (0.1, 0), atol=1e-3)  # the link lies level, where it is heaviest
     assert tiles_["Stability"].tone == "warn"
     assert "knows all gravity" in tiles_["Stability"].text
@@ -190,7 +190,7 @@ def test_the_arm_is_drawn_where_its_links_are():
     arm = robots.load("examples/px100.toml").fixed()
     q, turn = np.random.default_rng(0).uniform(-2, 2, (40, arm.n)), 0.2 * np.eye(arm.n)[-1]
     heights = [
-        np.array([frame[-1][1] for frame in drawn_motion(arm, np.arange(40.0), at).frames])
+        np.array([frame[-1][1] for frame in drawn_motions(arm, np.arange(40.0), at)[0].frames])
         for at in (q, q + turn)
     ]
     gravity = [NumericModel(arm).gravity(q + share * turn)[:, -1] for share in (0, 0.5, 1)]
@@ -203,7 +203,35 @@ def test_the_arm_is_drawn_where_its_links_are():
 def test_who_wants_no_motion_sees_start_and_goal():
     model = robots.load("examples/ur5.toml")
     q = np.linspace(0, 0.8, 50)[:, None] * np.ones(6)
-    motion = drawn_motion(model, np.linspace(0, 5, 50), q)
-    page = first_screen(blank(tiles={"g": ()}, motions={"g": motion}))
-    assert page.count("<polyline") == len(motion.frames) + 2
+    motions = drawn_motions(model, np.linspace(0, 5, 50), q)
+    page = first_screen(blank(tiles={"g": ()}, motions={"g": motions}))
+    assert page.count("<polyline") == len(motions[0].frames) + 2
     assert "prefers-reduced-motion:reduce" in raw("style.css")
+
+
+def test_an_arm_without_links_has_a_dial_for_each_joint():
+    model = robots.load("reyes-kelly2")
+    q = np.linspace([0.5, -1], [2, 7], 30)
+    dials = drawn_motions(model, np.linspace(0, 3, 30), q)
+    assert [one.joint for one in dials] == ["shoulder", "elbow"]
+    ends = np.array([[frame[-1] for frame in one.frames] for one in dials])
+    seen = np.unwrap(np.arctan2(ends[..., 1], ends[..., 0]), axis=-1)
+    assert np.allclose(seen, q.T, atol=1e-12)
+    page = first_screen(blank(tiles={"g": ()}, motions={"g": dials}))
+    assert page.count('class="face"') == 2
+    assert "do not have the lengths" in page
+    assert "<rect" not in page
+
+
+def test_a_posture_that_fails_is_drawn_for_an_arm_without_links_too(tmp_path):
+    rate = told(tmp_path, more="[loop]\nperiod = '60 ms'\n", robot="buap3", kp="[25, 50, 5]", kv="[3, 6, 1]")
+    assert [one.joint for one in rate["Sampling rate"].posture] == ["base", "shoulder", "elbow"]
+
+
+def test_a_payload_on_an_arm_without_links_asks_for_its_links(tmp_path):
+    more = "[loop]\nrate = 200\nunknown_payload = 1\n"
+    known = told(tmp_path, more=more)
+    assert known["Dry friction"].number == "no bound"
+    assert known["Dry friction"].text.startswith("An unknown payload needs the links")
+    assert known["Dry friction"].todo == ("Give the arm by its links.", "")
+    assert known["Sampling rate"].text.startswith("No proof and no counterexample at 5 ms. ")

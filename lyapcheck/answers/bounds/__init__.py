@@ -170,7 +170,7 @@ def _one(result: BoundsComparison) -> str:
         return all_say(promises, f"✓ {about}: rests at most {far}, proved")
     rows = zip(result.joints, result.unknown_degrees, strict=True)
     missing = ", ".join(joint for joint, error in rows if error is None)
-    if not missing:
+    if not missing or any(check.joint is None for check in result.unknown):
         return f"? {about}: the errors under unknown gravity are undecided"
     return f"? {about}: no error at rest is proved for {missing}"
 

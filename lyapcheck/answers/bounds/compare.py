@@ -111,6 +111,8 @@ class BoundsComparison:
     @property
     def unknown_degrees(self) -> tuple[Fraction | None, ...]:
         """Errors at rest with what is unknown as well; those of dry friction where that is nothing."""
+        if any(check.joint is None for check in self.unknown):  # of no joint it is known what is asked
+            return (None,) * len(self.joints)
         result = list(self.rest_degrees)
         for check in self.unknown:
             if isinstance(check, HoldsCheck) and check.joint is not None:

@@ -53,7 +53,7 @@ LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off wh
 SATURATES = "({}) supposes that no motor saturates: it counts together with (10i) or (10p) only"
 STEPS = "({}) speaks of exact readings: leave encoder out of the loop, and simulate with it"
 DRY = "(P) speaks of an arm without dry friction"
-UNTRIED = "--within 90 or within = 90 under [loop] looks for a proof from rest, at exactly this period"
+UNTRIED = "--within 90 looks for a proof from rest, at exactly this period"
 UNSAID = LoopRecord()
 DIGITS = 9
 """Of the largest period in data."""

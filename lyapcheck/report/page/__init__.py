@@ -110,6 +110,7 @@ def _templates() -> Environment:
         chain,
         drawn_arm,
         file_stem,
+        finding_id,
         latex,
         lines,
         quote,
@@ -185,6 +186,7 @@ def to_do(report: Report) -> list[tuple[str, dict[str, list[str]]]]:
 def drawn_arm(motion: Motion, wide: float = 320.0, margin: float = 14.0) -> dict[str, Any]:
     """The arm at each time as points of a picture, with the size of the picture."""
     points = [point for frame in motion.frames for point in frame]
+    points += [(-1.0, -1.0), (1.0, 1.0)] if motion.joint else []  # of a dial, whatever its hand shows
     (left, low), (right, high) = (tuple(map(end, zip(*points, strict=True))) for end in (min, max))
     scale = (wide - 2 * margin) / (max(right - left, high - low) or 1.0)
     frames = [
@@ -196,6 +198,11 @@ def drawn_arm(motion: Motion, wide: float = 320.0, margin: float = 14.0) -> dict
 
 
 # --- Findings and claims.
+
+
+def finding_id(subject: str) -> str:
+    """The anchor of a finding: an id has no spaces."""
+    return f"finding-{subject.replace(' ', '-')}"
 
 
 def lines(formula: str) -> list[str]:
