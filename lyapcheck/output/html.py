@@ -144,7 +144,7 @@ FENCES = "()[]{}‖|"
 _GREEK = "α-ωΑ-Ω"
 _SIGNS = re.compile(rf"[{_GREEK}‖√≤≥≠≈≻⪰⇔⇒→∈∀∂∞·×°½¼−=<>+^_′ᵀ⁻⁰¹²³⁴-⁹ⁿ₀-₉ᵢ|]|[A-Za-z][{''.join(ACCENTS)}]")
 _LETTER = re.compile(r"[B-HJ-Zb-z](['’])?[.,;:]?")
-_NO_FORMULA = re.compile(r"^([A-Za-z]{2,}_|N·m|rad|\d+(\.\d+)?°)")
+_NO_FORMULA = re.compile(r"^([A-Za-z]{2,}_|N·m|rad|\d+(\.\d+)?°)|\.(py|toml|json)\b")
 _OPERAND = re.compile(
     r"[\[(]?-?\d[\d.]*[.,;:]?|dV/dt|det|sup|[A-Za-z]\(\S*|\S{0,2}[\])]|[\[(]\S|[A-Za-z][.,;:]?"
 )

@@ -115,11 +115,11 @@ def _front(report: Report) -> Iterator[Block]:
     for name, some in report.tiles.items():
         rows = tuple((one.subject, f"{SIGNS[one.tone]} {one.number}", one.text) for one in some)
         yield Table(("question", "answer", "who says so"), rows, name, align="lll")
-    pictures = {"The printed proof, from left to right": chain(report), "The way round": route(report)}
+    pictures = {"The printed proof, from left to right": chain(report), "An alternative proof": route(report)}
     for caption, steps in pictures.items():
         if steps and not report.own:
             rows = tuple((step.box.label, step.box.title, step.word) for step in steps)
-            yield Table(("step", "what it says", "became"), rows, caption, align="lll")
+            yield Table(("step", "statement", "verdict"), rows, caption, align="lll")
 
 
 def _findings(report: Report) -> Iterator[Section]:

@@ -51,7 +51,7 @@ class Paper:
 
 @dataclass(frozen=True)
 class Box:
-    """A step of the proof, or of the way round: as good as the worst of its claims."""
+    """A step of the proof, or of the alternative: as good as the worst of its claims."""
 
     label: str
     title: str
@@ -84,7 +84,7 @@ class Notes:
     Args:
         paper: the text.
         chain: its proof from left to right.
-        route: the way round what is broken.
+        route: an alternative proof, without what is broken.
         findings: notes on claims that may fail; one whose claims hold is not shown.
         equations: LaTeX of the numbered formulas.
         titles: of claims, in a few letters, for the graph.

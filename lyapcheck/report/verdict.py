@@ -88,7 +88,7 @@ def chain(report: Report) -> tuple[VerdictBox, ...]:
 
 
 def route(report: Report) -> tuple[VerdictBox, ...]:
-    """The way round; empty where a part of it is not proved."""
+    """The alternative proof; empty where a part of it is not proved."""
     steps = tuple(_step(box, report, set()) for box in report.notes.route)
     return steps if all(step.tone == "good" for step in steps) else ()
 
@@ -125,7 +125,7 @@ def _is_true(report: Report) -> bool:
 
 
 def _concluding(report: Report) -> list[ClaimRow]:
-    """The claims that say the theorem, on the way round if there is one."""
+    """The claims that say the theorem, by the alternative proof if there is one."""
     last = report.notes.route[-1] if route(report) else report.notes.chain[-1]
     return [r for r in report.every_claim if r.proof == last.proof and r.id in last.claims]
 
@@ -138,20 +138,20 @@ def _theorem(report: Report) -> str:
     size = (
         "every number of joints n" if joints == {None} else f"n = {and_list(sorted(map(str, joints)))} joints"
     )
-    members = f"h_m with m = {and_list(list(map(str, report.ms)))}"
+    members = f"h_m with m = {and_list(list(map(str, report.ms)))}."
     if any(row.m is None for row in rows):
-        members += " as for every odd bounded function of its class"
-        if set(report.verdicts(BOUNDS, Path(CLASS).stem)) == {"proved"}:
-            members += ", whose bounds h_m keeps for every real m ≥ 1"
+        members += " The proof covers every odd bounded function of a class"
+        inside = set(report.verdicts(BOUNDS, Path(CLASS).stem)) == {"proved"}
+        members += ", to which h_m belongs for every real m ≥ 1." if inside else "."
     arm = ""
     if set(report.verdicts((THIS_ARM,), "scalar")) == {"proved"}:
         name, n = report.robot.name, report.robot.n
         rows += [r for r in report.every_claim if r.proof == "scalar" and r.id == THIS_ARM]
-        arm = f"; on {name} (n = {n}) with the gains of Table 2, with an explicit ε₀"
+        arm = f" On {name} (n = {n}) with the gains of Table 2 it also has an explicit ε₀."
     return _say(
         rows,
-        f"The proposition is true: proved with certificates for every arm with Properties 2.1 to 2.7, {size},"
-        f" all positive gains, and {members}{arm}. {report.notes.known[0]}",
+        f"The proposition is true. It is proved for every arm with Properties 2.1 to 2.7, {size}, all "
+        f"positive gains, and {members}{arm} {report.notes.known[0]}",
     )
 
 
@@ -160,12 +160,16 @@ def _proof(report: Report) -> str:
     if not broken:
         return "No step that its printed proof rests on was refuted."
     wrong = sum(1 for finding in report.weighing("B") if finding.claims)
-    more = f"; {wrong} more of its statements fail without harm to the proposition" if wrong else ""
+    more = (
+        f" Another {wrong} of its statements fail, but the proposition does not need them." if wrong else ""
+    )
     errors = report.errors()
-    counted = f"{len(errors['quoted'])} of its own sentences and {len(errors['implied'])} that it relies on"
+    counted = f"{len(errors['quoted'])} sentences of the paper and {len(errors['implied'])} that it relies on"
     count = len(errors["ours"])
-    ours = f" {count} further refuted claims are ours, not the paper's." if count else ""
-    return f"Its printed proof breaks at {and_list(broken)}{more}. Refuted are {counted}.{ours}"
+    ours = f" Another {count} refuted claims answer questions of ours." if count else ""
+    return (
+        f"The printed proof breaks at {and_list(broken)}.{more} Claim by claim, {counted} are refuted.{ours}"
+    )
 
 
 def _gains(report: Report) -> tuple[str, ...]:
@@ -205,7 +209,7 @@ def _gains(report: Report) -> tuple[str, ...]:
             f"; of {and_list(limitless)} {what} proved for motors without a limit, and theirs may saturate"
         )
     tail = all_say((promises[row.name] for row in certified), tail) if tail else ""
-    rest = f" To {and_list(others)}, without a bound γ, these conditions do not apply." if others else ""
+    rest = f" The h of {and_list(others)} has no bound γ, so these conditions do not apply." if others else ""
     subject = "" if report.own else "Gains of Table 2: "
     return (f"{subject}{', '.join(parts)}{tail}.{rest}",)
 
@@ -230,7 +234,7 @@ def _on_a_computer(report: Report) -> tuple[str, str]:
     left = [row for row in rows if row not in shown]
     asked = [row.decision.promise.asked for row in shown if row.decision.promise is not None]
     periods = {f" at {decimal_text(1000 * one.period)} ms" for one in asked if isinstance(one, SampledStable)}
-    stable = _say(shown, f"stable{' and'.join(sorted(periods))} under suppositions") if shown else ""
+    stable = _say(shown, f"stable{' and'.join(sorted(periods))} under assumptions") if shown else ""
     parts = [
         f"m = {and_list([known[row.id] for row in some])}: {word}"
         for some, word in ((shown, stable), (left, "open"))
@@ -252,13 +256,13 @@ def sampled_section(report: Report) -> Iterator[Section]:
     became = ("; ".join(filter(None, (row.decision.word, row.decision.reason))) for row in rows)
     table = tuple((row.id, f"“{row.comment}”", word) for row, word in zip(rows, became, strict=True))
     words = (
-        "The theorem is about a torque that changes all the time; a computer holds it between readings. "
-        "These claims are about gains of Table 2, with the friction and gravity that are printed, and any "
-        f"inertia. They suppose, here {first.id}:"
+        "The theorem is about a torque that changes all the time. A computer holds each torque until the "
+        "next reading. These claims are about gains of Table 2, with the printed friction and gravity, and "
+        f"any inertia. They assume, in the words of {first.id}:"
     )
     blocks = (
         Paragraph(words),
         Bullets(first.decision.granted),
-        Table(("claim", "the author's words", "became"), table, align="lll"),
+        Table(("claim", "description", "verdict"), table, align="lll"),
     )
     yield Section("On the computer that runs it", blocks)

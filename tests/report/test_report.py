@@ -93,7 +93,7 @@ def test_the_first_screen_answers(report, files):
     first = files["index.html"].split('id="findings"')[0]
     assert report.notes.paper.title in first
     assert [badge.word for badge in badges(report)][:2] == ["proved for every n", "breaks at (16), term 6"]
-    assert badges(report)[-1].word == "m = 1: stable at 2.5 ms under suppositions"
+    assert badges(report)[-1].word == "m = 1: stable at 2.5 ms under assumptions"
     (card,) = sampled_section(report)
     assert [len(getattr(block, "items", ())) for block in card.blocks] == [0, 7, 0]  # six, and k_g
     said = sentences(report)

@@ -43,6 +43,17 @@ def test_a_claim_that_is_followed_is_open(page, folder):
     assert page.until("document.getElementById('equation-16').checkVisibility()")
 
 
+def test_a_finger_sees_what_falls_before_it_follows_the_link(page):
+    page.run("window.box = document.querySelector('.claim-graph .box.refuted')")
+    tap = "box.dispatchEvent(new PointerEvent('click', {pointerType: 'touch', cancelable: true}))"
+    lit = "document.querySelector('.claim-graph').className.baseVal"
+    assert page.run(tap) is False
+    assert page.run(lit) == "claim-graph lit falls"
+    assert page.run(tap) is True
+    page.run("box.dispatchEvent(new FocusEvent('blur'))")
+    assert page.run(lit) == "claim-graph"
+
+
 def test_the_switch_of_m_needs_no_script(page):
     both = "<i id=other data-m=2>other</i><i id=same data-m=1>same</i>"
     page.run(f"document.body.insertAdjacentHTML('beforeend', '{both}')")

@@ -333,8 +333,8 @@ def of_member(member: Member) -> list[Agreement]:
     """h, h', γ and ρ of one m."""
     stated, m = of_family(member), member.m
     return [
-        agreement(f"h_{m} = U_{m}′ is (6)", "normal form", True, "14", stated["14"]),
-        agreement(f"h_{m}′ is (8)", "normal form", True, "8", stated["8"]),
+        agreement(f"h_{m} = U_{m}′ is (6)", "same normal form", True, "14", stated["14"]),
+        agreement(f"h_{m}′ is (8)", "same normal form", True, "8", stated["8"]),
         largest(member, "gamma", "h", member.h, member.gamma_polynomial),
         largest(member, "rho", "dh", member.dh, member.rho_polynomial),
     ]
@@ -342,7 +342,7 @@ def of_member(member: Member) -> list[Agreement]:
 
 def of_loop(n: int) -> list[Agreement]:
     """V and dV/dt: SymPy for n joints, the checker for all n."""
-    found, words = derivation(n), f"one polynomial, n = {n}"
+    found, words = derivation(n), f"same polynomial, n = {n}"
     return [
         agreement("V: (12) is (13)", words, found.value_is_one(), "12", equal_values()),
         agreement("dV/dt: the terms of (15) add up", words, found.sum_is_rate(), "15", rate_of_value()),
@@ -352,7 +352,7 @@ def of_loop(n: int) -> list[Agreement]:
 def of_arm(model: RobotModel, arm: WrittenArm) -> list[Agreement]:
     """dV/dt on one arm, whose Ṁ the chain rule gives; the checker has Ṁ = C + Cᵀ."""
     found = arm.derivation()
-    words = f"one polynomial, sin² + cos² = 1, n = {arm.n}"
+    words = f"same polynomial, sin² + cos² = 1, n = {arm.n}"
     return [agreement(f"dV/dt on {model.name}", words, found.sum_is_rate(), "2.4", rate_of_mass(model))]
 
 

@@ -16,8 +16,10 @@
   if (location.hash) reveal();
 
   // The graph shows what a claim rests on while it is pointed at; of a refuted one, what falls with it.
+  // A finger cannot point without a tap: the first tap shows this, the second follows the link.
   for (const graph of all(".claim-graph")) {
     const edges = all(".edge", graph), boxes = all(".box", graph);
+    let tapped = "";
     const light = (name) => {
       const on = new Set([name]);
       const falls = boxes.some((box) => box.dataset.claim === name && box.classList.contains("refuted"));
@@ -32,8 +34,16 @@
       boxes.forEach((box) => box.classList.toggle("on", on.has(box.dataset.claim)));
     };
     for (const box of boxes) {
-      for (const event of ["pointerenter", "focus"]) box.addEventListener(event, () => light(box.dataset.claim));
-      for (const event of ["pointerleave", "blur"]) box.addEventListener(event, () => light(""));
+      const name = box.dataset.claim, mouse = (event) => event.pointerType !== "touch";
+      box.addEventListener("pointerenter", (event) => mouse(event) && light(name));
+      box.addEventListener("pointerleave", (event) => mouse(event) && light(""));
+      box.addEventListener("focus", () => light(name));
+      box.addEventListener("blur", () => light(tapped = ""));
+      box.addEventListener("click", (event) => {
+        if (mouse(event) || tapped === name) return;
+        event.preventDefault();
+        light(tapped = name);
+      });
     }
   }
 })();
