@@ -142,12 +142,9 @@ def _rate(result: GateResult, model: RobotModel, gate: Sequence[object]) -> Tile
     if not isinstance(check, SampledCheck):
         return Tile(subject, "not known", f"{check.reason}.", "open", ("Ask at a rate.", ask))
     said = check.sentences(False) or [check.reason]
-    if (
-        check.named
-        and check.verdict not in (ACCEPTED, REJECTED)
-        and (check.most, check.from_rest) == (None, None)
-    ):
-        said.insert(0, f"no proof and no counterexample at {time_text(check.value or 0)}")
+    decided = check.verdict in (ACCEPTED, REJECTED) or check.most is not None or check.from_rest is not None
+    if check.named and check.value is not None and not decided:
+        said.insert(0, f"no proof and no counterexample at {time_text(check.value)}")
     text = "".join(f"{one[:1].upper()}{one[1:]}. " for one in said if one).rstrip()
     posture = () if growing is None else _posture(model, [float(x) for x in growing.goal])
     # of (P) nothing is known before it is asked for, and of an arm with dry friction it does not speak
