@@ -210,9 +210,10 @@ def four_epsilons(report: Report) -> Iterator[Block]:
     yield table(
         EPSILON,
         [(row,) for row in report.epsilon],
-        "Each ε₀ gives a V of (12). Published: the upper end of (18). Scalar: from norm bounds. Certified: V "
-        "decreases at every state of this arm, with a certificate. Falsified: V increases at a known state. "
-        "ε₀Λ: the same with one weight per joint. All at nominal numbers, rounded to the safe side.",
+        "Each ε₀ gives a V of (12). The first is the upper end of (18), the second comes from norm bounds. "
+        "The third has a certificate that V decreases on this arm. For the fourth a state is known at which "
+        "V increases. ε₀Λ has a certificate too, with one weight per joint. All are for nominal numbers, "
+        "rounded to the safe side.",
     )
     missing = [(row.name, kind, text) for row in report.epsilon for kind, text in row.reasons.items()]
     if missing:

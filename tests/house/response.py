@@ -34,7 +34,7 @@ def main():
         folder = Path(name)
         run(folder, "init")
         before, after = motion(folder), motion(folder, *TARGETS)
-    figure = Figure(figsize=(9, 3.1), layout="constrained", dpi=150)
+    figure = Figure(figsize=(6.8, 2.9), layout="constrained", dpi=200)  # letters that a phone shows
     angle, torque = figure.subplots(1, 2)
     for panel, column, unit in ((angle, 1, "shoulder angle [°]"), (torque, 2, "shoulder torque, size [N·m]")):
         panel.plot(before[0], before[column], color=BEFORE, label="tuning rule of the paper")
@@ -45,7 +45,7 @@ def main():
     angle.text(3.98, 46.5, "goal", color="gray", ha="right", va="bottom")
     angle.legend(frameon=False, loc="lower right")
     torque.axhline(80, color="black", linestyle="--", linewidth=1)
-    torque.text(3.98, 77, "motor limit 80 N·m, never exceeded (proved)", ha="right", va="top")
+    torque.text(3.98, 77, "motor limit 80 N·m,\nnever exceeded (proved)", ha="right", va="top")
     torque.set_ylim(0, 86)
     figure.savefig(PICTURE)
 

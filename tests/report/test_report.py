@@ -97,7 +97,7 @@ def test_the_first_screen_answers(report, files):
     (card,) = sampled_section(report)
     assert [len(getattr(block, "items", ())) for block in card.blocks] == [0, 7, 0]  # six, and k_g
     said = sentences(report)
-    assert said[0].startswith("The proposition is true: proved")
+    assert said[0].startswith("The proposition is true. It is proved")
     for words in ("every number of joints n", "every odd bounded function", "every real m ≥ 1", "(n = 2)"):
         assert words in said[0]
     assert "every number of joints" in first
