@@ -67,7 +67,7 @@ from lyapcheck.claims import (
 
 proof = Proof(
     "published",
-    "A family of hyperbolic-type control schemes for robot manipulators, as published",
+    "A family of hyperbolic-type control schemes for robot manipulators",
     reference="reyes2019family",
     stands="quoted",
 )

@@ -24,7 +24,7 @@ from lyapcheck.claims.statements import Missing
 from lyapcheck.extensions import shipped
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
-from lyapcheck.output.text import PROSE
+from lyapcheck.output.text import HEADLINE, PROSE
 
 FORMULA = re.compile(r"\(\w+\)")
 ACCENTS = {"'": "\N{COMBINING ACUTE ACCENT}", "~": "\N{COMBINING TILDE}"}
@@ -135,7 +135,7 @@ class Explanation(Answer):
         return Document(
             title,
             (*self._table(), Bullets(remarks)),
-            lead=tuple(cut(text, PROSE - 2) for text in lead),
+            lead=tuple(cut(text, HEADLINE) for text in lead),
             details=tuple(Section(head, blocks) for head, blocks in sections if blocks),
             next=self._command(),
         )

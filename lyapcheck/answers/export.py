@@ -34,6 +34,7 @@ from lyapcheck.output.digits import NONE, at_most
 from lyapcheck.output.document import Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import Field
 from lyapcheck.output.json import laid_out
+from lyapcheck.output.text import HEADLINE
 from lyapcheck.promise import Promise, promised, told
 from lyapcheck.robots import RobotModel
 
@@ -132,7 +133,7 @@ class Exported:
         asked = self.certificate.statement
         what = "stable" if asked.conclusion == "goal" else "comes to rest"
         apart = f", no interval above {decimal_text(asked.stretch)} times it" if asked.stretch > 1 else ""
-        words = f"as run: {what} at periods up to {time_text(asked.period)}{apart}"
+        words = f"as run: {what} up to {time_text(asked.period)}{apart}"
         return self.sampled.says(f"{words}, exact readings, no motor saturated")
 
     @property
@@ -195,15 +196,19 @@ class Export(Answer):
             tally = Counter(each.judged.spoken for each in self.sets)
             gate = ", ".join(f"{count} {verdict}" for verdict, count in tally.items())
             title = f"{worst} {len(self.sets)} gain sets in C; gate: {gate}; open at {period}: {len(open_)}"
-            lead = [f"open at {period}, as a computer runs it: {', '.join(open_)}"] if open_ else []
+            said = f"open at {period}, as a computer runs it: {', '.join(open_)}"
+            lead, longer = [said] * bool(open_) if len(said) <= HEADLINE else [], []
         else:
             gate = one.judged.spoken_standing
             title = f"{worst} {one.controller.gains.name} in C; gate: {gate}; run at {period}: {one.runs}"
-            lead = [one.running]
+            fits = len(one.running) <= HEADLINE
+            lead = [one.running if fits else f"{one.running.partition(', ')[0]}; more below"]
+            longer = [] if fits else [one.running]
         bound = at_most(max(max(each.rounding[0]) for each in self.sets), 3)
         lead.append(f"rounding moves no torque by more than {bound} N·m (computed, up to {ANGLES[0]} rad)")
         names = [each.controller.name for each in self.sets]
         remarks = (
+            *longer,
             f"files: {', '.join(one.files)}" if not several else f"files of each set: {', '.join(names)}",
             f"test: cc -std=c99 -O2 {names[0]}.c {names[0]}_test.c -lm -o run && ./run",
         )

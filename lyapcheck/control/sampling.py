@@ -83,9 +83,14 @@ class LoopRecord:
         return f"{time_text(self.period)}{longest}, {self.how}"
 
     @property
-    def how(self) -> str:
+    def late(self) -> str:
+        """How late a torque goes out, in words."""
         late = "1 sample late" if self.delay == 1 else f"{self.delay} samples late"
-        parts = [late if self.delay else "no delay"]
+        return late if self.delay else "no delay"
+
+    @property
+    def how(self) -> str:
+        parts = [self.late]
         parts.append("velocity measured" if self.velocity == "measured" else "velocity by differences")
         if self.lowpass is not None:
             parts.append(f"low-pass of {decimal_text(self.lowpass)} Hz")

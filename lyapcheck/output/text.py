@@ -14,17 +14,20 @@ from unicodedata import combining, east_asian_width
 
 from lyapcheck.output import document as doc
 from lyapcheck.output.escapes import printable
+from lyapcheck.output.names import spelled
 
 WIDTH, LEAST, MOST = 100, 60, 120
 """Columns where there is no terminal, and the ends of what is used of one."""
 PROSE = 90
 """Sentences are not wider."""
 GAP = INDENT = "  "
+HEADLINE = 80 - len(INDENT)
+"""Letters of a sentence of the headline, which is a line at 80 columns; what is longer is a remark."""
 
 BOLD, DIM, GREEN, RED, YELLOW, PLAIN = (f"\x1b[{code}m" for code in (1, 2, 32, 31, 33, 0))
 COLOURS = {
-    **dict.fromkeys(("✓", "proved", "accepted"), GREEN),
-    **dict.fromkeys(("✗", "refuted", "rejected", "refused", "error"), RED),
+    **dict.fromkeys(("✓", "[ok]", "proved", "accepted"), GREEN),
+    **dict.fromkeys(("✗", "[x]", "refuted", "rejected", "refused", "error"), RED),
     **dict.fromkeys(("?", "!", "undecided"), YELLOW),
 }
 """Of cells that are one of these words, and of titles that begin with one."""
@@ -53,12 +56,14 @@ class View:
         colour: with the escape sequences of a terminal.
         width: columns; held within `LEAST` and `MOST`.
         following: the next command with the options of this one that it needs.
+        encoding: what takes the text; signs that it lacks are written as names.
     """
 
     depth: Depth = Depth.SHORT
     colour: bool = False
     width: int = WIDTH
     following: Callable[[str], str] = str
+    encoding: str = "utf-8"
 
 
 def render(document: doc.Document, view: View | None = None) -> str:
@@ -69,7 +74,7 @@ def render(document: doc.Document, view: View | None = None) -> str:
 
 class _Writer:
     def __init__(self, view: View) -> None:
-        self.colour, self.depth = view.colour, view.depth
+        self.colour, self.depth, self.encoding = view.colour, view.depth, view.encoding
         self.width = min(max(view.width, LEAST), MOST)
 
     def lines(self, document: doc.Document) -> Iterator[str]:
@@ -87,7 +92,7 @@ class _Writer:
             yield ""
         for text in (document.assumed, document.next and f"next: {document.next}"):
             command = "lyapcheck " in text  # stays whole, to be pasted
-            lines = [INDENT + printable(text)] if command else self._inset(text)
+            lines = [INDENT + self._said(text)] if command else self._inset(text)
             yield from (self._in(DIM, line) for line in lines)
 
     def _titled(self, line: str) -> str:
@@ -104,8 +109,10 @@ class _Writer:
                     yield from self._wrapped(text)
                 case doc.Bullets(items):
                     yield from (line for item in items for line in self._hanging(item))
+                case doc.Equation(text, latex) if "\n" in text and self._said(text) != text:
+                    yield f"    {self._said(latex)}"  # names would move what stands in lines above each other
                 case doc.Code(text) | doc.Equation(text):
-                    yield from (f"    {printable(line)}" for line in text.splitlines())
+                    yield from (f"    {self._said(line)}" for line in text.splitlines())
                 case doc.Figure(path, caption):
                     yield from self._wrapped(f"{caption} [{path}]")
                 case doc.Section(title, inner):
@@ -117,7 +124,7 @@ class _Writer:
     def table(self, table: doc.Table) -> Iterator[str]:
         if table.caption:
             yield from self._wrapped(table.caption)
-        cells = [tuple(map(printable, row)) for row in (table.heads, *table.rows)]
+        cells = [tuple(map(self._said, row)) for row in (table.heads, *table.rows)]
         columns = [
             _pointed(column) if side == "r" else column
             for column, side in zip(zip(*cells, strict=True), table.align, strict=True)
@@ -138,7 +145,9 @@ class _Writer:
         while excess > 0 and words and self.depth < Depth.VERBOSE:
             widest = max(words, key=lambda i: widths[i])
             most = max(widths[widest] - excess, 8)
-            shown[widest] = [x if _width(x) <= most else f"{x[: most - 1]}…" for x in shown[widest]]
+            dots = self._said("…")
+            cut = most - len(dots)
+            shown[widest] = [x if _width(x) <= most else f"{x[:cut]}{dots}" for x in shown[widest]]
             words.remove(widest)
             excess -= widths[widest] - most
         return shown
@@ -155,7 +164,7 @@ class _Writer:
 
     def _wrapped(self, text: str, less: int = 0) -> list[str]:
         width = min(self.width, PROSE) - less
-        shown = printable(text)
+        shown = self._said(text)
         if _width(shown) <= width:
             return [shown]
         return wrap(shown, width, break_long_words=False, break_on_hyphens=False)
@@ -166,6 +175,9 @@ class _Writer:
     def _hanging(self, text: str) -> Iterator[str]:
         lines = self._wrapped(text, len(INDENT))
         return (f"{INDENT if number else '- '}{line}" for number, line in enumerate(lines))
+
+    def _said(self, text: str) -> str:
+        return spelled(printable(text), self.encoding)
 
     def _in(self, style: str, text: str) -> str:
         return f"{style}{text}{PLAIN}" if self.colour and style and text else text

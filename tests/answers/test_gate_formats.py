@@ -36,7 +36,9 @@ def test_the_title_counts_sets_or_names_the_only_one(paper, undecided):
     assert GateAnswer(paper[:1]).document().title == (
         "! tau_m1: accepted; dry friction (assumed) leaves at most 20.73°"
     )
-    assert GateAnswer(paper[1:2]).document().title == "✗ tau_m2: breaks (19), stability proved otherwise"
+    assert GateAnswer(paper[1:2]).document().title == (
+        "✗ tau_m2: breaks (19), stability proved otherwise at nominal numbers"
+    )
 
 
 def test_the_title_names_joints_whose_dry_friction_nobody_stated(tmp_path):

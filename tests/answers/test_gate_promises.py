@@ -111,7 +111,8 @@ def test_the_headline_tells_that_stability_is_shown_at_nominal_numbers(tmp_path,
     assert f"no motor saturates (10i), {where}, proved for arm" in said(done)
     broken = invoke("gate", files(tmp_path, number(1, low, 1, "kg"), 2, "", "kp = [5]\nkv = [3]"), *vary)
     nominal = " at nominal numbers" if "nominal" in where else ""
-    assert f"proved stable (scalar){nominal}; --condition 10p --condition scalar accepts it" in said(broken)
+    assert f"breaks (19), stability proved otherwise{nominal}" in said(broken)
+    assert "proved stable (scalar); --condition 10p --condition scalar accepts it" in said(broken)
 
 
 # --- the loop and the ranges in the headline ------------------------------------------------------

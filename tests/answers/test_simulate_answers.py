@@ -174,7 +174,10 @@ def test_the_experiment_is_held_against_nothing() -> None:
     answer = SetPointRuns((run,))
     document = answer.document()
     assert document.title == "! buap3: no limit cycle seen in 1 gain set"
-    assert document.lead[0].startswith("2.5 ms, no delay, velocity by differences, ")
+    far, how = document.lead
+    assert far.startswith("ends up to 88.")
+    assert far.endswith("° from the goal (elbow)")
+    assert how == "simulated at 2.5 ms, no delay: 0° each to (45, 45, 90)° in 0.1 s"
     (case,) = answer.annotations()
     assert (case.level, case.rule) == (Level.PASSED, "finished")
     assert answer.exit_code is Exit.PROVED

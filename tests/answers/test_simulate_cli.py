@@ -39,10 +39,9 @@ def test_json_follows_its_schema():
 def test_experiment_and_markdown():
     done = lyapcheck(PD, "--experiment", "--format", "markdown", "--time", "0.5")
     assert done.returncode == 0
-    assert done.stdout.startswith(
-        "# \\! buap3: no limit cycle seen in 1 gain set\n\n2.5 ms, no delay, velocity by differences, "
-    )
-    assert "## tau_pd: (0, 0, 0)° to (45, 45, 90)° in 0.5 s" in done.stdout
+    assert done.stdout.startswith("# \\! buap3: no limit cycle seen in 1 gain set\n\nends up to ")
+    assert "## tau_pd: 0° each to (45, 45, 90)° in 0.5 s" in done.stdout
+    assert "- as run: 2.5 ms, no delay, velocity by differences\n" in done.stdout
     assert "| shoulder |" in done.stdout
 
 

@@ -1,5 +1,6 @@
 """The layout of every text answer: a headline, one table, few remarks, a next command that works."""
 
+import re
 import shlex
 from dataclasses import replace
 from functools import cache
@@ -9,8 +10,8 @@ from unicodedata import combining
 import pytest
 
 from lyapcheck.output.answer import Answer
-from lyapcheck.output.document import Bullets, Paragraph, Section, Table
-from lyapcheck.output.text import PROSE, View, render
+from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table
+from lyapcheck.output.text import Depth, View, render
 from tests.helpers.command import invoke
 from tests.helpers.shares import but
 
@@ -36,6 +37,10 @@ ASKED = {
     "table": ("table", "--m", "1:3"),
     "recheck": ("recheck", str(ROOT / "tests/kernel/certificates/2.1.json")),
     "epsilon": ("epsilon", "gains.toml", "--max-boxes", "40", "--starts", "1"),
+    "epsilon, ranges": (
+        *("epsilon", "gains.toml", "--max-boxes", "40", "--starts", "1"),
+        *("--vary", "viscous=-30%..+30%", "--vary", "payload=0..1"),
+    ),
     "epsilon, another arm": (
         "epsilon",
         "free.toml",
@@ -50,6 +55,8 @@ ASKED = {
     "simulate, another arm": ("simulate", "free.toml", "--robot", "arm.toml"),
     "bounds, another arm": ("bounds", "free.toml", "--robot", "arm.toml", "--time", "1"),
     "simulate, as run": ("simulate", "gains.toml", "--rate", "1000"),
+    "simulate, over ranges": ("simulate", "gains.toml", "--rate", "400", "--vary", "payload=0..1"),
+    "simulate, unknown payload": ("simulate", "gains.toml", "--rate", "400", "--unknown-payload", "0.5"),
     "simulate, random starts": ("simulate", "gains.toml", "--runs", "4", "--time", "1"),
     "simulate, at the bench": ("simulate", TABLE2, "--experiment"),
     "tune, the largest": ("tune", "buap3", "--m", "1:2"),
@@ -113,7 +120,8 @@ TALL = 24
 """Lines for three joints."""
 SLOW = (
     *("explain, undecided", "explain, the list", "simulate, at the bench"),
-    *("tune, targets", "epsilon", "epsilon, another arm"),
+    *("tune, targets", "epsilon", "epsilon, ranges", "epsilon, another arm"),
+    *("simulate, over ranges", "simulate, unknown payload"),
 )
 SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted", "gate, seven joints")
 
@@ -164,12 +172,16 @@ def test_an_answer_is_short(name):
     remarks = [block.items for block in document.blocks if isinstance(block, Bullets)]
     remarks += [(block.text,) for block in document.blocks if isinstance(block, Paragraph)]
     assert sum(map(len, remarks)) <= 3
-    for width in (80, 100):
+    for width in (60, 80, 100):
         lines = render(document, View(width=width)).splitlines()
         assert len(lines) <= TALL
-        assert lines.index("") <= (3 if width == 100 else 4)
+        assert lines.index("") <= (6 if width == 60 else 3)
         assert all(columns(line) <= width for line in lines if "lyapcheck " not in line)
-    assert len(document.title) <= PROSE
+        plain = render(document, View(Depth.EXPLAINED, width=width, encoding="ascii"))
+        assert plain.isascii()
+        assert not re.search(r"\\[ux]\d", plain)
+    for sentence in (document.title, *document.lead):
+        assert render(Document(sentence), View(width=60)).count("\n") <= 2
 
 
 @pytest.mark.parametrize("name", but(set(ASKED) - {*SLOW_NEXT}, ASKED))

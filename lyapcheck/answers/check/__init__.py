@@ -20,7 +20,7 @@ from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import Field
-from lyapcheck.output.text import PROSE
+from lyapcheck.output.text import HEADLINE
 from lyapcheck.promise import all_say, told
 from lyapcheck.verdicts import STANDS, Exit, Grade, Verdict, exit_code
 
@@ -252,7 +252,7 @@ class ProofResult(Answer):
         notes = (WHOSE, *(text for grade, text in GRADES.items() if grade in known))
         about = self._theorem() or self.title
         lead = (
-            *([cut(about, PROSE - 2)] if about else []),
+            *([cut(about, HEADLINE)] if about else []),
             f"for m = {', '.join(map(str, self.ms))} and n = {self.n}{arm}",
         )
         every = tuple(self._sections(ORDER))

@@ -92,7 +92,7 @@ class Derivation(Answer):
         return f"{told(row.promise, row.verdict)} [{row.grade}]{beside}"
 
 
-MOST_ROWS = 16
+MOST_ROWS = 15
 CLAIMS = ("--only", "12", "--only", "15")
 """The claims of the paper that V and dV/dt belong to."""
 INTRODUCTION = (

@@ -207,11 +207,16 @@ def without_19(result: GateResult) -> list[str]:
     ]
 
 
-def proved_otherwise(result: GateResult) -> str:
-    """The same in a line, of a set that breaks nothing but (19)."""
+def proved_otherwise(result: GateResult, titled: bool = False) -> str:
+    """The same in a line, of a set that breaks nothing but (19).
+
+    Args:
+        result: of the gate.
+        titled: whether the line before says which numbers this is about.
+    """
     known = result.stable
     assert known is not None
-    nominal = " at nominal numbers" if result.limits.nominal else ""
+    nominal = " at nominal numbers" if result.limits.nominal and not titled else ""
     options = accepting(result)
     accepted = f"; {' '.join(options)} accepts it" if options else ""
     return known.own_promise.says(f"proved stable ({known.id}){nominal}{accepted}")

@@ -19,7 +19,7 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
-from lyapcheck.output.text import PROSE
+from lyapcheck.output.text import HEADLINE
 from lyapcheck.promise import all_say
 
 if TYPE_CHECKING:
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 NAMED = "!"
 """Accepted, with a fact that no condition is about."""
 MOST_ROWS, MOST_REMARKS = 16, 3
-LINE = PROSE - 2
-"""Letters of a line of the headline; what is longer is a remark."""
 
 
 def document(answer: GateAnswer) -> Document:
@@ -79,11 +77,13 @@ def _of_one(result: GateResult) -> tuple[list[str], list[str], list[Block]]:
         found = fact(result)
         open_ = open_as_run(result.checks)
         lead = [_meaning(result), *([open_] if open_ and found and found[1] != open_ else [])]
+        if len(standing(result)) > HEADLINE and len(joined := "; ".join(lead)) <= HEADLINE:
+            lead = [joined]
         return lead, [text for text in said if text not in aside], details
     wrong = Section("What is wrong", (Bullets((*advices(result), *said)),))
     if result.standing == BREAKS_19:
-        return [proved_otherwise(result)], [*fixes, *said[1:]], [wrong]
-    short = [text for text in fixes[:1] if len(text) <= LINE]
+        return [proved_otherwise(result, titled=True)], [*fixes, *said[1:]], [wrong]
+    short = [text for text in fixes[:1] if len(text) <= HEADLINE]
     return short, [*fixes[len(short) :], *said], [wrong]
 
 
@@ -140,6 +140,7 @@ def standing(result: GateResult) -> str:
     """A set with its verdict, where it fails, and a fact that no condition is about."""
     found = fact(result)
     failed = "" if result.standing in (ACCEPTED, BREAKS_19) else _where(result)
+    failed += " at nominal numbers" if result.standing == BREAKS_19 and result.limits.nominal else ""
     said = f"{result.name}: {result.spoken_standing}{failed}"
     return said if found is None else f"{said}; {found[1]}"
 

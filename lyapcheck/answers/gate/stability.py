@@ -51,7 +51,7 @@ _NOMINAL = "certificates are about the arm at its nominal numbers"
 _RANGED = "certificates are about the arm for all values of its ranges"
 _TOO_MANY = f"over ranges an arm of more than {FEW_JOINTS} joints has no certificate of this kind"
 _TOO_LONG = "M(q) of these links is too long to be written out; --condition lasalle does without"
-_NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
+_NO_ARM = "needs the arm itself, not only its limits; name one with robot = …"
 _OTHER_FRICTION = (
     "[bounds] viscous_min replaces λmin(B), but the friction of every joint is needed; remove it"
 )

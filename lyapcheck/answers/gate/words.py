@@ -203,7 +203,10 @@ def by_joints(result: GateResult, text: Callable[[GateResult, Check], str]) -> l
     said: dict[tuple[str, str], list[str]] = {}
     for check in result.failures:
         said.setdefault((check.id, text(result, check)), []).append(Row(result, check).joint)
-    lines = [f"({name}) {', '.join(joints)}: {text}" for (name, text), joints in said.items()]
+    lines = []
+    for (name, words), joints in said.items():
+        where = "" if joints == ["all"] else f" {', '.join(joints)}"
+        lines.append(f"({name}){where}: {words}")
     if result.verdict == UNDECIDED and not result.failures:
         lines.append(result.grounds.missing)
     return lines

@@ -56,7 +56,7 @@ HOLDS = "holds"
 HALVINGS, FAR = 50, 40.0
 """Of an interval with a state of rest, and its end, rad: there every h is 1 but for rounding."""
 NO_LINKS = "an unknown payload needs the links of the arm: give it by [[links]] or a URDF file"
-NO_ARM = "needs the arm itself, and not only its limits; name one with robot = …"
+NO_ARM = "needs the arm itself, not only its limits; name one with robot = …"
 UNBOUNDED = "h is unbounded, and no error at rest is judged of it"
 NOTHING = "nothing unknown is stated: add unknown_payload = … or gravity_error = … under [loop]"
 

@@ -124,23 +124,24 @@ class Simulation(Answer, Generic[Result]):
         wrong, one = self.complaints(), len(self.results) == 1
         overview = [self.overview()] if self.results else []
         short: list[Block] = [self.by_joint(self.results[0])] if one else list(overview)
-        said = [*wrong[:MOST_REMARKS]]
-        if len(wrong) > MOST_REMARKS:
-            said[-1] = f"{len(wrong) - MOST_REMARKS + 1} more complaints; -v lists them"
+        about = [text for text in (self.about(), f"simulated on {self.arms}" if self.arms else "") if text]
+        most = MOST_REMARKS - len(about)
+        said = [*wrong[:most], *about]
+        if len(wrong) > most:
+            said[most - 1] = f"{len(wrong) - most + 1} more complaints; -v lists them"
         short += [Bullets(tuple(said))] if said else []
         details: tuple[Block, ...] = (
-            *([Bullets(tuple(wrong))] if len(wrong) > MOST_REMARKS else []),
+            *([Bullets(tuple(wrong))] if len(wrong) > most else []),
             *self.opening(),
             *(overview if one else []),
             *map(self.section, self.results),
         )
-        how = self.about().removeprefix(", ")
         then = "" if self.file is None else command("gate", *file_words(self.file, self.robot))
         return Document(
             self._title(),
             tuple(short),
             (*self.legend, NUMERIC, *self._notes()),
-            tuple(filter(None, (how, *self.motions(), f"simulated on {self.arms}" if self.arms else ""))),
+            tuple(filter(None, (self.far_off, *self.motions()))),
             details,
             next=then,
         )
@@ -191,12 +192,17 @@ class Simulation(Answer, Generic[Result]):
         """How far from the goal sampled runs end; empty if that is near."""
         return ""
 
+    @property
+    def unknown(self) -> str:
+        """What the controller of sampled runs does not know; empty if that is nothing."""
+        return ""
+
     def motions(self) -> Sequence[str]:
         """What was simulated: from where to where, and whether a run was cut short."""
         return ()
 
     def about(self) -> str:
-        """What the gain sets did, after their number."""
+        """How the loop was run, in a remark."""
         return ""
 
     def watches(self, name: str) -> bool:
@@ -214,9 +220,10 @@ class Simulation(Answer, Generic[Result]):
         levels = [self.level(name) for name in names]
         robots = ", ".join(dict.fromkeys(one.robot for one in self.results)) or "simulation"
         left_out = any(one.without_dry_friction for one in self.results)
-        ideal = ", without the dry friction of the file" if left_out else ""
-        ideal += ", at an infinite rate in place of the [loop] of the file" if self.unsampled else ""
-        count = f"{len(names)} gain set{'' if len(names) == 1 else 's'}{ideal}"
+        left = [*["the dry friction"] * left_out, *["the [loop]"] * self.unsampled]
+        ideal = f", without {' and '.join(left)} of the file" if left else ""
+        counted = f"{'run' if self.arms else 'gain set'}{'' if len(names) == 1 else 's'}"
+        count = f"{len(names)} {counted}{' over the ranges' * bool(self.arms)}{self.unknown}{ideal}"
         failed, open_ = levels.count(Level.FAILED), levels.count(Level.UNDECIDED)
         if failed:
             return f"✗ {robots}: {self.against} {failed} of {count}"

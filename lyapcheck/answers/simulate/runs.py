@@ -28,6 +28,7 @@ from lyapcheck.check.certificate import About
 from lyapcheck.check.kinds.decreasing import StateWitness, statement_of
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
+from lyapcheck.control.sampling import time_text
 from lyapcheck.output.answer import Level
 from lyapcheck.output.digits import NONE, shown
 from lyapcheck.output.document import Block, Bullets, Section
@@ -64,7 +65,7 @@ def _paper(one: Run) -> dict[str, Any] | None:
 
 
 def _loop_text(loop: LoopRecord) -> str:
-    unknown = "" if loop.knows_gravity else f", unknown {loop.unknown_text}"
+    unknown = "" if loop.knows_gravity else f", {loop.unknown_text} unknown"
     return loop.text + unknown
 
 
@@ -133,10 +134,18 @@ class SetPointRuns(Simulation[Run]):
         return f"{' or '.join(kinds)} seen in" if kinds else super().against
 
     def about(self) -> str:
-        """How the loop was sampled, and how far from the goal the runs end."""
-        loops = dict.fromkeys(one.loop for one in self.results)
-        ways = "".join(f", {_loop_text(loop)}" for loop in loops if loop)
-        return f"{ways}{self.far_off}"
+        """How the loop was sampled."""
+        return "; ".join(f"as run: {_loop_text(loop)}" for loop in self._loops)
+
+    @property
+    def _loops(self) -> list[LoopRecord]:
+        return [loop for loop in dict.fromkeys(one.loop for one in self.results) if loop]
+
+    @property
+    def unknown(self) -> str:
+        """As every sampled run has it."""
+        said = dict.fromkeys(loop.unknown_text for loop in self._loops if not loop.knows_gravity)
+        return "".join(f", {text} unknown" for text in said)
 
     @property
     def far_off(self) -> str:
@@ -146,7 +155,7 @@ class SetPointRuns(Simulation[Run]):
         angle, i = max(ends, default=(0.0, 0))
         if angle <= math.degrees(BAND):
             return ""
-        return f", ends up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
+        return f"ends up to {shown(angle, '.3g')}° from the goal ({self.results[0].joints[i]})"
 
     def level(self, name: str) -> Level:
         """Also failed where a sampled run shows unrest."""
@@ -171,8 +180,9 @@ class SetPointRuns(Simulation[Run]):
         return any(one.name == name and one.kind != EXPERIMENT for one in self.results)
 
     def motions(self) -> Sequence[str]:
-        """From where to where; whole runs and those that were cut short apart."""
-        return tuple(dict.fromkeys(f"simulated: {motion(one, _way(one))}" for one in self.results))[:2]
+        """From where to where and at which period; of runs to the end and runs that were cut short."""
+        said = dict.fromkeys(f"simulated{_rate(one.loop)}: {motion(one, _way(one))}" for one in self.results)
+        return tuple(said)[: 1 if self.far_off else 2]
 
     def section(self, one: Run) -> Section:
         """A row a joint, and how far the run can be trusted."""
@@ -187,9 +197,18 @@ class SetPointRuns(Simulation[Run]):
         return running_sentences(self.judged.get(one.name, ()), one.joints)
 
 
+def _rate(loop: LoopRecord | None) -> str:
+    return "" if loop is None or loop.period is None else f" at {time_text(loop.period)}, {loop.late}"
+
+
 def _way(one: Run) -> str:
-    start, goal = (row(math.degrees(x) for x in ends) for ends in (one.task.q0, one.task.q_d))
-    return f"{start}° to {goal}°"
+    return " to ".join(_angles(ends) for ends in (one.task.q0, one.task.q_d))
+
+
+def _angles(angles: Sequence[float]) -> str:
+    """One angle where all joints have the same."""
+    same = len(angles) > 1 and len(set(angles)) == 1
+    return f"{shown(math.degrees(angles[0]), 'g')}° each" if same else f"{row(map(math.degrees, angles))}°"
 
 
 def _facts(one: Run) -> tuple[str, ...]:

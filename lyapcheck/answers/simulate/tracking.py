@@ -123,9 +123,9 @@ class TrackingRuns(Simulation[TrackingRun]):
     legend = (ESTIMATED,)
     promised = "dV/dt stays below −zᵀΘ'z, each |τ_i| within its bound for (21), every motor within its limit"
 
-    def about(self) -> str:
+    def motions(self) -> Sequence[str]:
         """That there was a reference."""
-        return ", tracking (21)"
+        return ("tracking (21)",)
 
     def opening(self) -> Sequence[Block]:
         """The reference."""

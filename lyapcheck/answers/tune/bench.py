@@ -22,6 +22,7 @@ from lyapcheck.output.answer import Answer
 from lyapcheck.output.digits import at_most
 from lyapcheck.output.document import Block, Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.fields import Field, records, table
+from lyapcheck.output.text import HEADLINE
 from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
@@ -221,6 +222,8 @@ class BenchTuning(Answer):
         best = self.best
         arms = f", each on {self.arms}" if self.arms else ""
         simulated = f"simulated: {self.scope.rpartition(', ')[0]}{arms}"
+        arm = f" on {self.model.name}" if self.dry else ""  # for which line 1 has no room
+        simulated += arm if len(simulated + arm) <= HEADLINE else ""
         if best is None or best.result is None:
             return (simulated,)
         return simulated, best.result.says(f"{best.shown}; no motor can saturate")
@@ -253,10 +256,8 @@ class BenchTuning(Answer):
         if best is None:
             return f"? {self.robot}: no gains"
         if self.good:
-            without = ", without the dry friction of the file" if self.dry else ""
-            return (
-                f"{self._mark} simulated: {best.gains.name} meets the targets on {self.model.name}{without}"
-            )
+            where = "without the dry friction of the file" if self.dry else f"on {self.model.name}"
+            return f"{self._mark} simulated: {best.gains.name} meets the targets {where}"
         if self.lacking and not self.missed(best):
             met = f"{best.gains.name} meets the targets on {self.model.name}"
             return f"? simulated: whether {met} is open; error at rest unknown"
