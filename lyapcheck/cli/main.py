@@ -18,6 +18,7 @@ from lyapcheck.cli.parser import Parser
 from lyapcheck.cli.values import chosen
 from lyapcheck.errors import InputError, argument_error, missing, nearest
 from lyapcheck.output.escapes import printable
+from lyapcheck.output.names import SPELLED, has_all_signs
 from lyapcheck.process_tree import Stopping
 from lyapcheck.verdicts import Exit
 
@@ -149,9 +150,13 @@ def _show_problems(words: Sequence[str], error: InputError) -> None:
 
 def main() -> None:
     """Run one command and leave with its exit code; no input ever shows a traceback."""
-    for stream in (sys.stdout, sys.stderr):  # γ must not depend on where a command runs
-        if isinstance(stream, io.TextIOWrapper):
+    for stream in (sys.stdout, sys.stderr):
+        if not isinstance(stream, io.TextIOWrapper):
+            continue
+        if has_all_signs(stream.encoding):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+        else:
+            stream.reconfigure(errors=SPELLED)
     # matrices are small here: threads of BLAS wait for each other and double the time
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     atexit.register(gc.freeze)  # a last look for garbage takes longer than the gate to decide

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import shlex
@@ -21,6 +22,7 @@ from lyapcheck.cli.parser import LOOP
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.output.answer import Answer
 from lyapcheck.output.document import Document, Section
+from lyapcheck.output.escapes import document_text
 from lyapcheck.output.text import WIDTH, Depth, View
 from lyapcheck.process_tree import pending, try_writing
 
@@ -168,7 +170,8 @@ def viewed(parser: Parser, values: dict[str, Any]) -> dict[str, Any]:
         plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
         coloured = colour == "always" or (colour == "auto" and terminal and not plain)
         width = get_terminal_size().columns if terminal else WIDTH
-        _VIEW.set(View(Depth.EXPLAINED if explained else depth, coloured, width, following))
+        depth = Depth.EXPLAINED if explained else depth
+        _VIEW.set(View(depth, coloured, width, following, sys.stdout.encoding or "utf-8"))
     return values
 
 
@@ -216,9 +219,19 @@ def show(answer: Answer, format: str) -> None:  # noqa: A002
         sys.stdout.write(_bare(answer))
         sys.stdout.flush()
         raise
-    sys.stdout.write(text)
+    if format == "text":
+        sys.stdout.write(text)
+    else:
+        write_data(text)
     if format == "github" and os.environ.get(SUMMARY):
         _append_summary(os.environ[SUMMARY], answer.document())
+
+
+def write_data(text: str) -> None:
+    """Write what programs read to standard output, in UTF-8 wherever a command runs."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(encoding="utf-8", errors="backslashreplace")
+    sys.stdout.write(document_text(text))
 
 
 def _bare(answer: Answer) -> str:

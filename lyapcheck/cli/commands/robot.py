@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,9 +12,11 @@ from lyapcheck.cli.show import (
     require_writable,
     show,
     write_certificates,
+    write_data,
     write_whole,
 )
 from lyapcheck.errors import argument_error
+from lyapcheck.output.document import command
 from lyapcheck.output.escapes import printable
 from lyapcheck.verdicts import Exit
 
@@ -68,12 +69,14 @@ def run(
         from lyapcheck.robots import arm_text
 
         if str(export) == "-":
-            sys.stdout.write(arm_text(robot, Path()))
+            write_data(arm_text(robot, Path()))
             return Exit.PROVED
         require_writable("--export", export)
         if export.exists():
             raise argument_error("--export", export, "is there already", "name another file")
         write_whole(export, arm_text(robot, export.parent))
+        print(printable(f"{export}: the arm {robot} as a file to edit"))
+        print(f"next: {command('robot', export)}")
         return Exit.PROVED
     model = load(robot)
     if assumptions:

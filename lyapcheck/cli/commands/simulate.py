@@ -19,6 +19,7 @@ from lyapcheck.cli.show import (
     require_writable,
     show,
     write_certificates,
+    write_data,
     write_whole,
 )
 from lyapcheck.cli.task import (
@@ -34,7 +35,6 @@ from lyapcheck.cli.task import (
 )
 from lyapcheck.cli.values import Complaints, gains_on_arm, varies
 from lyapcheck.files.fields import file_stem
-from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -318,7 +318,7 @@ def told(
     if csv is not None and csv != "-":
         write_whole(Path(csv), samples(answer.results))
     if csv == "-":
-        sys.stdout.write(document_text(samples(answer.results)))
+        write_data(samples(answer.results))
     else:
         show(replace(answer, robot=robot), format)
     for sentence in answer.complaints():

@@ -9,12 +9,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.cli.show import progress, require_writable, show, write_whole
+from lyapcheck.cli.show import progress, require_writable, show, write_data, write_whole
 from lyapcheck.cli.task import starts_of, task_of
 from lyapcheck.cli.values import Complaints, loop_of, parse_decimals, parse_m, varies
 from lyapcheck.errors import argument_error
 from lyapcheck.output.answer import FORMATS
-from lyapcheck.output.escapes import document_text
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -163,7 +162,7 @@ def _told_largest(tuning: Tuning, out: Path | None, format: str) -> Exit:  # noq
     if format != "toml":
         show(tuning, format)
         return tuning.exit
-    sys.stdout.write(document_text(gain_file_text(tuning)))
+    write_data(gain_file_text(tuning))
     for item in tuning.sets:
         for reason in item.reasons:
             print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
@@ -182,7 +181,7 @@ def _told_bench(tuning: BenchTuning, out: Path | None, best: bool, format: str) 
         hint = "; --best writes the best one" if tuning.best is not None else ""
         print(f"note: no set meets the targets, so none is written{hint}", file=sys.stderr)
     if format == "toml":
-        sys.stdout.write(document_text(bench_file_text(tuning, best=best)))
+        write_data(bench_file_text(tuning, best=best))
     else:
         show(tuning, format)
     return tuning.exit
