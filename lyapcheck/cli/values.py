@@ -178,7 +178,7 @@ def chosen(values: dict[str, Any]) -> dict[str, Any]:
     held = dict(wrong.reading(_pair, "--fixed", word, "=") or ("", "") for word in fixed or ())
     given = dict(wrong.reading(_pair, "--xacro", word, ":=") or ("", "") for word in xacro or ())
     wrong.raise_all()
-    at = {joint: held_at(value, joint) for joint, value in held.items()}
+    at = {joint: held_at(value, joint, "--fixed") for joint, value in held.items()}
     return values | {"robot": Choice(base or "", tip or "", at, given).of(values["robot"] or "")}
 
 

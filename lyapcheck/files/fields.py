@@ -141,7 +141,9 @@ class Fields:
             return None
         sign = value.numerator  # comparing fractions takes longer
         if sign < 0 or (positive and sign == 0):
-            rule = "must be positive" if positive else "must not be negative"
+            name = self.data.get("name")
+            where = f" in {name}" if isinstance(name, str) else ""
+            rule = f"must be positive{where}" if positive else f"must not be negative{where}"
             self.notes.fail(path, value, rule, "correct the sign or the value")
             return None
         return value if isinstance(value, Fraction) else Fraction(value)

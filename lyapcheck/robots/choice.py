@@ -110,13 +110,18 @@ def placed(robot: str, place: Callable[[str], str]) -> str:
     return choice.of(place(path)) if path.lower().endswith(FILES) else robot
 
 
-def held_at(text: str, subject: str) -> Fraction:
+def held_at(text: str, subject: str, key: str = "fixed") -> Fraction:
     """The exact value at which a joint is held.
+
+    Args:
+        text: the value.
+        subject: what it is said of.
+        key: what says it.
 
     Raises:
         InputError: it is no decimal.
     """
     value = decimal(text.strip())
     if value is None:
-        raise argument_error("fixed", subject, f"{text} is no decimal number", "write --fixed lift=0.2")
+        raise argument_error(key, subject, f"{text} is no decimal number", "write --fixed lift=0.2")
     return value

@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 
 from lyapcheck.answers.bounds import Comparisons, compare, comparison_data
+from lyapcheck.answers.running import running_sentences
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Table
 from lyapcheck.robots import load
@@ -141,6 +143,20 @@ def test_without_a_number_for_friction_nothing_is_proved():
     assert result.rest == (None, None)
     assert "nothing is known of the dry friction of shoulder, elbow; give --friction" in result.reason
     assert compare(*asked, (F(1), F(0))).rest[1] == 0
+
+
+def test_only_a_joint_of_unknown_friction_has_no_bound(sound):
+    known = load(ARM)
+    half = replace(known, coulomb=(None, known.coulomb[1]))
+    result = compare(FILE.gains[0], half, TASK, DELTA)
+    assert result.rest == (None, sound.rest[1])
+    assert not result.proved
+    assert result.reason.startswith("nothing is known of the dry friction of shoulder; give --friction")
+    assert Comparisons((result,)).document().title.endswith("no error at rest is proved for shoulder")
+    light = compare(FILE.gains[0], half, TASK, DELTA, record=LoopRecord(gravity_error=F(1, 100)))
+    assert [error is None for error in light.unknown_degrees] == [True, False]
+    ends = running_sentences(light.unknown, light.joints)[0].split(": ")[-1]
+    assert "(without dry friction), elbow" in ends
 
 
 def test_an_unbounded_function_is_refused():

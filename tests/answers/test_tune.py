@@ -301,6 +301,16 @@ def test_the_first_line_tells_in_which_steps_there_are_no_gains():
     assert "raise --digits" in refused.blocks[0].items[0]
 
 
+def test_the_first_line_tells_that_the_gate_rejects_what_was_found(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    invoke("init", ".")
+    done = invoke("tune", "arm.toml", "--m", "1", "--unknown-payload", "30")
+    assert done.exit_code == 2
+    said = "✗ arm.toml: the gate rejects the largest gains within (10p) and (19) for m = 1\n"
+    assert done.stdout.startswith(said)
+    assert "(holds) elbow" in done.stdout
+
+
 def test_a_record_is_a_joint():
     first, *others = tune("buap3", [1, 2]).records()
     assert (first["name"], first["joint"], first["kp"]) == ("tau_m1", "base", "28.633")

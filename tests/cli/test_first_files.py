@@ -77,9 +77,11 @@ def test_an_exported_arm_goes_to_standard_output(monkeypatch, capsys):
     assert not Path("-").exists()
 
 
-def test_export_does_not_write_over_a_file(monkeypatch, tmp_path):
+def test_export_says_what_it_wrote_and_does_not_write_over_a_file(monkeypatch, tmp_path, capsys):
     target = tmp_path / "arm.toml"
     assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 0
+    said = f"{target}: the arm buap3 as a file to edit\nnext: lyapcheck robot {target}\n"
+    assert capsys.readouterr().out == said
     assert target.read_text().startswith('title = "Three-joint')
     assert leaves(monkeypatch, "robot", "buap3", "--export", str(target)) == 2
 

@@ -30,6 +30,7 @@ ASKED = {
     "gate, breaks (19) at nominal numbers": ("gate", "ranged.toml"),
     "gate, undecided as run": ("gate", "gains.toml", "--period", "20 ms", "--condition", "sampled"),
     "gate, falls": ("gate", "gains.toml", "--unknown-payload", "8"),
+    "gate, too heavy": ("gate", "gains.toml", "--unknown-payload", "30"),
     "gate, seven joints": ("gate", PANDA),
     "bounds": ("bounds", "gains.toml", "--time", "1"),
     "bounds, several sets": ("bounds", TABLE2, "--time", "1"),
@@ -123,7 +124,7 @@ SLOW = (
     *("tune, targets", "epsilon", "epsilon, ranges", "epsilon, another arm"),
     *("simulate, over ranges", "simulate, unknown payload"),
 )
-SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted", "gate, seven joints")
+SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted", "gate, seven joints", "gate, too heavy")
 
 
 def columns(line):

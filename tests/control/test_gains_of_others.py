@@ -86,6 +86,7 @@ def test_gains_by_joint_are_the_list_in_the_order_of_the_arm(place: Path) -> Non
             "kp.elbo = 1: is no joint of this arm; did you mean elbow?",
         ),
         ("m = 1\nkp = { shoulder = -1, elbow = 1 }\nkv = [1, 1]", "kp.shoulder = -1: must be positive"),
+        ("m = 1\nkp = [1.0, 1]\nkv = [1, 0.0]", "kv[2] = 0.0: must be positive in a; correct"),
     ],
 )
 def test_what_is_written_otherwise_is_told_with_its_repair(place: Path, lines: str, message: str) -> None:

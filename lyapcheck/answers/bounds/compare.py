@@ -13,6 +13,7 @@ import numpy as np
 from lyapcheck import asked
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.answers.running.holds import HoldsCheck, holds_checks
+from lyapcheck.check.judgement import LARGEST
 from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, resting
 from lyapcheck.errors import argument_error
@@ -116,7 +117,8 @@ class BoundsComparison:
         result = list(self.rest_degrees)
         for check in self.unknown:
             if isinstance(check, HoldsCheck) and check.joint is not None:
-                result[check.joint] = None if check.error is None else check.error * DEGREES
+                known = None if self.dry[check.joint] is None else check.error  # else without the friction
+                result[check.joint] = None if known is None else known * DEGREES
         return tuple(result)
 
 
@@ -153,9 +155,10 @@ def compare(
     whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
     known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
     most = tuple(known_most if dry is None else dry)
-    known = [f for f in most if f is not None]
-    shown = resting(gain_set, known) if len(known) == len(most) else None
-    promise, reason = (None, "") if shown is None else _promised(gain_set, known, shown)
+    # at rest no joint asks anything of another: one of unknown friction has no bound, and the others have
+    supposed = [Fraction(LARGEST) if f is None else f for f in most]
+    shown = resting(gain_set, supposed)
+    promise, reason = (None, "") if shown is None else _promised(gain_set, supposed, shown)
     errors = _errors(promise, model.n)
     runs = []
     for index, arm in enumerate(arms):
@@ -177,7 +180,7 @@ def compare(
         corners="" if varied is None else corners_text(*varied),
         unknown=()
         if record is None or record.knows_gravity
-        else holds_checks(gain_set, whole, record, known if len(known) == len(most) else None),
+        else holds_checks(gain_set, whole, record, None if None in most else supposed),
         sampled=record is not None and record.period is not None,
     )
 

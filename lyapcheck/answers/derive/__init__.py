@@ -138,10 +138,10 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: ArmLike | None = N
 
     ms = tuple([m] if isinstance(m, int) else m)
     for one in ms:
-        _require("m", one, LARGEST_M)
+        require_up_to("m", one, LARGEST_M)
     model = None if robot is None else arm_of(robot)
     joints = n if model is None else model.n
-    _require("n", joints, MOST_JOINTS)
+    require_up_to("n", joints, MOST_JOINTS)
     arm = None if model is None else written_arm(model)
     members = [member(one) for one in ms]
     judged = [row for one in members for row in rows.of_member(one)] + rows.of_loop(joints)
@@ -152,6 +152,11 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: ArmLike | None = N
     return Derivation(ms, joints, "" if model is None else model.name, tuple(shown), tuple(judged))
 
 
-def _require(name: str, value: int, most: int) -> None:
+def require_up_to(name: str, value: int, most: int) -> None:
+    """Refuse a number that is not from 1 to another.
+
+    Raises:
+        InputError: it is not.
+    """
     if not 1 <= value <= most:
         raise argument_error(name, value, f"must be from 1 to {most}", f"give {name} = 2")

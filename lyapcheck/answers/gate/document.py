@@ -13,7 +13,7 @@ from lyapcheck.answers.gate.friction import farthest, swinging, without_friction
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
 from lyapcheck.answers.running import INFINITE, open_as_run
-from lyapcheck.answers.running.holds import NO_LINKS, farthest_unknown
+from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, farthest_unknown
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 NAMED = "!"
 """Accepted, with a fact that no condition is about."""
 MOST_ROWS, MOST_REMARKS = 16, 3
+TARGETS = "--overshoot", "5", "--settle", "2"
 
 
 def document(answer: GateAnswer) -> Document:
@@ -254,7 +255,8 @@ def _next(answer: GateAnswer) -> str:
             "gate", *again, *(word for name in dict.fromkeys(other) for word in ("--condition", name))
         )
     if result.verdict == REJECTED and limits.model is not None and result.m is not None:
-        return command("tune", *robot, "--m", result.m)
+        held = HOLDS not in [check.id for check in result.failures]  # else for gains beyond (10p), by proof
+        return command("tune", *robot, "--m", result.m, *([] if held else TARGETS))
     plain = result.verdict == ACCEPTED and limits.model is not None and result.gains.angle_unit == "rad"
     unknown = any(check.reason == NO_LINKS for check in result.checks)  # no run knows that payload either
     return command("simulate", *again) if plain and not unknown else command("gate", *again, "--explain")

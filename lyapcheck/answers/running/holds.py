@@ -253,8 +253,13 @@ def holds_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]
     held = _held(checks)
     if not held:
         return []
-    far = ", ".join(f"{joints[one.joint or 0]} {degrees_above(one.error or Fraction(0))}" for one in held)
-    dry = " with dry friction" if any(one.friction for one in held) else ", without dry friction,"
+    some = any(one.friction for one in held)
+    far = ", ".join(
+        f"{joints[one.joint or 0]} {degrees_above(one.error or Fraction(0))}"
+        f"{' (without dry friction)' if some and not one.friction else ''}"
+        for one in held
+    )
+    dry = " with dry friction" if some else ", without dry friction,"
     words = f"{held[0].unknown} unknown to the controller{dry} leaves at most {far}, at every state of rest"
     return [all_say((one.promise for one in held), words)]
 

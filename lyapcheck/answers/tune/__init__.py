@@ -172,4 +172,4 @@ def _as_judged(item: TunedSet, result: GateResult) -> TunedSet:
     reasons = tuple(advice(result, check) for check in result.failures if check.id not in result.deciding)
     if not reasons:
         raise ArithmeticError(f"the gate says {result.verdict} to the tuned gains {result.name}")
-    return TunedSet(item.name, item.m, INFEASIBLE, reasons=reasons)
+    return TunedSet(item.name, item.m, INFEASIBLE, reasons=reasons, rejected=True)

@@ -81,6 +81,8 @@ class TunedSet:
     reasons: tuple[str, ...] = ()
     program: str = ""
     runs: tuple[Check, ...] = ()
+    rejected: bool = False
+    """Whether there are gains within the limits that the gate rejects."""
 
     def __repr__(self) -> str:
         return f"<TunedSet: {self.gains or '; '.join(self.reasons)}>"
@@ -225,8 +227,10 @@ class Tuning(Answer):
         for status, words in NONE_FOUND.items():
             failed = [str(item.m) for item in self.sets if item.status == status]
             if failed:
-                step = decimal_text(Fraction(1, 10**self.targets.digits))
-                return f"{MARKS[status]} {self.robot}: {words.format(step)} for m = {', '.join(failed)}"
+                rejected = any(item.rejected for item in self.sets if item.status == status)
+                said = "the gate rejects the largest gains within (10p) and (19)" if rejected else words
+                said = said.format(decimal_text(Fraction(1, 10**self.targets.digits)))
+                return f"{MARKS[status]} {self.robot}: {said} for m = {', '.join(failed)}"
         return f"{'!' if self._hardly else '✓'} {self.robot}: the largest gains within (10p) and (19)"
 
     @property

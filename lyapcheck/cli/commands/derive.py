@@ -34,8 +34,9 @@ def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
       lyapcheck derive --m 1:3 --n 3 --format latex
       lyapcheck derive --robot reyes-kelly2
     """
-    from lyapcheck.answers.derive import derivation
+    from lyapcheck.answers.derive import MOST_JOINTS, derivation, require_up_to
 
+    require_up_to("--n", n, MOST_JOINTS)
     answer = derivation(parse_m(m), n, robot)
     show(answer, format)
     return Exit.PROVED if answer.agreed else Exit.REFUTED
