@@ -1,4 +1,4 @@
-"""What changed between two reports: verdicts, gates, margins and ε₀, the worse first."""
+"""What changed between two reports: verdicts, gates, tiles, margins and ε₀, the worse first."""
 
 from __future__ import annotations
 
@@ -72,8 +72,9 @@ class ReportComparison(Answer):
             if rows
         )
         sign, count = "✗" if groups["Worse"] else "✓", {title: len(rows) for title, rows in groups.items()}
-        title = f"{sign} {count['Worse']} worse, {count['Changed']} other changes since {self.old}"
-        return Document(title, blocks or (Paragraph("No verdict, margin or ε₀ has changed."),))
+        verdicts = f"{count['Worse']} worse verdict{'' if count['Worse'] == 1 else 's'}"
+        title = f"{sign} {verdicts}, {count['Changed']} other changes since {self.old}"
+        return Document(title, blocks or (Paragraph("No verdict, tile, margin or ε₀ has changed."),))
 
     def data(self) -> dict[str, Any]:
         """``changes: [{what, subject, old, new, worse}]``."""
@@ -98,7 +99,7 @@ def compare(old: Mapping[str, Any], new: Mapping[str, Any], name: str) -> Report
     for what, subject, group in dict.fromkeys([*before, *after]):
         was, now = (facts.get((what, subject, group), ABSENT) for facts in (before, after))
         # of a gain set that one of them has not, its verdict says enough
-        if was != now and not (what == "margin" and ABSENT in (was, now)):
+        if was != now and not (what in ("margin", "tile") and ABSENT in (was, now)):
             ranks = [ORDER.index(word.split()[0]) if word.split()[0] in ORDER else 0 for word in (was, now)]
             worse = what in ("claim", "gate") and ranks[1] < ranks[0]
             lost = group == "certified" and was not in (NONE, ABSENT) and now in (NONE, ABSENT)
@@ -117,6 +118,8 @@ def _facts(report: Mapping[str, Any], named: bool) -> Iterator[tuple[tuple[str, 
         for one in row["checks"]:
             subject = f"{row['name']}: ({one['id']}) {one['joint'] or 'all'}"
             yield ("margin", subject, ""), one["margin"] or NONE
+    for one in report.get("tiles", ()):
+        yield ("tile", f"{one['gains']}: {one['subject']}", ""), one["number"]
     for row in report["epsilon"]:
         for kind in KINDS:
             yield ("ε₀", f"{row['name']}: {kind}", kind), row[kind] or NONE

@@ -110,6 +110,7 @@ def _stability(result: GateResult, ask: str) -> Tile:
     """Stability of (11), for a controller of infinite rate that knows gravity and motors without limits."""
     subject, proof = "Stability", result.stable
     known = result.record is None or result.record.knows_gravity
+    where = ""
     end = f"for a controller of infinite rate{'' if known else ' that knows all gravity'}."
     if proof is not None:
         how = "by LaSalle's theorem" if proof.id == "lasalle" else f"ε₀ = {at_least(proof.value or 0)}"
@@ -122,7 +123,7 @@ def _stability(result: GateResult, ask: str) -> Tile:
         reason = next(iter(advices(result)), "No proof was found")
         return Tile(subject, "undecided", f"{reason}.", "open", ("Look for another proof.", ask))
     if keeps_limits(result):
-        number = "stable" if known else "stable if all gravity is known"
+        number = f"stable{where}" if known else f"stable{where} if all gravity is known"
         return Tile(subject, all_say(promises, number), all_say(promises, said), "good" if known else "warn")
     text = f"{said} Nothing shows that the motors stay within their limits."
     number = "stable while no motor saturates"

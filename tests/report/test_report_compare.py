@@ -19,6 +19,7 @@ OLD = {
     ],
     "others": [],
     "gate": [{"name": "<g>", "verdict": "accepted", "checks": [CHECK]}],
+    "tiles": [{"gains": "<g>", "subject": "Motors", "number": "9 % in reserve"}],
     "epsilon": [{"name": "<g>", "published": None, "scalar": "1", "certified": "2", "falsified": "3"}],
 }
 
@@ -37,7 +38,7 @@ def test_nothing_changed():
     result = compare(OLD, OLD, "old")
     assert result.changes == ()
     assert result.exit_code == 0
-    assert "No verdict, margin or ε₀ has changed" in str(result)
+    assert "No verdict, tile, margin or ε₀ has changed" in str(result)
 
 
 @pytest.mark.parametrize(
@@ -50,6 +51,7 @@ def test_nothing_changed():
         (changed("claims", to=OLD["claims"][1:]), "claim", True),
         (changed("gate", 0, "verdict", to="rejected"), "gate", True),
         (changed("gate", 0, "checks", 0, "margin", to="0.2"), "margin", False),
+        (changed("tiles", 0, "number", to="5 % in reserve"), "tile", False),
         (changed("epsilon", 0, "certified", to="2.5"), "ε₀", False),
         (changed("epsilon", 0, "certified", to=None), "ε₀", True),
     ],
@@ -96,7 +98,7 @@ def test_the_page_of_what_changed_is_whole():
     change = ReportChange("gate", "<b>&", "accepted", "rejected", worse=True)
     page = compared_page(ReportComparison((change,), "before").document())
     assert page.startswith('<!DOCTYPE html>\n<html lang="en">')
-    assert "<title>✗ 1 worse, 0 other changes since before</title>" in page
+    assert "<title>✗ 1 worse verdict, 0 other changes since before</title>" in page
     assert page.count("<h1>") == 1
     assert "&lt;b&gt;&amp;" in page
     assert unnamed(page) == []

@@ -118,6 +118,7 @@ def test_stable_is_said_with_what_it_supposes(tmp_path):
     mass = "viscous = {value = 0.5, low = 0.4, high = 0.6}"
     ranged = of_links(tmp_path, 4, 1, viscous=mass.removeprefix("viscous = "))["Stability"]
     assert "at nominal numbers" in ranged.text
+    assert ranged.number == "stable at nominal numbers"
 
 
 def test_gains_that_are_accepted_by_torque_alone_are_not_called_stable_by_19(tmp_path):
