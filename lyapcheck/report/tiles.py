@@ -123,7 +123,7 @@ def _stability(result: GateResult, ask: str) -> Tile:
         reason = next(iter(advices(result)), "No proof was found")
         return Tile(subject, "undecided", f"{reason}.", "open", ("Look for another proof.", ask))
     if keeps_limits(result):
-        number = f"stable{where}" if known else f"stable{where} if all gravity is known"
+        number = f"stable{where}{'' if known else ' if all gravity is known'}"
         return Tile(subject, all_say(promises, number), all_say(promises, said), "good" if known else "warn")
     text = f"{said} Nothing shows that the motors stay within their limits."
     number = "stable while no motor saturates"
