@@ -168,7 +168,8 @@ def _card(report: Report, finding: Finding) -> Iterator[Block]:
         )
     items = [f"{term}: {text}" for term, text in finding.about.items()]
     witness = finding.witness
-    shown = f"Witness: {witness_place(witness)}: {witness_sides(witness)}" if witness else finding.text
+    place = f"Counterexample: {witness_place(witness)}" if witness and witness_place(witness) else "Printed"
+    shown = f"{place}: {witness_sides(witness)}" if witness else finding.text
     yield Bullets((*items, shown))
 
 

@@ -98,7 +98,8 @@ def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
                 yield from (f"- #{quoted(item)}" for item in items)
             case doc.Code(text) | doc.Equation(text):
                 lines = ' + "\\n" + '.join(map(quoted, text.splitlines())) or '""'
-                yield f"#raw(block: true, {lines})"
+                breakable = str(not isinstance(block, doc.Equation)).lower()  # no sheet ends inside a formula
+                yield f"#block(breakable: {breakable}, raw(block: true, {lines}))"
             case doc.Figure(path, caption):
                 words = f"caption: [#{quoted(caption)}]"
                 image = f"image({quoted(path)}, height: 28mm)"

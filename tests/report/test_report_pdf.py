@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from lyapcheck.output.document import Bullets, Code, Document, Figure, Paragraph, Section, Table
+from lyapcheck.output.document import Bullets, Code, Document, Equation, Figure, Paragraph, Section, Table
 from lyapcheck.report.pdf import markup, quoted
 
 typst = pytest.importorskip("typst")
@@ -36,3 +36,9 @@ def test_a_drawing_that_ends_words_stands_beside_them_and_one_below_a_table_does
     for blocks, beside in (((words, drawing), True), ((table, drawing), False), ((drawing,), False)):
         text = markup(Document("title", (Section("section", blocks),)), "running")
         assert ("#grid(" in text) is beside, blocks
+
+
+def test_no_sheet_ends_inside_a_formula():
+    for block, whole in ((Equation("a\nb", "x"), True), (Code("a\nb"), False)):
+        text = markup(Document("title", (block,)), "running")
+        assert ("breakable: false, raw(" in text) is whole
