@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING
 
 from lyapcheck.errors import InputError, argument_error
@@ -102,7 +103,8 @@ def bounds(
     model, varied = (load(arm.address), (arm, arm.varies)) if arm.varies else (arm, None)
     task, delta = _task(model, target_deg, start_deg, seconds), math.radians(within_deg)
     record = record_of(NOTHING, file.loop, model.loop)
-    results = tuple(compare(one, model, task, delta, varied=varied, record=record) for one in file.gains)
+    asked = partial(compare, motors=file.bounds.torque, varied=varied, record=record)
+    results = tuple(asked(one, model, task, delta) for one in file.gains)
     return Comparisons(results, file, model.address)
 
 

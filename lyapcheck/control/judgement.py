@@ -155,9 +155,24 @@ def degrees_above(error: Fraction) -> str:
 # References: ``reyes2019family`` (7), (11).
 
 
-def resting(gains: GainSet, dry: Sequence[Fraction]) -> JudgedStatement | None:
+Room = tuple[Fraction | None, ...]
+"""What the motor of each joint can do beyond gravity, N·m; ``None`` where its limit is not known."""
+
+
+def stalls(load: Fraction, room: Fraction | None) -> bool:
+    """Whether a load may hold a joint, together with gravity, while its motor is at its limit.
+
+    Soundness: there τmax ≤ |g_i| + |d_i|. So each state of rest is one of (11) if the load is below the room.
+    """
+    return room is not None and load >= room
+
+
+def resting(gains: GainSet, dry: Sequence[Fraction], room: Room) -> JudgedStatement | None:
     """Bounds of |e_i| at every state of rest under dry friction, N·m; none where no joint has one."""
-    errors = tuple(rest_error(gains.family, gains.m, f / k) for f, k in zip(dry, gains.kp, strict=True))
+    errors = tuple(
+        None if stalls(f, most) else rest_error(gains.family, gains.m, f / k)
+        for f, k, most in zip(dry, gains.kp, room, strict=True)
+    )
     if all(x is None for x in errors):
         return None
     statement = Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), errors)

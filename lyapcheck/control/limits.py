@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.control.gains import arm_named_in
 from lyapcheck.control.gravity import Gravity, RefutedBound, computed_bounds, settled
+from lyapcheck.control.judgement import Room
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots import ArmLike, Number, RobotModel, load
@@ -63,6 +64,12 @@ class Limits:
     @property
     def n(self) -> int:
         return len(self.joints)
+
+    @property
+    def room(self) -> Room:
+        """What each motor can do beyond gravity. A load that is not below it may hold a joint anywhere."""
+        pairs = zip(self.torque, self.gravity, strict=True)
+        return tuple(None if torque is None else torque - k_g for torque, k_g in pairs)
 
     @property
     def nominal(self) -> bool:

@@ -107,6 +107,11 @@ class LoopRecord:
         return " and ".join(parts)
 
 
+def exact_only(record: LoopRecord | None) -> str:
+    """What an error at rest leaves out where a coarse encoder is stated."""
+    return "" if record is None or record.encoder is None else ", with exact readings"
+
+
 def time_text(seconds: Fraction) -> str:
     """A period exactly: in ms where it is a decimal, else as 1/600 s."""
     text = decimal_text(1000 * seconds)

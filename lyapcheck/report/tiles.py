@@ -207,7 +207,7 @@ def _friction(result: GateResult, model: RobotModel, tune: str) -> Tile:
     loads = [check for check in result.checks if check.id == HOLDS and stated]
     if fallen := [check for check in loads if isinstance(check, HoldsCheck) and check.verdict == REJECTED]:
         return _fallen(fallen, result.limits.joints, model, tune)
-    dry, loaded = farthest(result.gains, model), farthest_unknown(loads)
+    dry, loaded = farthest(result, model), farthest_unknown(loads)
     if loads and loaded is None:
         reason = next((check.reason for check in loads if check.reason), "")
         lower = "Raise k_p, or lower the unknown load."

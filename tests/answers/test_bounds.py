@@ -12,6 +12,7 @@ from lyapcheck.answers.bounds import Comparisons, compare, comparison_data
 from lyapcheck.answers.running import running_sentences
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.limits import model_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
 from lyapcheck.output.document import Table
@@ -205,3 +206,46 @@ def test_the_headline_says_of_which_dry_friction_the_bound_is(tmp_path, robot, w
     (tmp_path / "g.toml").write_text(gains, encoding="utf-8")
     second = lyapcheck("bounds", "g.toml", "--time", "0.1", *words, folder=tmp_path).stdout.splitlines()[1]
     assert second.strip() == told or (not told and second.startswith("  simulated: "))
+
+
+# --- What the motors, the encoders and a partly known arm file take away from a bound.
+
+HELD = (F("0.03"), F("1.6"))
+"""N·m, less dry friction than the arm has, so that only its motors matter."""
+
+
+def test_a_motor_that_gravity_and_friction_may_hold_at_its_limit_has_no_bound():
+    """The shoulder rests at any error with q1 = 90°: τmax = k_g + f holds it there."""
+    gains, arm = FILE.gains[0], load(ARM)
+    gravity = model_limits(arm).gravity
+    at_limit = tuple(k + f for k, f in zip(gravity, HELD, strict=True))
+    above = tuple(x + F(1, 1000) for x in at_limit)
+    held = compare(gains, arm, TASK, DELTA, HELD, motors=at_limit)
+    assert held.rest == (None, None)
+    assert "may hold shoulder, elbow anywhere, with its motor at its limit" in held.reason
+    assert None not in compare(gains, arm, TASK, DELTA, HELD, motors=above).rest
+
+
+def test_a_load_that_a_motor_does_not_lift_is_not_held():
+    """10 % of gravity more than the controller knows: k_p would do, the motor may not."""
+    gains, arm = FILE.gains[0], load(ARM)
+    gravity, record = model_limits(arm).gravity, LoopRecord(gravity_error=F(1, 10))
+    weak = tuple(F(11, 10) * k + f for k, f in zip(gravity, HELD, strict=True))
+    strong = tuple(x + F(1, 1000) for x in weak)
+    held = compare(gains, arm, TASK, DELTA, HELD, motors=weak, record=record)
+    assert [check.verdict for check in held.unknown] == ["undecided", "undecided"]
+    assert "may hold shoulder with its motor at its limit" in held.unknown[0].reason
+    assert None not in held.rest
+    assert compare(gains, arm, TASK, DELTA, HELD, motors=strong, record=record).proved
+
+
+def test_a_coarse_encoder_is_left_out_in_words():
+    """The arm of `init` with 64 counts a turn ends 2.69° off in the simulation, and 2.294° are proved."""
+    gains, arm = FILE.gains[0], load(ARM)
+    coarse = compare(gains, arm, TASK, DELTA, record=LoopRecord(encoder=64, gravity_error=F(1, 100)))
+    fine = compare(gains, arm, TASK, DELTA, record=LoopRecord(gravity_error=F(1, 100)))
+    for result, said in ((coarse, True), (fine, False)):
+        document = Comparisons((result,), FILE).document()
+        assert ("with exact readings, proved" in document.title) == said
+        sentences = comparison_data(result)["disturbance"]["unknown"]
+        assert all(text.endswith("with exact readings") == said for text in sentences)

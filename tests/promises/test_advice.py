@@ -229,14 +229,15 @@ def test_what_an_error_tells_to_write_is_taken(tmp_path, words):
 
 def test_bounds_tells_what_is_missing_and_takes_it(tmp_path):
     """Dry friction that no file states; a k_p that does not exceed it; an h without a bound."""
-    words = ["bounds", str(written(tmp_path / "gains.toml", "pendulum1", "3", "0.05")), "--target", "45"]
+    words = ["bounds", str(written(tmp_path / "gains.toml", "pendulum1", "0.1", "0.05")), "--target", "45"]
     unknown = ["bounds", str(written(tmp_path / "free.toml", "buap3-small", "3", "0.05"))]
     assert "give --friction" in text_of(unknown)
     assert invoke(*unknown, "--friction", "1,1,1").exit_code == 0
     (friction,) = re.findall(
-        r"does not exceed its dry friction of ([0-9.]+) N·m: raise k_p", text_of([*words, "--friction", "4"])
+        r"does not exceed its dry friction of ([0-9.]+) N·m: raise k_p",
+        text_of([*words, "--friction", "0.15"]),
     )
-    written(tmp_path / "gains.toml", "pendulum1", f"{Fraction(friction) * 2}", "0.05")
+    written(tmp_path / "gains.toml", "pendulum1", f"{float(friction) * 2}", "0.05")
     assert invoke(*words, "--friction", friction).exit_code == 0
     written(tmp_path / "gains.toml", "pendulum1", "30", "0.05", 'family = "linear"')
     assert "choose gains of a bounded family" in str(invoke(*words).exception)

@@ -220,7 +220,7 @@ def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch):
 
     monkeypatch.setattr(
         "lyapcheck.answers.gate.friction.judged_resting",
-        lambda gains, friction: resting(gains, [f / 2 for f in friction]),
+        lambda gains, friction, room: resting(gains, [f / 2 for f in friction], room),
     )
     assert "leaves at most" not in invoke(*RANGED).stdout
 
@@ -237,8 +237,8 @@ def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(monkeypa
 
 
 def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bounds(monkeypatch):
-    def easier(gains, dry):
-        return resting(gains, [F(9, 10) * f for f in dry])
+    def easier(gains, dry, room):
+        return resting(gains, [F(9, 10) * f for f in dry], room)
 
     words = (*BOUNDS, "--friction", "1,0.5")
     assert invoke(*words).exit_code == 0

@@ -153,7 +153,8 @@ def title(results: Sequence[BoundsComparison]) -> str:
     mark = "✓" if len(known) == len(results) else "?"
     most = max(error for result in known for error in result.unknown_degrees if error is not None)
     words = f"{mark} {robots} rests at most {angle_up(most)}° from its goal under {len(known)} of"
-    return all_say((result.promise for result in known), f"{words} {len(results)} gain sets, proved")
+    end = f"{len(results)} gain sets{results[0].exact_only}, proved"
+    return all_say((result.promise for result in known), f"{words} {end}")
 
 
 def _one(result: BoundsComparison) -> str:
@@ -167,7 +168,7 @@ def _one(result: BoundsComparison) -> str:
         i = _farthest(result)
         far = f"{angle_up(result.unknown_degrees[i])}° from the goal ({result.joints[i]})"
         promises = [result.promise, *(check.own_promise for check in result.unknown)]
-        return all_say(promises, f"✓ {about}: rests at most {far}, proved")
+        return all_say(promises, f"✓ {about}: rests at most {far}{result.exact_only}, proved")
     rows = zip(result.joints, result.unknown_degrees, strict=True)
     missing = ", ".join(joint for joint, error in rows if error is None)
     if not missing or any(check.joint is None for check in result.unknown):

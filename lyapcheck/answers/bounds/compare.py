@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil
 from typing import TYPE_CHECKING
@@ -15,7 +15,9 @@ from lyapcheck._types import Array, Progress, silent
 from lyapcheck.answers.running.holds import HoldsCheck, holds_checks
 from lyapcheck.check.judgement import LARGEST
 from lyapcheck.check.kinds.resting import Resting
-from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, resting
+from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, Room, resting, stalls
+from lyapcheck.control.limits import model_limits
+from lyapcheck.control.sampling import exact_only
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
@@ -64,6 +66,7 @@ class BoundsComparison:
         corners: at which of their corners runs were made; the worst of them counts.
         unknown: what gravity that the controller does not know makes of them, where a record says so.
         sampled: whether a record has a rate, which runs leave out.
+        exact_only: that the bounds leave out the encoder of a record, in words; empty without one.
     """
 
     gains: GainSet
@@ -80,6 +83,7 @@ class BoundsComparison:
     corners: str = ""
     unknown: tuple[Check, ...] = ()
     sampled: bool = False
+    exact_only: str = ""
 
     def __repr__(self) -> str:
         return f"<BoundsComparison: {self.gains.name} on {self.model.name}>"
@@ -129,6 +133,7 @@ def compare(
     delta: float,
     dry: Sequence[Fraction] | None = None,
     *,
+    motors: Sequence[Fraction] | None = None,
     varied: Varied | None = None,
     record: LoopRecord | None = None,
     on_progress: Progress | None = None,
@@ -141,6 +146,7 @@ def compare(
         task: start, goal and duration of the run.
         delta: δ, rad.
         dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
+        motors: (n,) torque limits in place of the arm's, N·m.
         varied: the arm with ranges, and what varies; the bounds are asked over them as well.
         record: what the controller does not know of gravity; runs know all of it, at infinite rate.
         on_progress: receives the share done.
@@ -155,9 +161,11 @@ def compare(
     whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
     known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
     most = tuple(known_most if dry is None else dry)
+    limits = model_limits(whole)
+    room = (limits if motors is None else replace(limits, torque=tuple(motors))).room
     # at rest no joint asks anything of another: one of unknown friction has no bound, and the others have
     supposed = [Fraction(LARGEST) if f is None else f for f in most]
-    shown = resting(gain_set, supposed)
+    shown = resting(gain_set, supposed, room)
     promise, reason = (None, "") if shown is None else _promised(gain_set, supposed, shown)
     errors = _errors(promise, model.n)
     runs = []
@@ -170,7 +178,7 @@ def compare(
         model=model,
         dry=most,
         promise=promise,
-        reason=reason or _reason(gain_set, model.joints, most, errors),
+        reason=reason or _reason(gain_set, model.joints, most, errors, room),
         task=task,
         delta=delta,
         simulated_time=None if None in times else max(times),
@@ -180,8 +188,9 @@ def compare(
         corners="" if varied is None else corners_text(*varied),
         unknown=()
         if record is None or record.knows_gravity
-        else holds_checks(gain_set, whole, record, None if None in most else supposed),
+        else holds_checks(gain_set, whole, record, room, None if None in most else supposed),
         sampled=record is not None and record.period is not None,
+        exact_only=exact_only(record),
     )
 
 
@@ -209,6 +218,7 @@ def _reason(
     joints: tuple[str, ...],
     dry: tuple[Fraction | None, ...],
     errors: tuple[Fraction | None, ...],
+    room: Room,
 ) -> str:
     """Why joints have no bound, and what to do."""
     unknown = [joint for joint, f in zip(joints, dry, strict=True) if f is None]
@@ -217,6 +227,11 @@ def _reason(
             f"nothing is known of the dry friction of {', '.join(unknown)}; give --friction, or state it as "
             "coulomb in the arm file"
         )
+    loads = zip(joints, dry, room, strict=True)
+    stalled = [joint for joint, f, most in loads if f is not None and stalls(f, most)]
+    if stalled:
+        names = ", ".join(stalled)
+        return f"gravity and dry friction may hold {names} anywhere, with its motor at its limit"
     rows = zip(joints, gains.kp, dry, errors, strict=True)
     weak = [
         f"k_p = {decimal_text(k)} N·m of {joint} does not exceed its dry friction of {decimal_text(f)} N·m"

@@ -155,7 +155,7 @@ def _annotations(result: GateResult) -> Iterator[Annotation]:
     model = result.limits.model
     stuck = list(held(result.gains, model)) if model is not None and level is Level.PASSED else []
     if model is not None and stuck:
-        lines = friction_lines(result.gains, model, stuck)[: len(stuck)]
+        lines = friction_lines(result, model, stuck)[: len(stuck)]
         yield said(Level.REMARK, "dry-friction", "γ k_p exceeds the dry friction", "; ".join(lines))
     run = running_sentences(result.checks, result.limits.joints) if level is Level.PASSED else []
     if run:
@@ -181,7 +181,7 @@ def remarks(result: GateResult) -> list[str]:
     model, gains = result.limits.model, result.gains
     if not result.explained or model is None:
         return [*outcome, *run]
-    friction = friction_lines(gains, model, list(held(gains, model)))
+    friction = friction_lines(result, model, list(held(gains, model)))
     return [*outcome, *run, *friction, *damping_lines(gains, model)]
 
 

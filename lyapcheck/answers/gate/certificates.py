@@ -137,7 +137,7 @@ def _of_friction(result: GateResult) -> Iterator[Certificate]:
     if model is None or not result.explained:
         return
     rows = [(f"held.{model.joints[i]}", HELD, one) for i, one in held(gains, model).items()]
-    rest = resting(gains, model)
+    rest = resting(gains, model, result.limits.room)
     for name, says, one in [*rows, *([] if rest is None else [("rest", REST, rest.judged)])]:
         if one.proof is not None:
             about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)

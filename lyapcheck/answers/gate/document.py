@@ -17,6 +17,7 @@ from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, farthest_unknown
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES
+from lyapcheck.control.sampling import exact_only
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
 from lyapcheck.output.text import HEADLINE
@@ -173,8 +174,8 @@ def fact(result: GateResult) -> Fact | None:
         return None
     unknown = farthest_unknown(result.checks)
     if unknown is not None:
-        return unknown[0], unknown[1] + without_friction(model)
-    far = farthest(result.gains, model)
+        return unknown[0], unknown[1] + without_friction(model) + exact_only(result.record)
+    far = farthest(result, model)
     if far is not None:
         return far
     open_ = open_as_run(result.checks) or swinging(result.gains, model)

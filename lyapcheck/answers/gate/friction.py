@@ -26,10 +26,13 @@ from lyapcheck.control.judgement import (
     ACCEPTED,
     DEGREES,
     JudgedStatement,
+    Room,
     dry_friction,
     rest_error,
+    stalls,
 )
 from lyapcheck.control.judgement import resting as judged_resting
+from lyapcheck.control.sampling import exact_only
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.errors import installed
 from lyapcheck.family.base import named
@@ -38,6 +41,7 @@ from lyapcheck.promise import promised
 from lyapcheck.robots import trig
 
 if TYPE_CHECKING:
+    from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.check.expressions.expression import Tree
     from lyapcheck.control.gains import GainSet
     from lyapcheck.promise import Promise
@@ -154,13 +158,13 @@ class Rest:
 
 
 @lru_cache(maxsize=64)
-def resting(gains: GainSet, model: RobotModel) -> Rest | None:
+def resting(gains: GainSet, model: RobotModel, room: Room) -> Rest | None:
     """``None`` where nothing is known of dry friction, or no joint has a bound."""
     friction = dry_friction(model)
     if not any(friction) or not named(gains.family, gains.m).bounded or gains.angle_unit == "deg":
         return None
     _ = named(gains.family, gains.m).checked  # or say that the checker does not know the function
-    judged = judged_resting(gains, friction)
+    judged = judged_resting(gains, friction, room)
     if judged is None:
         return None
     errors = judged.statement.errors  # type: ignore[attr-defined]
@@ -170,12 +174,13 @@ def resting(gains: GainSet, model: RobotModel) -> Rest | None:
     return Rest(judged, promise, degrees)
 
 
-def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
+def farthest(result: GateResult, model: RobotModel) -> Fact | None:
     """How far from the goal dry friction may leave the joints; ``None`` without any, or an h unknown here."""
+    gains = result.gains
     if not any(dry_friction(model)):
         return None
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
-    rest, stuck = resting(gains, model), held(gains, model)
+    rest, stuck = resting(gains, model, result.limits.room), held(gains, model)
     if stuck:
         joints = ", ".join(model.joints[i] for i in stuck)
         return ANYWHERE, f"dry friction{assumed} may hold {joints} anywhere"
@@ -184,7 +189,7 @@ def farthest(gains: GainSet, model: RobotModel) -> Fact | None:
         return ANYWHERE, f"dry friction{assumed} may leave it off its goal"
     most = max(known)
     words = rest.promise.says(f"dry friction{assumed} leaves at most {decimal_text(most)}°")
-    return most, words + without_friction(model)
+    return most, words + without_friction(model) + exact_only(result.record)
 
 
 def without_friction(model: RobotModel) -> str:
@@ -194,8 +199,9 @@ def without_friction(model: RobotModel) -> str:
     return f", unknown at {few}" if joints else ""
 
 
-def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> list[str]:
+def friction_lines(result: GateResult, model: RobotModel, stuck: Sequence[int]) -> list[str]:
     """Where a joint rests anywhere, and how far from the goal the others may."""
+    gains, room = result.gains, result.limits.room
     friction = dry_friction(model)
     assumed = " (assumed)" if any(x is not None and x.assumed for x in model.coulomb) else ""
     lines = []
@@ -206,11 +212,17 @@ def friction_lines(gains: GainSet, model: RobotModel, stuck: Sequence[int]) -> l
             f"γ k_p of {model.joints[i]} does not exceed its dry friction of {upto}{most} N·m{assumed}: "
             f"the joint {may} wherever it stops; k_p = {k} is in N·m"
         )
-    rest = resting(gains, model)
+    lines += [
+        f"gravity and dry friction{assumed} may hold {joint} anywhere, with its motor at its limit"
+        for joint, f, most in zip(model.joints, friction, room, strict=True)
+        if f and stalls(f, most)
+    ]
+    rest = resting(gains, model, room)
     if rest is not None and rest.promise is not None:
         angles = zip(model.joints, rest.degrees, friction, strict=True)
         far = [f"{joint} {decimal_text(angle)}°" for joint, angle, f in angles if f and angle is not None]
         if far:
             leaves = f"dry friction{assumed} leaves at most {', '.join(far)}, at every state of rest"
+            leaves += exact_only(result.record)
             lines.append(rest.promise.says(leaves))
     return lines

@@ -49,7 +49,7 @@ def running_checks(
         inside = any(each and all(each) for each in passed)
         checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, kept))
     if HOLDS in deciding or (record is not None and not record.knows_gravity):
-        checks += holds_checks(gains, limits.model, record)
+        checks += holds_checks(gains, limits.model, record, limits.room)
     return tuple(checks)
 
 

@@ -35,11 +35,14 @@ from lyapcheck.control.gravity import bounding, computed_bounds, exceeded
 from lyapcheck.control.judgement import (
     DEGREES,
     JudgedStatement,
+    Room,
     degrees_above,
     dry_friction,
     judged_statement,
     rest_error,
+    stalls,
 )
+from lyapcheck.control.sampling import exact_only
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, significant_down, significant_up
 from lyapcheck.output.digits import at_least, at_most
@@ -68,6 +71,7 @@ class HoldsCheck(Check):
     Args:
         unknown: what the controller does not know, in words.
         friction: f_i, N·m.
+        exact_only: that the error leaves out the encoder of the record, in words; empty without one.
         payload: the largest that the same bounds let it hold, kg; ``None`` where they bound none.
         reach: γ k_pi + f_i, N·m.
         reached: what is asked at a posture that refutes, N·m, from below.
@@ -75,6 +79,7 @@ class HoldsCheck(Check):
 
     unknown: str = ""
     friction: Fraction = Fraction(0)
+    exact_only: str = ""
     payload: Fraction | None = None
     reach: Fraction = Fraction(0)
     reached: Fraction = Fraction(0)
@@ -94,6 +99,7 @@ def holds_checks(
     gains: GainSet,
     model: RobotModel | None,
     record: LoopRecord | None,
+    room: Room,
     dry: Sequence[Fraction] | None = None,
 ) -> tuple[Check, ...]:
     """The check of each joint that something unknown may move, of all if it moves none; or why there is none.
@@ -102,6 +108,7 @@ def holds_checks(
         gains: the controller.
         model: the arm, of which all values of its ranges are meant.
         record: what the controller does not know.
+        room: what the motors can do beyond the gravity that the controller knows.
         dry: (n,) bounds of dry friction in place of the arm's, N·m.
 
     Soundness: bounds of Δg and of the errors are accepted by ``lyapcheck.check.verify``; a posture at which a
@@ -120,7 +127,7 @@ def holds_checks(
         return (Check(HOLDS, reason=str(error)),)
     friction = dry_friction(model) if dry is None else dry
     moved = [i for i in range(model.n) if any(part.bounds[i] for part in parts)] or range(model.n)
-    return tuple(_check(gains, model, record, (i, friction[i]), parts) for i in moved)
+    return tuple(_check(gains, model, record, (i, friction[i]), parts, room[i]) for i in moved)
 
 
 @dataclass(frozen=True)
@@ -153,7 +160,12 @@ def payload_alone(model: RobotModel, payload: Fraction) -> RobotModel:
 
 
 def _check(
-    gains: GainSet, model: RobotModel, record: LoopRecord, joint: tuple[int, Fraction], parts: Sequence[_Part]
+    gains: GainSet,
+    model: RobotModel,
+    record: LoopRecord,
+    joint: tuple[int, Fraction],
+    parts: Sequence[_Part],
+    room: Fraction | None,
 ) -> HoldsCheck:
     i, friction = joint
     most = sum((part.share * part.bounds[i] for part in parts), Fraction(0))
@@ -166,10 +178,12 @@ def _check(
         limit=Enclosure(kp, kp),
         unknown=record.unknown_text,
         friction=friction,
-        payload=_payload(record, i, parts, kp - friction),
+        exact_only=exact_only(record),
+        payload=_payload(record, i, parts, (kp if room is None else min(kp, room)) - friction),
         reach=member(gains.family, gains.m).gamma * kp + friction,
     )
-    error = rest_error(gains.family, gains.m, total / kp) if total < kp else None
+    stalled = total < kp and stalls(total, room)
+    error = rest_error(gains.family, gains.m, total / kp) if total < kp and not stalled else None
     if error is not None:
         printed = significant_up(error * DEGREES, 4) / DEGREES
         judged = _judged(_stated(gains, i, parts, total, error), i, parts)
@@ -184,6 +198,9 @@ def _check(
             continue
         if broken is not None:
             return replace(known, judgement=broken[0], reached=part.share * broken[1])
+    if stalled:
+        stuck = f"gravity and dry friction may hold {model.joints[i]} with its motor at its limit"
+        return replace(known, reason=f"{stuck}, with {record.unknown_text}")
     return replace(known, reason=_between(gains, record, total, kp, model.joints[i]))
 
 
@@ -260,7 +277,8 @@ def holds_sentences(checks: Sequence[Check], joints: Sequence[str]) -> list[str]
         for one in held
     )
     dry = " with dry friction" if some else ", without dry friction,"
-    words = f"{held[0].unknown} unknown to the controller{dry} leaves at most {far}, at every state of rest"
+    leaves = f"{dry} leaves at most {far}, at every state of rest{held[0].exact_only}"
+    words = f"{held[0].unknown} unknown to the controller{leaves}"
     return [all_say((one.promise for one in held), words)]
 
 

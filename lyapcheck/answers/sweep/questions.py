@@ -244,12 +244,15 @@ def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answe
 def _bounds(question: Question, known: UncertainArm, options: Options) -> Answered:
     """The bounds at rest for the arm's dry friction, and the simulated time."""
     from lyapcheck.answers.bounds import certificates, compare, comparison_data
+    from lyapcheck.control.sampling import record_of
+    from lyapcheck.files.loop import NOTHING
 
     model = arm(question.robot).model
     varied = (known.model, known.ranges) if known.ranges else None
+    record = record_of(NOTHING, NOTHING, model.loop)
     assert question.gains is not None
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
-    result = compare(question.gains, model, task_of(model, options), delta, varied=varied)
+    result = compare(question.gains, model, task_of(model, options), delta, varied=varied, record=record)
     verdict, made = _said(result.promise if result.proved else None), tuple(certificates(result).values())
     data = comparison_data(result)
     return answered(question, verdict, data, made, result.reason, settling=result.simulated_time)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -81,12 +82,11 @@ def run(
     task = wrong.result(task_of, model, target, start, time)
     folder = certificate_folder(certificates)
     count, result = len(gain_file.gains), []
+    asked = partial(compare, motors=gain_file.bounds.torque, varied=varied, record=record)
     with progress("bounds") as advance:
         for done, one in enumerate(gain_file.gains):
             told = part(advance, done / count, (done + 1) / count, f"{one.name}: ")
-            result.append(
-                compare(one, model, task, angle, dry, varied=varied, record=record, on_progress=told)
-            )
+            result.append(asked(one, model, task, angle, dry, on_progress=told))
     if folder is not None:
         write_certificates(folder, *map(certificates_of, result))
     show(Comparisons(tuple(result), gain_file, name), format)
