@@ -52,7 +52,14 @@ LOOP = (
         "2",
         "Mass at the last link that the controller does not know.",
     ),
-    Key("gravity_error", "number 0–1000", "%", "0", "5", "Error of the controller's g(q)."),
+    Key(
+        "gravity_error",
+        "number 0–1000",
+        "%",
+        "0",
+        "5",
+        "Error of the file's g(q), which the controller uses.",
+    ),
     Key(
         "within",
         "number, at most 3600",

@@ -32,7 +32,10 @@ LOOP = {
     "lowpass": ("HZ", "Cut-off frequency of a first-order velocity filter."),
     "encoder": ("BITS", 'Encoder of every joint, "17 bits" or counts per turn.'),
     "unknown_payload": ("KG", "Largest mass at the last link that the controller does not know."),
-    "gravity_error": ("PERCENT", "Largest error of the gravity torque in the controller."),
+    "gravity_error": (
+        "PERCENT",
+        "Largest error of the arm file's gravity, which the controller uses.",
+    ),
     "within": ("DEG", "Prove sampled for starts at rest this near to the goal, at exactly this period."),
 }
 """Options of the loop as it is run, with what they take; each is a key of ``[loop]``."""

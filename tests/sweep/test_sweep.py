@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from lyapcheck.control.limits import varied_limits
 from lyapcheck.family.members import tanh
 from lyapcheck.robots.fields import Vary
 from tests.helpers.command import lyapcheck as command
+from tests.helpers.urdf_texts import ARMS
 
 PLAN = """
 robots = ["reyes-kelly2"]
@@ -154,6 +156,19 @@ def test_what_is_kept_is_not_asked_again(tmp_path, monkeypatch):
     monkeypatch.undo()
     list(lyapcheck.sweep(path, workers=1, out=tmp_path / "alone"))
     assert contents(tmp_path / "out") == contents(tmp_path / "alone")
+
+
+def test_bounds_counts_what_the_loop_of_the_arm_does_not_know(tmp_path):
+    """1,000 % of gravity more than the controller knows: the shoulder falls, as `bounds` says of the file."""
+    arm = tmp_path / "arm.toml"
+    shutil.copy(ARMS / "init" / "arm.toml", arm)
+    before = "robots = ['arm.toml']\nquestions = ['bounds']\n[bounds]\ntime = 0.1\ntarget = [45, 45]\n"
+    plan = tmp_path / "plan.toml"
+    plan.write_text(f"{before}[[gains]]\nname = 'a'\nm = 1\nkp = [22, 10]\nkv = [12, 3]\n", encoding="utf-8")
+    assert [row["verdict"] for row in lyapcheck.sweep(plan, workers=1)] == ["proved"]
+    loop = "[loop]\ngravity_error = 1000\n"
+    arm.write_text(f"{arm.read_text(encoding='utf-8')}\n{loop}", encoding="utf-8")
+    assert [row["verdict"] for row in lyapcheck.sweep(plan, workers=1)] == ["undecided"]
 
 
 @pytest.mark.slow
