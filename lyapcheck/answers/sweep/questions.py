@@ -254,6 +254,8 @@ def _bounds(question: Question, known: UncertainArm, options: Options) -> Answer
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
     result = compare(question.gains, model, task_of(model, options), delta, varied=varied, record=record)
     verdict, made = _said(result.promise if result.proved else None), tuple(certificates(result).values())
+    if result.falls:
+        verdict = VERDICTS[Exit.REFUTED]
     data = comparison_data(result)
     return answered(question, verdict, data, made, result.reason, settling=result.simulated_time)
 
