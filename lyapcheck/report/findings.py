@@ -167,8 +167,21 @@ LETTERS = {
     "b": "λmin(B)",
     "more": "λmax(B) − λmin(B)",
     "share": "ε/ε₀",
+    "mu": "M",
+    "w": "q̇",
+    "eps_h": "εh",
 }
-OF_JOINTS = {"kp": "k_p", "kv": "k_v", "e": "q̃_", "q": "q_", "w": "q̇_", "x": "x_", "c": "c_"}
+OF_JOINTS = {
+    "kp": "k_p",
+    "kv": "k_v",
+    "e": "q̃_",
+    "q": "q_",
+    "w": "q̇_",
+    "x": "x_",
+    "c": "c_",
+    "abs_g": "size of g_",
+    "limit": "τmax_",
+}
 
 
 def and_list(names: Sequence[str]) -> str:

@@ -225,6 +225,8 @@ def apart(row: ClaimRow) -> str:
     low, high = float(witness["left"][0]), float(witness["right"][0])
     if low * high <= 0 or witness["operator"] == "=":
         return ""
+    if low == high:
+        return ""
     ratio = low / high
     return f" (ratio {ratio:.3g})" if abs(ratio - 1) > NEAR else f" ({abs(ratio - 1):.2%} apart)"
 
