@@ -32,7 +32,7 @@ TAKES_SECONDS = {
         *("attack.gravity-twice",),
         *("attack.mass-high-minus", "attack.mass-high-near", "attack.mass-minus-range"),
         *("attack.mass-wide-range", "false.ext.mass-boxes", "false.ext.mass-range"),
-        *("no-mass.uns", "two-heavier.frm", "two-light.frm"),
+        *("no-mass.uns", "one-heavier.frm", "one-light.frm", "two-heavier.frm", "two-light.frm"),
         *("false.rob.lambda_min.lower", "false.tra.arm.inertia", "attack.theorem-heavy"),
     )
 }

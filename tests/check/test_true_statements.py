@@ -21,6 +21,7 @@ from lyapcheck.claims.procedures import propose
 from lyapcheck.verdicts import Verdict
 from tests.arena.run import ARENA
 from tests.helpers.committed import read
+from tests.helpers.stated import outcome
 
 FALSE = json.loads(Path(__file__).with_name("without_hypothesis.json").read_text(encoding="utf-8"))
 OF_ARMS = (
@@ -40,13 +41,6 @@ OF_ARMS = (
 
 CASES = {path.name[9:-5]: read(f"bad/{path.stem}") for path in (ARENA / "bad").glob("true.tru.*.json")}
 ARMS = {path.name[9:-5]: read(f"bad/{path.stem}") for path in (ARENA / "bad").glob("arms.tru.*.json")}
-
-
-def outcome(statement, proof):
-    try:
-        return verify(statement, proof).verdict
-    except Refused:
-        return "refused"
 
 
 def test_what_a_hypothesis_makes_true_is_refuted_neither_by_the_proof_nor_by_the_search():

@@ -124,7 +124,11 @@ SLOW = (
     *("tune, targets", "epsilon", "epsilon, ranges", "epsilon, another arm"),
     *("simulate, over ranges", "simulate, unknown payload"),
 )
-SLOW_NEXT = (*SLOW, "tune, the largest", "check, refuted", "gate, seven joints", "gate, too heavy")
+SLOW_NEXT = (
+    *(*SLOW, "tune, the largest", "tune, seven joints", "check, refuted", "gate, falls"),
+    *("gate, seven joints", "gate, too heavy", "gate, ranges", "gate, as run"),
+    *("bounds, several sets", "export, several sets"),
+)
 
 
 def columns(line):
@@ -202,8 +206,8 @@ KEEPS = {
     "gate gains.toml --rate 500 --delay 2": "simulate gains.toml --rate 500 --delay 2",
     "bounds gains.toml --time 1 --target 9,9": "simulate gains.toml --target 9,9",
     "simulate gains.toml --rate 500 --velocity 9,9 --time 1": "gate gains.toml --rate 500",
-    "check tracking.py --m 1 --only arm.21 --robot arm.toml": "check tracking.py --m 1 --failed "
-    "--robot arm.toml --only arm.21",
+    "check scalar.py --m 1 --only arm.theta --robot arm.toml": "check scalar.py --m 1 --failed "
+    "--robot arm.toml --only arm.theta",
     "robot arm.toml --max-boxes 9": "tune arm.toml --m 1",
 }
 """What a command answers about, and the next one that is about the same arm, ranges and loop."""
@@ -214,6 +218,19 @@ def test_the_next_command_is_about_what_was_asked(asked, then):
     done = invoke(*asked.split())
     assert done.stdout.splitlines()[-1].split() == ["next:", "lyapcheck", *then.split()]
     assert invoke(*then.split()).exit_code in (0, 1, 3)
+
+
+SEARCHES = {
+    "gate, falls": "tune arm.toml --m 1 --overshoot 5 --settle 2 --unknown-payload 8",
+    "tune, the largest": "tune buap3 --m 1 --overshoot 5 --settle 2",
+}
+"""Next commands that search for many seconds: their words here, the slow tests above run them."""
+
+
+@pytest.mark.parametrize(("name", "then"), SEARCHES.items())
+def test_a_next_command_that_searches_is_about_what_was_asked(name, then):
+    _, document = answered(name)
+    assert document.next == f"lyapcheck {then}"
 
 
 def test_a_table_of_gains_loses_no_joint():

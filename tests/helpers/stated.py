@@ -4,6 +4,7 @@ import json
 
 from lyapcheck.certificate import to_json
 from lyapcheck.check.codec import from_json
+from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.claims.procedures import propose
@@ -24,3 +25,11 @@ def why(statement):
     result = propose(statement)
     assert result.verdict.value != "proved"
     return result.reason
+
+
+def outcome(statement, proof):
+    """What the checker says of a proof: its verdict, or that it is refused."""
+    try:
+        return verify(statement, proof).verdict
+    except Refused:
+        return "refused"

@@ -194,7 +194,6 @@ BY_NAME = {
     **{name: lambda x, name=name: _circular(name, x) for name in ("sin", "cos")},
     **{name: lambda x, name=name: _arc(name, x) for name in ("asin", "acos")},
 }
-FUNCTIONS = {*BY_NAME, *AT_ZERO}
 
 
 def pi():

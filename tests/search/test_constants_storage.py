@@ -10,7 +10,6 @@ from lyapcheck.check.kinds.chain import (
     NoTorque,
 )
 from lyapcheck.check.loop.storage import invariant_form
-from lyapcheck.check.refusal import Refused
 from lyapcheck.check.verify import verify
 from lyapcheck.constants import arm_constants, extreme
 from lyapcheck.constants.storage import doubles, storage_proof, unit_rows
@@ -18,6 +17,7 @@ from lyapcheck.robots import load
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers import arm_texts
 from tests.helpers.shares import but
+from tests.helpers.stated import outcome
 from tests.helpers.urdf_texts import ARMS
 
 FIRST = {"ixx": 0.03, "iyy": 0.04, "izz": 0.05, "ixy": 0.01, "iyz": -0.01}
@@ -79,13 +79,6 @@ def test_no_state_lies_outside_and_some_come_close(name, tmp_path):
 # What must not be accepted -----
 
 
-def refused(statement, proof):
-    try:
-        return verify(statement, proof).verdict != "proved"
-    except Refused:
-        return True
-
-
 NAMES = ("lambda_min", "lambda_max", "k_g")
 
 
@@ -93,7 +86,7 @@ NAMES = ("lambda_min", "lambda_max", "k_g")
 def test_a_posture_refutes_what_is_too_sharp_and_nothing_else(name, tmp_path):
     arm = arm_of("leaning", tmp_path)
     shown, (witness, inner) = storage_proof(arm.chain, name), extreme(arm, name)
-    assert refused(shown.statement, witness)
+    assert outcome(shown.statement, witness) == "refused"
     more = F(1001, 1000) if name == "lambda_min" else F(999, 1000)
     result = verify(shown.at_end(inner * more), witness)
     assert (result.verdict, result.grade) == ("refuted", "enclosure")
@@ -106,4 +99,4 @@ def test_joints_without_torque_are_shown_exactly(tmp_path):
     assert verify(result.statement, result.proof).grade == "exact"
     assert storage_proof(arm.chain, "k_g4", still=True) is None
     leaning = replace(result.statement, fall=(F(0), F(1), F(-9)), joints=(1,))
-    assert refused(leaning, NoTorque())
+    assert outcome(leaning, NoTorque()) == "refused"

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from math import sqrt
 from pathlib import Path
 
@@ -19,6 +20,12 @@ F = Fraction
 ROOT = Path(__file__).parents[2]
 
 
+@cache
+def constants(name):
+    """All of an arm that comes along."""
+    return arm_constants(load(name))
+
+
 def angles(n, count=20_000):
     """Random angles, and every combination of quarter turns, where extremes often are."""
     quarters = np.stack(np.meshgrid(*[np.arange(4) * np.pi / 2] * n, indexing="ij"), axis=-1).reshape(-1, n)
@@ -28,7 +35,7 @@ def angles(n, count=20_000):
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_gaps_are_small_and_all_is_shown(name):
     """k_c is that of C(q, x)x; boxes show norms of the Christoffel symbols."""
-    for constant in arm_constants(load(name)):
+    for constant in constants(name):
         low, high = constant.enclosure.lower, constant.enclosure.upper
         assert 0 <= low <= high
         assert high - low <= (F(1, 5) if constant.name == "k_c" else F(1, 1000)) * high
@@ -72,7 +79,7 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones():
 
 @pytest.mark.parametrize("budget", [1, 40, 300])
 def test_a_smaller_budget_shows_no_more(budget):
-    better = {constant.name: constant.enclosure for constant in arm_constants(load("buap3"))}
+    better = {constant.name: constant.enclosure for constant in constants("buap3")}
     for constant in arm_constants(load("buap3"), budget):
         assert constant.enclosure.lower <= better[constant.name].lower
         assert constant.enclosure.upper >= better[constant.name].upper

@@ -31,7 +31,8 @@ BY_POINTS = OF_ARMS[:5]
 
 @pytest.fixture(scope="module")
 def few():
-    return judged(range(FEW), 0)
+    """Of a seed without a flow: a single one takes ten seconds, and the slow tests have many."""
+    return judged(range(FEW), 10)
 
 
 def test_random_statements_have_no_faults(few):
