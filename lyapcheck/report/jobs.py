@@ -163,18 +163,22 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     from lyapcheck.answers.gate.friction import rest_errors
     from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.judgement import dry_friction, stalls
+    from lyapcheck.control.limits import limits_for
     from lyapcheck.robots import load
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.task import PAPER_TASK
 
-    gain_set = next(item for item in read_gain_file(gains).gains if item.name == name)
-    model = load(robot)
+    file, model = read_gain_file(gains), load(robot)
+    gain_set = next(item for item in file.gains if item.name == name)
     row, files = _epsilon(gain_set, model, seed)
     # the paper's experiment if the arm has its three joints, else a step of 45° in every joint
     paper = (PAPER_TASK.q_d, PAPER_TASK.q0, PAPER_TASK.w0, PAPER_TASK.T)
     task = paper if model.n == len(PAPER_TASK.q_d) else ([REST] * model.n,)
     run = simulate(gain_set, model, *task, eps0=float(row.certified or row.scalar or 0.0), stop=False)
-    errors = rest_errors(gain_set, model)  # how far off dry friction may hold a joint; none for anywhere
+    # how far off dry friction may hold a joint; none for anywhere, as with a motor at its limit
+    loads = zip(rest_errors(gain_set, model), dry_friction(model), limits_for(file, robot).room, strict=True)
+    errors = [None if stalls(f, most) else error for error, f, most in loads]
     rest = None if None in errors else max(math.degrees(e) for e in errors if e is not None)
     facts = SetPointRuns((run,)).plain_data(run)
     for size in ("accuracy", "energy_balance"):  # of rounding errors, which no two machines share
