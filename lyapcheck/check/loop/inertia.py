@@ -14,7 +14,7 @@ from flint import arb
 
 from lyapcheck.check.loop.field import MOST_BOXES, Arithmetic, Field, Value, size_of, value_at
 from lyapcheck.check.numbers.balls import to_arb
-from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, uncertain_christoffel
+from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, christoffel
 from lyapcheck.check.statement import Ends, Monomials
 
 Rows = tuple[tuple[Monomials, ...], ...]
@@ -35,7 +35,7 @@ class Inertia:
     @cached_property
     def symbols(self) -> dict[tuple[int, int, int], Uncertain]:
         """The Christoffel symbols c_ijk = c_ikj with k ≤ j that do not vanish."""
-        return uncertain_christoffel(self.mass)
+        return christoffel(self.mass)
 
     def above(self, low: Sequence[Fraction], most: int = MOST_BOXES) -> bool:
         """Whether M(q) − diag(low) is positive definite throughout, by boxes cut until they show it."""

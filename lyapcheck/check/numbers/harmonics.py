@@ -55,22 +55,19 @@ def derivative(terms: Mapping[Harmonic, Gaussian], i: int) -> Harmonics:
     return {k: (k[i] * b, -k[i] * a) for k, (a, b) in terms.items() if k[i] != 0}
 
 
-def combination(parts: Iterable[tuple[Fraction, Mapping[Harmonic, Gaussian]]]) -> Harmonics:
-    """Σ factor · polynomial."""
-    total: Harmonics = {}
-    for factor, terms in parts:
-        for k, (a, b) in terms.items():
-            # a number of an arm may have thousands of harmonics, and most factors are 1
-            _add(total, k, (a, b) if factor == 1 else (factor * a, factor * b))
-    return {k: ab for k, ab in total.items() if any(ab)}
-
-
 def mixed(parts: Iterable[tuple[int | Fraction, Uncertain]]) -> Uncertain:
     """Σ factor · polynomial."""
-    rows = [(Fraction(factor), entry) for factor, entry in parts]
-    powers = {power for _, entry in rows for power in entry}
-    sums = {power: combination((f, entry.get(power, {})) for f, entry in rows) for power in powers}
-    return {power: terms for power, terms in sums.items() if terms}
+    total: Uncertain = {}
+    for factor, entry in parts:
+        for powers, terms in entry.items():
+            own = total.setdefault(powers, {})
+            for k, (a, b) in terms.items():
+                # a number of an arm may have thousands of harmonics, and most factors are 1
+                x, y = (a, b) if factor == 1 else (factor * a, factor * b)
+                old = own.get(k)
+                own[k] = (x, y) if old is None else (old[0] + x, old[1] + y)
+    kept = {powers: {k: ab for k, ab in terms.items() if any(ab)} for powers, terms in total.items()}
+    return {powers: terms for powers, terms in kept.items() if terms}
 
 
 def slope(entry: Uncertain, i: int) -> Uncertain:
@@ -98,22 +95,13 @@ def largest(terms: Mapping[Harmonic, Gaussian]) -> Fraction:
     return sum((abs(a) + abs(b) for a, b in terms.values()), Fraction(0))
 
 
-def christoffel(mass: Sequence[Sequence[Harmonics]]) -> dict[tuple[int, int, int], Harmonics]:
+def christoffel(mass: Sequence[Sequence[Uncertain]]) -> dict[tuple[int, int, int], Uncertain]:
     """The c_ijk = c_ikj = ½(∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) with k ≤ j that do not vanish."""
     n, half, result = len(mass), Fraction(1, 2), {}
     for i, j, k in product(range(n), repeat=3):
         turned = ((half, mass[i][j], k), (half, mass[i][k], j), (-half, mass[j][k], i))
-        if k <= j and (symbol := combination((share, derivative(entry, at)) for share, entry, at in turned)):
+        if k <= j and (symbol := mixed((share, slope(entry, at)) for share, entry, at in turned)):
             result[i, j, k] = symbol
-    return result
-
-
-def uncertain_christoffel(mass: Sequence[Sequence[Uncertain]]) -> dict[tuple[int, int, int], Uncertain]:
-    """The Christoffel symbols c_ijk with k ≤ j, by powers of the parameters."""
-    result: dict[tuple[int, int, int], Uncertain] = {}
-    for powers in sorted({p for row in mass for entry in row for p in entry}):
-        for place, symbol in christoffel([[entry.get(powers, {}) for entry in row] for row in mass]).items():
-            result.setdefault(place, {})[powers] = symbol
     return result
 
 
@@ -145,11 +133,6 @@ def _times(terms: _Integers, i: int, up: tuple[int, int], down: tuple[int, int])
             old = result.get(place, (0, 0))
             result[place] = old[0] + re * x - im * y, old[1] + re * y + im * x
     return result
-
-
-def _add(terms: dict[Harmonic, Gaussian], k: Harmonic, value: Gaussian) -> None:
-    old = terms.get(k)
-    terms[k] = value if old is None else (old[0] + value[0], old[1] + value[1])
 
 
 def _lead(k: Harmonic) -> int:
