@@ -6,6 +6,8 @@ What they stand for, how they move and how large they are is the checker's: see 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
 
 from lyapcheck.check.expressions.text import expression_text
 from lyapcheck.check.kinds.bound_every_n import terms_of
@@ -13,6 +15,16 @@ from lyapcheck.check.letters.words import Word, Words
 from lyapcheck.check.systems.system import OWN_NAMES, Entrywise, Increase, Member, Regressor, State, System
 from lyapcheck.claims.expressions import Expr, diff, exact_value, var
 from lyapcheck.claims.letters import AnyMatrix, AnyVector, any_matrix, any_vector, diagonal
+
+
+def number_of(form: str, says: str) -> cached_property[Expr]:
+    """A number that is called after the letter that it is about, such as ``Kp.min``; and what it is."""
+
+    def number(letter: Any) -> Expr:
+        return var(form.format(letter.name))
+
+    number.__doc__ = says
+    return cached_property(number)
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,20 +38,9 @@ class Gain(AnyMatrix):
         """Its diagonal."""
         return any_vector(self.name)
 
-    @property
-    def min(self) -> Expr:
-        """The least eigenvalue."""
-        return var(f"{self.name}_min")
-
-    @property
-    def max(self) -> Expr:
-        """The largest eigenvalue."""
-        return var(f"{self.name}_max")
-
-    @property
-    def norm(self) -> Expr:
-        """The norm of its diagonal."""
-        return var(f"{self.name}_norm")
+    min = number_of("{}_min", "The least eigenvalue.")
+    max = number_of("{}_max", "The largest eigenvalue.")
+    norm = number_of("{}_norm", "The norm of its diagonal.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,60 +54,25 @@ class Function(AnyVector):
         """Its potential by entries: U' = f, U(0) = 0."""
         return any_vector(f"U{self.name}")
 
-    @property
-    def sum_U(self) -> Expr:
-        """Σ U(x_i)."""
-        return var(f"sum_U{self.name}")
-
-    @property
-    def reach(self) -> Expr:
-        """At least ‖f(x)‖."""
-        return var(f"{self.name}_reach")
-
-    @property
-    def slope(self) -> Expr:
-        """At least |f'|."""
-        return var(f"{self.name}_slope")
-
-    @property
-    def secant(self) -> Expr:
-        """At least |f(x)/x|."""
-        return var(f"{self.name}_secant")
-
-    @property
-    def share(self) -> Expr:
-        """At least ‖f(e)‖/(1 + ‖e‖), for a function of e."""
-        return var(f"{self.name}_share")
-
-    @property
-    def sector(self) -> Expr:
-        """1/secant: x f(x) is at least this times f(x)²."""
-        return var(f"{self.name}_sector")
-
-    @property
-    def kg(self) -> Expr:
-        """‖g(q) − g(q_d)‖ ‖e‖ is at most this times eᵀf, for a function of e."""
-        return var(f"{self.name}_kg")
-
-    @property
-    def load(self) -> Expr:
-        """min(kg |x|, k_i) is at most this times l_i |f(x)|, k_i the most that g_i changes, for a level L."""
-        return var(f"{self.name}_load")
-
-    @property
-    def sum_LU(self) -> Expr:
-        """Σ l_i U(e_i), for a level L."""
-        return var(f"sum_LU{self.name}")
+    sum_U = number_of("sum_U{}", "Σ U(x_i).")
+    reach = number_of("{}_reach", "At least ‖f(x)‖.")
+    slope = number_of("{}_slope", "At least |f'|.")
+    secant = number_of("{}_secant", "At least |f(x)/x|.")
+    share = number_of("{}_share", "At least ‖f(e)‖/(1 + ‖e‖), for a function of e.")
+    sector = number_of("{}_sector", "1/secant: x f(x) is at least this times f(x)².")
+    kg = number_of("{}_kg", "‖g(q) − g(q_d)‖ ‖e‖ is at most this times eᵀf, for a function of e.")
+    load = number_of(
+        "{}_load",
+        "min(kg |x|, k_i) is at most this times l_i |f(x)|, k_i the most that g_i changes, for a level L.",
+    )
+    sum_LU = number_of("sum_LU{}", "Σ l_i U(e_i), for a level L.")
 
     @property
     def probe(self) -> AnyVector:
         """A vector T with Tᵀ L f = sum_T and |Tᵀ(g(q) − g(q_d))| <= load · sum_T, for a level L."""
         return any_vector(f"T{self.name}")
 
-    @property
-    def sum_T(self) -> Expr:
-        """Tᵀ L f, positive unless e = 0."""
-        return var(f"sum_T{self.name}")
+    sum_T = number_of("sum_T{}", "Tᵀ L f, positive unless e = 0.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,20 +83,9 @@ class Increment(AnyVector):
     value: AnyVector = field(default_factory=lambda: any_vector("d"))
     """The function there: f + d, or f − d."""
 
-    @property
-    def reach(self) -> Expr:
-        """At least ‖d‖."""
-        return var(f"{self.name}_reach")
-
-    @property
-    def secant(self) -> Expr:
-        """At least |d_i/y_i|."""
-        return var(f"{self.name}_secant")
-
-    @property
-    def sector(self) -> Expr:
-        """1/secant: y_i d_i is at least this times d_i²."""
-        return var(f"{self.name}_sector")
+    reach = number_of("{}_reach", "At least ‖d‖.")
+    secant = number_of("{}_secant", "At least |d_i/y_i|.")
+    sector = number_of("{}_sector", "1/secant: y_i d_i is at least this times d_i².")
 
 
 def norm(x: AnyVector) -> Expr:
