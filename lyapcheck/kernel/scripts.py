@@ -96,6 +96,12 @@ def proved(statement: Statement, proof: Proof) -> str:
     raise NotPrinted(f"a proof of the kind {type(statement).__name__}")
 
 
+proved.register(Decreasing, arm_script)
+proved.register(SampledStable, sampled_script)
+proved.register(EveryN | BoundEveryN, every_n_script)
+proved.register(OfArm, property_script)
+
+
 @proved.register
 def _(statement: AllOf, proof: Proof) -> str:
     if not isinstance(proof, EveryPart):
@@ -108,21 +114,11 @@ def _(statement: AllOf, proof: Proof) -> str:
 
 
 @proved.register
-def _(statement: Decreasing, proof: Proof) -> str:
-    return arm_script(statement, proof)
-
-
-@proved.register
 def _(statement: GateAccepted, proof: Proof) -> str:
     stability = proof.stability if isinstance(proof, GateParts) else ()
     each = zip(statement.stability, stability, strict=True)
     parts = [gate_script(statement, proof), *(proved(part, own) for part, own in each)]
     return "".join(f"split. {{ {part} }} " for part in parts[:-1]) + parts[-1]
-
-
-@proved.register
-def _(statement: SampledStable, proof: Proof) -> str:
-    return sampled_script(statement, proof)
 
 
 @proved.register
@@ -168,11 +164,6 @@ def _disagrees(statement: Agrees, proof: OutsideRounding) -> str:
 
 
 @proved.register
-def _(statement: EveryN | BoundEveryN, proof: Proof) -> str:
-    return every_n_script(statement, proof)
-
-
-@proved.register
 def _(statement: Property, proof: Proof) -> str:
     name, _, _ = proposition(statement).partition(" ")
     return f"apply {THEOREMS[name]}; lia."
@@ -187,11 +178,6 @@ def _(statement: Stable, proof: Proof) -> str:
 @proved.register
 def _(statement: StableArm, proof: Proof) -> str:
     return by_norms(on_one_arm(statement).closed_loop, statement.argument.system.desired)
-
-
-@proved.register
-def _(statement: OfArm, proof: Proof) -> str:
-    return property_script(statement, proof)
 
 
 @proved.register

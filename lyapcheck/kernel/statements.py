@@ -113,6 +113,10 @@ def proposition(statement: Statement) -> str:
     raise NotPrinted(f"statements of the kind {type(statement).__name__}")
 
 
+proposition.register(SampledStable, sampled_proposition)
+proposition.register(EveryN | BoundEveryN, every_n)  # also for n = 0, which says more
+
+
 @proposition.register
 def _(statement: AllOf) -> str:
     return " /\\ ".join(f"({proposition(part)})" for _, part in statement.parts)
@@ -122,11 +126,6 @@ def _(statement: AllOf) -> str:
 def _(statement: GateAccepted) -> str:
     parts = [gate_proposition(statement), *map(proposition, statement.stability)]
     return " /\\ ".join(f"({part})" for part in parts)
-
-
-@proposition.register
-def _(statement: SampledStable) -> str:
-    return sampled_proposition(statement)
 
 
 @proposition.register
@@ -180,12 +179,6 @@ def _(statement: Agrees) -> str:
     within = (f"{rational(ends.lower)} <= {value} <= {rational(ends.upper)}" for value, ends in rows)
     some = "".join(f"exists {identifier(name)} : R, " for name, _ in statement.inputs)
     return some + " /\\ ".join(within)
-
-
-@proposition.register
-def _(statement: EveryN | BoundEveryN) -> str:
-    """Also for n = 0, which says more."""
-    return every_n(statement)
 
 
 @proposition.register

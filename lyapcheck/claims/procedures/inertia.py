@@ -64,16 +64,11 @@ def find_mass_above(statement: MassAbove) -> SearchResult:
     return _found(statement, quick, INERTIA, "take a smaller bound, or name an arm whose links are known")
 
 
-@procedure(MassBelow, CoriolisBelow)
-def find_upper(statement: MassBelow | CoriolisBelow) -> SearchResult:
+@procedure(MassBelow, CoriolisBelow, GravityBelow)
+def find_upper(statement: MassBelow | CoriolisBelow | GravityBelow) -> SearchResult:
     """The sizes of harmonics, else a posture that refutes it, else boxes."""
-    return _found(statement, [HarmonicSizes()], INERTIA, "take a larger bound")
-
-
-@procedure(GravityBelow)
-def find_gravity_below(statement: GravityBelow) -> SearchResult:
-    """The sizes of harmonics, else a posture that refutes it, else boxes."""
-    return _found(statement, [HarmonicSizes()], GRAVITY, "take a larger bound")
+    method = GRAVITY if isinstance(statement, GravityBelow) else INERTIA
+    return _found(statement, [HarmonicSizes()], method, "take a larger bound")
 
 
 def _found(statement: OfArm, quick: list[Proof], method: str, advice: str) -> SearchResult:
