@@ -21,7 +21,7 @@ from lyapcheck.robots.trig import to_terms
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    from lyapcheck.check.kinds.chain import ChainAbove
+    from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainCoriolisBelow, ChainGravityBelow
     from lyapcheck.check.kinds.decreasing import Decreasing
     from lyapcheck.check.kinds.link_bounds import ChainDecreasing
     from lyapcheck.check.kinds.resting import Resting
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.gains import Bounds, GainSet
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.robots import RobotModel
+    from lyapcheck.robots.dynamics import Chain
 
 
 def decreasing(
@@ -154,17 +155,18 @@ def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: RobotModel, within:
     )
 
 
-def bound_of_constant(name: str, arm: RobotModel, end: Fraction, along_links: bool) -> Statement:
+def bound_of_constant(name: str, arm: RobotModel, end: Fraction, by_links: bool) -> Statement:
     """Is a constant of the arm above this number (λmin(M)), or at most this number (all others)?
 
     Args:
         name: ``lambda_min``, ``lambda_max``, ``k_c``, ``k_g`` or ``k_g1`` and so on.
         arm: for all values of its ranges.
         end: the number that is printed.
-        along_links: ask about the links of the arm, whose numbers are exact, not about M(q) and g(q) in full.
+        by_links: ask about the links of the arm, whose numbers are exact, not about M(q) and g(q) in full.
     """
-    if along_links:
-        return _of_links(name, arm, end)
+    if by_links:
+        assert arm.chain is not None
+        return along_links(name, arm.chain, end)
     ranges = arm.ranges
     if name == "lambda_min":
         return MassAbove(arm.mass_terms, ranges, end)
@@ -174,30 +176,28 @@ def bound_of_constant(name: str, arm: RobotModel, end: Fraction, along_links: bo
         from lyapcheck.check.kinds.coriolis import CoriolisBelow
 
         return CoriolisBelow(arm.mass_terms, ranges, end)
-    gravity = tuple(tuple(to_terms(arm.gravity[i])) for i in _joints(name, arm))
+    gravity = tuple(tuple(to_terms(arm.gravity[i])) for i in joints_of(name, arm.n))
     return GravityBelow(arm.n, gravity, ranges, end)
 
 
-def _of_links(name: str, arm: RobotModel, end: Fraction) -> Statement:
+def along_links(
+    name: str, chain: Chain, end: Fraction
+) -> ChainAbove | ChainBelow | ChainCoriolisBelow | ChainGravityBelow:
+    """The same of exact links."""
     from lyapcheck.check.kinds.chain import ChainAbove, ChainBelow, ChainCoriolisBelow, ChainGravityBelow
 
-    chain = arm.chain
-    assert chain is not None
     if name == "lambda_min":
         return ChainAbove(chain.links, end)
     if name == "lambda_max":
         return ChainBelow(chain.links, end)
     if name == "k_c":
         return ChainCoriolisBelow(chain.links, end)
-    return ChainGravityBelow(chain.links, chain.fall, tuple(i + 1 for i in _joints(name, arm)), end)
+    return ChainGravityBelow(chain.links, chain.fall, tuple(i + 1 for i in joints_of(name, chain.n)), end)
 
 
-def _joints(name: str, arm: RobotModel) -> range:
-    """All joints for ``k_g``, one for ``k_g2``."""
-    if name == "k_g":
-        return range(arm.n)
-    joint = int(name.removeprefix("k_g")) - 1
-    return range(joint, joint + 1)
+def joints_of(name: str, n: int) -> Sequence[int]:
+    """The joints, from 0, whose torque of gravity a constant bounds: all for ``k_g``, one for ``k_g2``."""
+    return range(n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
 
 
 def over_ranges(stated: Statement, arm: RobotModel) -> Statement | None:
@@ -279,7 +279,7 @@ def gravity_kept(arm: RobotModel, k_g: tuple[Fraction, ...]) -> AllOf:
     except TooManyTerms:
         if arm.chain is None:
             raise
-        return AllOf(tuple((f"g{i}", _of_links(f"k_g{i}", arm, k)) for i, k in enumerate(k_g, 1)))
+        return AllOf(tuple((f"g{i}", along_links(f"k_g{i}", arm.chain, k)) for i, k in enumerate(k_g, 1)))
     ranges = arm.ranges
     parts = [GravityBelow(arm.n, (entry,), ranges, k) for entry, k in zip(gravity, k_g, strict=True)]
     slope = GravityOfPotential(gravity, tuple(to_terms(arm.potential)), ranges)

@@ -20,14 +20,14 @@ import numpy as np
 from flint import arb
 
 from lyapcheck._types import SEED, Array, Progress
-from lyapcheck.asked import bound_of_constant
+from lyapcheck.asked import bound_of_constant, joints_of
 from lyapcheck.check.kinds.chain import ChainAbove, ChainCoriolisBelow
 from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.inertia import Bisection, Bound, HarmonicSizes, MassAbove, PostureWitness
 from lyapcheck.check.numbers.balls import precision, to_arb
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 from lyapcheck.check.statement import Statement
-from lyapcheck.constants.storage import BoundWithProof, joints_of, storage_proof
+from lyapcheck.constants.storage import BoundWithProof, storage_proof
 from lyapcheck.errors import argument_error
 from lyapcheck.lyapunov.scalar import RobotBounds
 from lyapcheck.output.digits import decimals

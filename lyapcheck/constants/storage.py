@@ -24,6 +24,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from lyapcheck._types import Array
+from lyapcheck.asked import along_links, joints_of
 from lyapcheck.check.kinds.chain import (
     ChainAbove,
     ChainBelow,
@@ -292,7 +293,7 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProo
         name: of the constant, ``k_g`` for ‖g‖ and ``k_g1`` and so on.
         still: no torque was seen: then it is shown to be 0.
     """
-    statement = zero_bound(chain, name)
+    statement: Bound = along_links(name, chain, Fraction(0))
     if name == "k_c":
         bounds = rate_bounds(chain.links)
         if bounds is None:
@@ -320,21 +321,6 @@ def storage_proof(chain: Chain, name: str, still: bool = False) -> BoundWithProo
 
 def _accepted(shown: BoundWithProof) -> BoundWithProof | None:
     return shown if proves(shown.statement, shown.proof) else None
-
-
-def joints_of(name: str, n: int) -> Sequence[int]:
-    """The joints, from 0, whose torque of gravity a constant bounds: all for ``k_g``, one for ``k_g2``."""
-    return range(n) if name == "k_g" else [int(name.removeprefix("k_g")) - 1]
-
-
-def zero_bound(chain: Chain, name: str) -> Bound:
-    """That a constant is at least, or at most, 0."""
-    if name == "lambda_min":
-        return ChainAbove(chain.links, Fraction(0))
-    if name in ("lambda_max", "k_c"):
-        return (ChainBelow if name == "lambda_max" else ChainCoriolisBelow)(chain.links, Fraction(0))
-    counted = tuple(i + 1 for i in joints_of(name, chain.n))
-    return ChainGravityBelow(chain.links, chain.fall, counted, Fraction(0))
 
 
 def end_of(statement: Bound) -> Fraction:
