@@ -9,10 +9,11 @@ from fractions import Fraction
 
 from flint import ctx
 
-from lyapcheck.check.expressions.expression import Tree, Unsupported, derivative, substitute, variables
-from lyapcheck.check.expressions.normal_form import normal_form
+from lyapcheck.check.expressions.expression import Tree, derivative, substitute, variables
+from lyapcheck.check.expressions.normal_form import rational_value
 from lyapcheck.check.expressions.signs import Undefined, require_defined
 from lyapcheck.check.expressions.text import expression_text
+from lyapcheck.check.numbers.polynomials import fraction
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import BITS
 
@@ -196,15 +197,9 @@ def exact_value(value: object) -> Fraction:
         ValueError: it is not shown to be rational, or is no closed expression with a value.
     """
     tree = closed_value(value)
-    try:
-        ratio, _ = normal_form(tree)
-    except Unsupported:
-        ratio = None
-    if ratio is None or not (ratio.top.is_constant() and ratio.bottom.is_constant()):
+    result = rational_value(tree)
+    if result is None:
         shown = expression_text(tree)
         rule = "is not shown to be rational, and only exact numbers may stand here"
         raise ValueError(f"{shown} {rule}; round it by above({shown}) or below({shown})")
-    if ratio.top == 0:
-        return Fraction(0)
-    quotient = ratio.top.leading_coefficient() / ratio.bottom.leading_coefficient()
-    return Fraction(int(quotient.p), int(quotient.q))
+    return fraction(result)

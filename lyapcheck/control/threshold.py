@@ -14,7 +14,7 @@ from lyapcheck.check.expressions.expression import Tree, ball
 from lyapcheck.check.expressions.normal_form import normal_form
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
 from lyapcheck.check.numbers.balls import precision
-from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure, fraction
 from lyapcheck.check.replay import MAX_BITS
 from lyapcheck.check.statement import Relation
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
@@ -121,7 +121,7 @@ class Threshold:
         if ratio.top.is_constant() and ratio.bottom.is_constant():
             top = ratio.top.leading_coefficient() if ratio.top != 0 else 0
             value = top / ratio.bottom.leading_coefficient()
-            return Enclosure.exact(Fraction(int(value.p), int(value.q)))
+            return Enclosure.exact(fraction(value))
         with precision(bits):
             return Enclosure.from_arb(ball(self.limit))
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import sympy as sp
 
+from lyapcheck.check.numbers.polynomials import fraction
 from lyapcheck.family.base import hyperbolic
 
 X = sp.Symbol("x", real=True)
@@ -97,8 +98,4 @@ def positive_roots(polynomial: Any, width: Fraction = Fraction(1, 10**40)) -> li
     """
     small = sp.Rational(width.numerator, width.denominator)
     found = [ends for ends, _ in polynomial.sqf_part().intervals(eps=small) if ends[1] > 0]
-    return [(_fraction(low), _fraction(high)) for low, high in found]
-
-
-def _fraction(value: Any) -> Fraction:
-    return Fraction(int(value.p), int(value.q))
+    return [(fraction(low), fraction(high)) for low, high in found]

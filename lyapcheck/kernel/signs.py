@@ -16,7 +16,7 @@ from lyapcheck.check.expressions.normal_form import Ratio
 from lyapcheck.check.kinds.for_small import ForSmall, LeadingTerm, leading_term
 from lyapcheck.check.kinds.for_small import signs_of as small_signs
 from lyapcheck.check.kinds.implies import Implies, SignIdentity, Signs, signs_of
-from lyapcheck.check.numbers.polynomials import Enclosure
+from lyapcheck.check.numbers.polynomials import Enclosure, fraction
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.kernel.statements import small_hypotheses
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, rational
@@ -188,5 +188,5 @@ def _text(polynomial: fmpq_mpoly, generators: Sequence[str]) -> str:
     terms = []
     for exponents, c in polynomial.to_dict().items():
         powers = (f"{g} ^ {e}" if e > 1 else g for g, e in zip(generators, exponents, strict=False) if e)
-        terms.append(" * ".join([rational(Fraction(int(c.p), int(c.q))), *powers]))
+        terms.append(" * ".join([rational(fraction(c)), *powers]))
     return f"({' + '.join(terms)})" if terms else "0"

@@ -14,6 +14,7 @@ from lyapcheck.check.expressions.expression import CONSTANTS, Tree
 from lyapcheck.check.kinds.bound_every_n import BoundEveryN, CoveredTerms, terms_in_words, terms_of
 from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters.words import Word, Words
+from lyapcheck.check.numbers.polynomials import fraction
 from lyapcheck.check.statement import Proof
 from lyapcheck.kernel.terms import NotPrinted, expression, identifier, letters_of, rational
 
@@ -139,7 +140,7 @@ class _Lines:
             cover = covers.get(tuple(sorted(place.items())))
             if cover is None:
                 raise NotPrinted("terms that cancel once diagonal matrices change places")
-            value = Fraction(int(c.p), int(c.q))
+            value = fraction(c)
             if cover.least is None:
                 line, term, size = self.by_norms(k, statement, powers, cover.norms)
             else:
@@ -288,7 +289,7 @@ def spare(upper: Tree, right: Tree) -> str:
     difference = terms_of(_plain(("add", right, ("neg", upper)), roots))
     groups: dict[Monomial, dict[Monomial, Fraction]] = {}
     for c, powers in difference:
-        value = Fraction(int(c.p), int(c.q))
+        value = fraction(c)
         constants: Counter[str] = Counter()
         monomial: Counter[str] = Counter()
         for name, k in powers.items():

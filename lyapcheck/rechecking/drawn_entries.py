@@ -23,7 +23,7 @@ from lyapcheck.check.kinds.every_n import EveryN
 from lyapcheck.check.letters import letters as letters_of
 from lyapcheck.check.letters.entries import BITS, Entries, exact
 from lyapcheck.check.letters.entries import compared as exactly_compared
-from lyapcheck.check.numbers.polynomials import ball_of, rational
+from lyapcheck.check.numbers.polynomials import ball_of, fraction, rational
 from lyapcheck.check.refusal import require
 
 Point = dict[str, Fraction]
@@ -63,7 +63,7 @@ def solved(entries: Entries, given: Iterable[tuple[str, str, Tree]], point: Poin
         b = fmpq_mat([[exact(tree, point)] for tree in entries.vector(equals)])
         result = a.solve(b).entries()
         for (_, name), value in zip(entries.vector(("vec", vector)), result, strict=True):
-            point = point | {name: Fraction(int(value.p), int(value.q))}
+            point = point | {name: fraction(value)}
     return point
 
 
@@ -141,7 +141,7 @@ class DrawnBounds:
         for number, size in self.least:
             if size[0] == "var" and size[1] in alone:
                 value = exact(self.entries.number(number), point)
-                least = max(Fraction(int(value.p), int(value.q)), Fraction(0)) * NEARLY
+                least = max(fraction(value), Fraction(0)) * NEARLY
                 point = point | {size[1]: min(point[size[1]], least)}
         for letters, size in self.norms:
             free = sorted(variables(size) & names - alone) or sorted(variables(size) & names)
@@ -157,7 +157,7 @@ class DrawnBounds:
                 continue
             upper, value = _value(size, point), exact(self.entries.number(number), point)
             if upper and rational(upper) > value:
-                share = max(Fraction(int(value.p), int(value.q)), Fraction(0)) / upper * NEARLY
+                share = max(fraction(value), Fraction(0)) / upper * NEARLY
                 point = point | {free[-1]: share * point[free[-1]]}
         return point
 

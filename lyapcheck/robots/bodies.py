@@ -6,13 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice, product
-from math import isqrt
 from typing import Any, ClassVar
 
 from flint import fmpq, fmpq_mat
 
 from lyapcheck.check.loop.chain import UNIT, RigidLink
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.numbers.polynomials import rational, rational_root
 from lyapcheck.check.numbers.vectors import is_positive_semidefinite
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.robots.dynamics import Chain, ParameterShare
@@ -50,16 +49,15 @@ def components(name: str, vector: Sequence[Number]) -> dict[str, Number]:
 
 def _read_body(fields: ArmFields) -> BodyEntry | None:
     axis = fields.vector("axis", "")
-    square = sum((x.value**2 for x in axis or ()), Fraction(0))
-    length = Fraction(isqrt(square.numerator), isqrt(square.denominator))
-    if axis is not None and (any(x.ranged for x in axis) or length**2 != square or not length):
+    length = rational_root(sum((x.value**2 for x in axis or ()), Fraction(0)))
+    if axis is not None and (any(x.ranged for x in axis) or not length):
         rule = "must be a vector whose length is a rational number other than 0"
         fields.fail("axis", rule, "write [0, 0, 1], or [3, 4, 0]; a URDF file may have any")
         axis = None
     origin, com = fields.vector("origin", "m"), fields.vector("com", "m")
     mass = fields.quantity("mass", "kg", Sign.POSITIVE, required=True)
     inertia = _read_inertia(fields)
-    if axis is None or origin is None or com is None or mass is None or inertia is None:
+    if axis is None or not length or origin is None or com is None or mass is None or inertia is None:
         return None
     return BodyEntry(tuple(replace(x, value=x.value / length) for x in axis), origin, mass, com, inertia)
 

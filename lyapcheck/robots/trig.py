@@ -16,7 +16,9 @@ from functools import cached_property, lru_cache
 from itertools import product
 from typing import Any, Protocol, TypeVar
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
+
+from lyapcheck.check.numbers.polynomials import fraction, rational
 
 T = TypeVar("T")
 Lift = Callable[[Fraction], T]
@@ -46,13 +48,7 @@ def joint_count(ring: fmpq_mpoly_ctx) -> int:
 
 def constant(ring: fmpq_mpoly_ctx, value: Fraction | int) -> fmpq_mpoly:
     """The constant polynomial of an exact value."""
-    exact = Fraction(value)
-    return ring.constant(fmpq(exact.numerator, exact.denominator))
-
-
-def fraction(coefficient: fmpq) -> Fraction:
-    """A coefficient of a polynomial as a Fraction."""
-    return Fraction(int(coefficient.p), int(coefficient.q))
+    return ring.constant(rational(value))
 
 
 def to_terms(poly: fmpq_mpoly) -> Terms:
@@ -62,7 +58,7 @@ def to_terms(poly: fmpq_mpoly) -> Terms:
 
 def from_terms(ring: fmpq_mpoly_ctx, terms: Sequence[tuple[tuple[int, ...], Fraction]]) -> fmpq_mpoly:
     """The polynomial with these terms; inverse of `to_terms`."""
-    return ring.from_dict({powers: fmpq(value.numerator, value.denominator) for powers, value in terms})
+    return ring.from_dict({powers: rational(value) for powers, value in terms})
 
 
 def derivative(poly: fmpq_mpoly, i: int) -> fmpq_mpoly:
@@ -137,8 +133,7 @@ def total(terms: Sequence[T], lift: Callable[[Fraction], T]) -> T:
 
 def substitute(poly: fmpq_mpoly, values: Mapping[str, Fraction], ring: fmpq_mpoly_ctx) -> fmpq_mpoly:
     """The polynomial with the named generators replaced by exact values, as an element of ``ring``."""
-    exact = {name: fmpq(value.numerator, value.denominator) for name, value in values.items()}
-    return poly.subs(exact).project_to_context(ring)
+    return poly.subs({name: rational(value) for name, value in values.items()}).project_to_context(ring)
 
 
 # --- M, C, g and the potential of an arm, at some angles and as polynomials.

@@ -10,6 +10,7 @@ from flint import fmpq
 
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop import ScalarForm, certifies
+from lyapcheck.check.numbers.polynomials import fraction
 from lyapcheck.family.base import named
 from lyapcheck.search.controlled_arm import ChainProof, DecreaseProof
 
@@ -68,7 +69,7 @@ def _bisection(form: ScalarForm) -> Fraction:
         low, high = (middle, high) if positive else (low, middle)
         if (high - low) * 10 ** (DIGITS + 1) < low:
             break
-    return Fraction(int(low.p), int(low.q))
+    return fraction(low)
 
 
 def _rounded_down(value: Fraction) -> Fraction | None:

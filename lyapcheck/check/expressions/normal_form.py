@@ -28,7 +28,7 @@ from lyapcheck.check.expressions.expression import (
     variables,
 )
 from lyapcheck.check.expressions.grammar import MAX_SIZE, written_out
-from lyapcheck.check.numbers.polynomials import rational, rational_root
+from lyapcheck.check.numbers.polynomials import fraction, rational, rational_root
 
 HYPERBOLIC = ("sinh", "cosh", "tanh")
 MAX_STEPS = 5_000_000
@@ -150,7 +150,7 @@ class RationalAlgebra(Algebra):
         radicand = value.top / value.bottom.leading_coefficient()
         if radicand.is_constant():
             number = radicand.leading_coefficient() if radicand != 0 else fmpq(0)
-            exact = rational_root(Fraction(int(number.p), int(number.q)))
+            exact = rational_root(fraction(number))
             if exact is not None:
                 return self.number(exact)
         root = self._generator("sqrt", str(radicand))

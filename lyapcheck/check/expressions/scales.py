@@ -32,7 +32,7 @@ from lyapcheck.check.expressions.expression import (
     family_constant,
     taylor,
 )
-from lyapcheck.check.numbers.polynomials import ball_of, rational, rational_root
+from lyapcheck.check.numbers.polynomials import ball_of, fraction, rational, rational_root
 
 Key = tuple[Fraction | int, Fraction | int, int]
 """(a, b, j) of e^{ax} x^b (ln x)^j; in lexicographic order the larger one dominates."""
@@ -96,7 +96,7 @@ class Coefficient:
             ((p, c),) = self.exact
             if c > 0 and all(e % 2 == 0 for _, e in p):
                 halves = [(symbol, e // 2) for symbol, e in p]
-                root = ("sqrt", Fraction(int(c.p), int(c.q)))
+                root = ("sqrt", fraction(c))
                 return _collected([_monomial([*halves, (root, 1)], fmpq(1))])
         return Coefficient(self.ball.sqrt())
 
@@ -105,7 +105,7 @@ class Coefficient:
         if self.exact is None or any(p for p, _ in self.exact):
             return None
         value = sum((c for _, c in self.exact), fmpq(0))
-        return int(value.p) if value.q == 1 else Fraction(int(value.p), int(value.q))
+        return int(value.p) if value.q == 1 else fraction(value)
 
 
 def _monomial(powers: Iterable[tuple[Symbol, int]], factor: fmpq) -> tuple[Monomial, fmpq]:
@@ -313,7 +313,7 @@ def _rational_taylor(name: str, order: int) -> tuple[Fraction, ...]:
         series = getattr(fmpq_series([CENTRES[name], 1]), name)()
     finally:
         ctx.cap = cap
-    return tuple(Fraction(int(series[k].p), int(series[k].q)) for k in range(order))
+    return tuple(fraction(series[k]) for k in range(order))
 
 
 @dataclass(frozen=True)

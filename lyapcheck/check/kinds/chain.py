@@ -14,7 +14,7 @@ from itertools import chain, product
 
 from flint import arb
 
-from lyapcheck.check.expressions.text import number_text
+from lyapcheck.check.expressions.text import list_text, number_text
 from lyapcheck.check.kinds.inertia import Bound, PostureWitness, dot, require_posture, vector, written_out
 from lyapcheck.check.loop import storage
 from lyapcheck.check.loop.chain import Posture, RigidLink, lever_bound, pulls, turning
@@ -130,7 +130,7 @@ class ChainGravityBelow(OfChain):
     def text(self) -> str:
         names = ", ".join(f"g{i}(q)" for i in self.joints)
         size = f"|{names}|" if len(self.joints) == 1 else f"‖({names})‖"
-        return f"{size} ≤ {number_text(self.high)} with free fall {_vector(self.fall)}, {self.over}"
+        return f"{size} ≤ {number_text(self.high)} with free fall {list_text(self.fall)}, {self.over}"
 
     def excess(self, at: PostureWitness) -> arb:
         """Σ g_i² − high²."""
@@ -227,16 +227,12 @@ def by_no_torque(statement: ChainGravityBelow, proof: NoTorque) -> Accepted:
 
 
 def _link_text(link: RigidLink) -> str:
-    inertia, turn = (f"({', '.join(map(_vector, rows))})" for rows in (link.inertia, link.turn))
+    inertia, turn = (f"({', '.join(map(list_text, rows))})" for rows in (link.inertia, link.turn))
     rotor = f", rotor {number_text(link.rotor)}" if link.rotor else ""
     return (
-        f"axis {_vector(link.axis)}, place {_vector(link.origin)}, turn {turn}, "
-        f"mass {number_text(link.mass)}, centre {_vector(link.com)}, inertia {inertia}{rotor}"
+        f"axis {list_text(link.axis)}, place {list_text(link.origin)}, turn {turn}, "
+        f"mass {number_text(link.mass)}, centre {list_text(link.com)}, inertia {inertia}{rotor}"
     )
-
-
-def _vector(entries: Sequence[Fraction]) -> str:
-    return f"({', '.join(map(number_text, entries))})"
 
 
 # --- C(q, x) of a chain of links: how large it is at most.

@@ -106,7 +106,8 @@ class Posture:
 
     def __init__(self, links: Sequence[RigidLink], sines: Vector, cosines: Vector, of: Algebra) -> None:
         self.links, self.n, self.of = links, len(links), of
-        self.turns = [_rotation(of, *joint) for joint in zip(links, sines, cosines, strict=True)]
+        joints = zip(links, sines, cosines, strict=True)
+        self.turns = [rotation(of, link.axis, link.turn, sine, cosine) for link, sine, cosine in joints]
 
     def mass(self) -> Rows:
         of, n = self.of, self.n
@@ -180,13 +181,12 @@ def own_body(of: Algebra, link: RigidLink) -> Body:
     return Body(link.mass, moment, of.sum(second, of.outer(link.com, moment)))
 
 
-def _rotation(of: Algebra, link: RigidLink, sine: Entry, cosine: Entry) -> Matrix:
+def rotation(of: Algebra, a: Vector, turn: Matrix, sine: Entry, cosine: Entry) -> Matrix:
     """T (a aᵀ + cos q (1 − a aᵀ) + sin q [a]×), from the frame of a joint to that before."""
-    a = link.axis
     along = of.outer(a, a)
     across = [[of.minus(UNIT[i][k], along[i][k]) for k in range(3)] for i in range(3)]
     skew = [[ZERO, -a[2], a[1]], [a[2], ZERO, -a[0]], [-a[1], a[0], ZERO]]
-    fixed, even, odd = (of.product(link.turn, part) for part in (along, across, skew))
+    fixed, even, odd = (of.product(turn, part) for part in (along, across, skew))
     return [
         [
             of.plus(fixed[i][k], of.plus(of.times(even[i][k], cosine), of.times(odd[i][k], sine)))

@@ -30,7 +30,7 @@ from flint import arb, ctx, fmpq, fmpq_mat
 
 from lyapcheck.check.loop.chain import UNIT, RigidLink
 from lyapcheck.check.loop.field import BALLS
-from lyapcheck.check.numbers.polynomials import rational
+from lyapcheck.check.numbers.polynomials import fraction, rational
 from lyapcheck.check.numbers.vectors import ZERO, Algebra, transposed
 
 TWIST, FALL = 6, 3
@@ -232,7 +232,7 @@ def stored_at_base(stages: Sequence[Stage], forms: Sequence[fmpq_mat], fall: Seq
     """s_1(X_1 w_0) with w_0 = (0, γ)."""
     start = stages[0].carry * _matrix([[ZERO]] * TWIST + [[x] for x in fall])
     result = (start.transpose() * forms[0] * start)[0, 0]
-    return Fraction(int(result.p), int(result.q))
+    return fraction(result)
 
 
 def _upright(axis: Sequence[Fraction]) -> list[list[Fraction]]:

@@ -24,6 +24,11 @@ def rational(value: Fraction | int) -> fmpq:
     return fmpq(value.numerator, value.denominator)
 
 
+def fraction(value: fmpq) -> Fraction:
+    """The same number from flint."""
+    return Fraction(int(value.p), int(value.q))
+
+
 def rational_root(square: Fraction) -> Fraction | None:
     """The square root of a number, where it is rational."""
     if square < 0:

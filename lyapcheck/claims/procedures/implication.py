@@ -36,7 +36,7 @@ from lyapcheck.check.kinds.implies import (
     gaps_of,
     signs_of,
 )
-from lyapcheck.check.numbers.polynomials import Enclosure, ball_of
+from lyapcheck.check.numbers.polynomials import Enclosure, ball_of, fraction
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation, Variable
 from lyapcheck.check.verify import verify
@@ -144,7 +144,7 @@ def _composed(steps: list[CancelledTerm]) -> SignIdentity:
     multiples: list[Multiple] = []
     lift: Exponents = ()
     for step in reversed(steps):
-        weight = Fraction(int(step.weight.p), int(step.weight.q))
+        weight = fraction(step.weight)
         multiples.insert(0, Multiple(step.hypothesis, weight, _sparse(_times(step.over, lift))))
         lift = _times(step.lift, lift)
     return SignIdentity(_sparse(lift), tuple(multiples))

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import combinations, combinations_with_replacement, product
 from math import log2
 
@@ -32,6 +31,7 @@ from lyapcheck.check.kinds.implies import (
     letters_of,
     signs_of,
 )
+from lyapcheck.check.numbers.polynomials import fraction
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Relation
 from lyapcheck.check.verify import verify
@@ -233,10 +233,10 @@ class _Search:
             weight = (1 if block.hypothesis == LIFT else self.size) / self._power(block.over)
             own = [self._power(one) for one in monomials]
             rows = [
-                tuple(_fraction(lower[i][k] * own[k] / own[i]) for k in range(i))
+                tuple(fraction(lower[i][k] * own[k] / own[i]) for k in range(i))
                 for i in range(len(monomials))
             ]
-            weights = [_fraction(d * weight / s**2) for d, s in zip(diagonal, own, strict=True)]
+            weights = [fraction(d * weight / s**2) for d, s in zip(diagonal, own, strict=True)]
             squares = Squares(tuple(map(_sparse, monomials)), tuple(rows), tuple(weights))
             if block.hypothesis == LIFT:
                 lift = squares
@@ -266,7 +266,7 @@ class _Search:
     def products(self, hypothesis: int | None, factor: fmpq_mpoly) -> list[Product]:
         """An equation times a polynomial, term by term."""
         terms = self.signs.algebra.reduced(factor).to_dict().items()
-        return [Product(hypothesis, _sparse(e), Squares(((),), ((),), (_fraction(c),))) for e, c in terms]
+        return [Product(hypothesis, _sparse(e), Squares(((),), ((),), (fraction(c),))) for e, c in terms]
 
     def _power(self, exponents: Exponents) -> fmpq:
         """By what a monomial grows from x′ to x."""
@@ -282,10 +282,6 @@ def _scales(gaps: list[fmpq_mpoly], count: int) -> list[int]:
     sizes = [log2(abs(int(c.p))) - log2(int(c.q)) for _, _, c in terms]
     found = np.linalg.lstsq(np.array(rows), -np.array(sizes), rcond=None)[0]
     return [max(-20, min(20, round(float(scale)))) for scale in found[:count]]
-
-
-def _fraction(value: fmpq) -> Fraction:
-    return Fraction(int(value.p), int(value.q))
 
 
 def _sparse(exponents: Exponents) -> Monomial:

@@ -20,8 +20,9 @@ from fractions import Fraction
 
 from flint import arb, fmpz_mat
 
-from lyapcheck.check.loop.chain import UNIT, RigidLink
+from lyapcheck.check.loop.chain import UNIT, RigidLink, rotation
 from lyapcheck.check.numbers.balls import precision, to_arb
+from lyapcheck.check.numbers.polynomials import dyadic, rational_root
 from lyapcheck.check.numbers.vectors import ZERO, Algebra, is_positive_semidefinite
 from lyapcheck.robots.urdf.tree import Tree, UrdfJoint, UrdfLink, moved_links
 from lyapcheck.robots.urdf.xml import ORIGIN, Triple
@@ -94,23 +95,13 @@ def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
         roundings.turned.append(place)
     for axis, angle in enumerate(rpy):
         if angle:
-            sine, cosine = _circle(angle, place, roundings)
-            rows, j, k = [list(row) for row in UNIT], (axis + 1) % 3, (axis + 2) % 3
-            rows[j][j] = rows[k][k] = cosine
-            rows[k][j], rows[j][k] = sine, -sine
-            result = _rotation(OF.product(rows, result))
+            result = _rotation(OF.product(about(UNIT[axis], angle, place, roundings), result))
     return result
 
 
-def about(axis: Triple, angle: Fraction, place: str, roundings: Roundings) -> Rotation:
-    """The rotation about a unit vector, rad: 1 + sin K + (1 − cos) K² (Rodrigues)."""
-    sine, cosine = _circle(angle, place, roundings)
-    x, y, z = axis
-    cross = [[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]]
-    square = OF.product(cross, cross)
-    return _rotation(
-        [[UNIT[i][k] + sine * cross[i][k] + (1 - cosine) * square[i][k] for k in range(3)] for i in range(3)]
-    )
+def about(axis: Sequence[Fraction], angle: Fraction, place: str, roundings: Roundings) -> Rotation:
+    """The rotation about a unit vector, rad."""
+    return _rotation(rotation(OF, axis, UNIT, *_circle(angle, place, roundings)))
 
 
 def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction, Fraction]:
@@ -118,8 +109,8 @@ def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction
     with precision(_BITS):
         exact = to_arb(angle)
         quarters = round(float(exact / (arb.pi() / 2)))
-        rest = _middle(exact - quarters * arb.pi() / 2)
-        tangent = _middle((to_arb(rest) / 2).tan())
+        rest = dyadic((exact - quarters * arb.pi() / 2).mid())
+        tangent = dyadic((to_arb(rest) / 2).tan().mid())
     if abs(rest) <= SNAP:
         if abs(rest) > CLOSE:
             roundings.snapped[place] = max(abs(rest), roundings.snapped.get(place, ZERO))
@@ -133,19 +124,14 @@ def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction
     return sine, cosine
 
 
-def _middle(ball: arb) -> Fraction:
-    mantissa, exponent = ball.mid().man_exp()
-    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-
-
 def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
     """An exact unit vector along a vector that is not zero, or within 10⁻¹⁵ rad of it.
 
     Soundness: the answer has length exactly 1 whatever was rounded (stereographic projection).
     """
     square = sum((x * x for x in vector), ZERO)
-    length = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
-    if length * length == square:
+    length = rational_root(square)
+    if length is not None:
         x, y, z = (component / length for component in vector)
         return x, y, z
     roundings.note(place)
