@@ -127,13 +127,3 @@ def range_text(variables: Iterable[Variable]) -> str:
         else f"{one.name} {'>' if one.strict else '≥'} {number_text(one.low)}"
         for one in variables
     )
-
-
-def conditional_text(
-    variables: Iterable[Variable], hypotheses: Iterable[Relation], conclusion: Relation
-) -> str:
-    """``for all …: if …, then …``."""
-    over = range_text(variables)
-    given = " and ".join(map(relation_text, hypotheses))
-    start = f"for all {over}: " if over else ""
-    return start + (f"if {given}, then " if given else "") + relation_text(conclusion)

@@ -101,8 +101,11 @@ class _Identity:
         self.root = roots[0] if roots else "I"
 
     def gap(self, relation: Relation) -> tuple[str, str]:
-        """The gap of a relation as it stands, and its denominator."""
-        return _gap(relation, self.signs, self.plain)
+        """The gap of a relation as it stands, and its denominator as a polynomial."""
+        algebra = self.signs.algebra
+        values: dict[str, Ratio] = {name: algebra.variable(name) for name in algebra.names}
+        bottom = algebra.reduced(evaluate(relation.gap, values, algebra).bottom)
+        return f"({expression(relation.right)} - {expression(relation.left)})", _text(bottom, self.plain)
 
     def gaps(self, proof: SignIdentity) -> str:
         """That the polynomials of the hypotheses that an identity uses are not negative."""
@@ -171,16 +174,6 @@ def _generators(variables: Sequence[Variable], signs: Signs) -> tuple[list[str],
         )
         roots.append(f"Q{k}")
     return plain, shifted, "".join(lines), roots
-
-
-def _gap(relation: Relation, signs: Signs, plain: Sequence[str]) -> tuple[str, str]:
-    """The gap of a relation as it stands, and its denominator as a polynomial."""
-    values: dict[str, Ratio] = {name: signs.algebra.variable(name) for name in signs.algebra.names}
-    ratio = evaluate(relation.gap, values, signs.algebra)
-    return (
-        f"({expression(relation.right)} - {expression(relation.left)})",
-        _text(signs.algebra.reduced(ratio.bottom), plain),
-    )
 
 
 def _text(polynomial: fmpq_mpoly, generators: Sequence[str]) -> str:

@@ -12,6 +12,7 @@ from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.check.loop import ScalarForm, certifies
 from lyapcheck.check.numbers.polynomials import fraction
 from lyapcheck.family.base import named
+from lyapcheck.files.decimals import significant_down
 from lyapcheck.search.controlled_arm import ChainProof, DecreaseProof
 
 if TYPE_CHECKING:
@@ -51,8 +52,8 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
         return ScalarResult(None, None, "h is unbounded, and the scalar form needs its bound γ")
     if form.friction <= 0:
         return ScalarResult(None, form, "a joint has no viscous friction, so θ'22 is never positive")
-    eps0 = _rounded_down(_bisection(form))
-    if eps0 is not None and certifies(form, eps0):
+    eps0 = significant_down(_bisection(form), DIGITS)
+    if certifies(form, eps0):
         return ScalarResult(eps0, form)
     return ScalarResult(None, form, "no ε₀ > 0 was found for which Θ' is positive definite")
 
@@ -70,15 +71,6 @@ def _bisection(form: ScalarForm) -> Fraction:
         if (high - low) * 10 ** (DIGITS + 1) < low:
             break
     return fraction(low)
-
-
-def _rounded_down(value: Fraction) -> Fraction | None:
-    if value <= 0:
-        return None
-    places = DIGITS
-    while value * 10**places < 10 ** (DIGITS - 1):
-        places += 1
-    return Fraction(int(value * 10**places), 10**places)
 
 
 # --- An ε₀ from norms of M and C alone: the checker's own bounds propose it, a tree of one leaf proves it.

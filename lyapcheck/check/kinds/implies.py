@@ -24,7 +24,7 @@ from lyapcheck.check.expressions.normal_form import RationalAlgebra, product, ro
 from lyapcheck.check.expressions.signs import NOT_NEGATIVE, PLUS, above, lower_bounds, of_monomial, of_terms
 from lyapcheck.check.numbers.polynomials import rational
 from lyapcheck.check.refusal import require
-from lyapcheck.check.replay import Pointwise, conditional_text, domain_of, require_relations
+from lyapcheck.check.replay import Pointwise, domain_of, range_text, relation_text, require_relations
 from lyapcheck.check.statement import Proof, Relation, Variable
 from lyapcheck.check.verify import Accepted, rule
 
@@ -157,7 +157,9 @@ class Implies(Pointwise):
         return tuple(one.comparison for one in self.hypotheses), self.conclusion.comparison
 
     def text(self) -> str:
-        return conditional_text(self.variables, self.hypotheses, self.conclusion)
+        over, given = range_text(self.variables), " and ".join(map(relation_text, self.hypotheses))
+        start = f"for all {over}: " if over else ""
+        return f"{start}{f'if {given}, then ' if given else ''}{relation_text(self.conclusion)}"
 
 
 @rule(Implies, SignIdentity)

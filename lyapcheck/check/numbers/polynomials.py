@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from math import isqrt
+from math import isqrt, prod
 from typing import NoReturn
 
 from flint import arb, fmpq, fmpq_mpoly, fmpq_poly
@@ -65,23 +65,16 @@ def count_roots(poly: fmpq_poly, low: End, high: End) -> int:
     return _changes(chain, low, -1) - _changes(chain, high, 1) - at_high
 
 
-def odd_part(poly: fmpq_poly) -> fmpq_poly:
-    """The product of the square-free factors of odd multiplicity: it changes sign where ``poly`` does."""
-    result = fmpq_poly([1])
-    for factor, multiplicity in poly.factor_squarefree()[1]:
-        if multiplicity % 2:
-            result *= factor
-    return result
-
-
 def nonnegative_on(poly: fmpq_poly, low: End, high: End) -> bool:
     """Whether ``poly >= 0`` on the closed interval from low to high; never undecided."""
     if not poly or _positive_by_coefficients(poly, low, high):
         return True
     if low is not None and low == high:
         return sign_at(poly, low) >= 0
+    # the product of the square-free factors of odd multiplicity changes sign where the polynomial does
+    odd = (factor for factor, multiplicity in poly.factor_squarefree()[1] if multiplicity % 2)
     point = inner_point(poly, low, high)
-    return sign_at(poly, point) >= 0 and count_roots(odd_part(poly), low, high) == 0
+    return sign_at(poly, point) >= 0 and count_roots(prod(odd, start=fmpq_poly([1])), low, high) == 0
 
 
 def positive_on(
