@@ -30,6 +30,9 @@ ASKED = {
     "gate, breaks (19) at nominal numbers": ("gate", "ranged.toml"),
     "gate, undecided as run": ("gate", "gains.toml", "--period", "20 ms", "--condition", "sampled"),
     "gate, falls": ("gate", "gains.toml", "--unknown-payload", "8"),
+    "gate, too weak": ("gate", "weak.toml"),
+    "gate, unstable as run": ("gate", "gains.toml", "--period", "100 ms", "--delay", "3"),
+    "gate, unknown payload without an arm": ("gate", "own.toml", "--unknown-payload", "1"),
     "gate, too heavy": ("gate", "gains.toml", "--unknown-payload", "30"),
     "gate, seven joints": ("gate", PANDA),
     "bounds": ("bounds", "gains.toml", "--time", "1"),
@@ -145,6 +148,11 @@ def in_a_folder_with_files(tmp_path_factory, in_this_process):
         for name, text in FILES.items():
             (folder / name).write_text(text, encoding="utf-8")
         assert invoke("init", ".").exit_code == 0
+        arm = Path("arm.toml").read_text(encoding="utf-8")
+        Path("weak_arm.toml").write_text(
+            arm.replace("torque_limit = 80", "torque_limit = 3"), encoding="utf-8"
+        )
+        Path("weak.toml").write_text(f'robot = "weak_arm.toml"\n{FREE}', encoding="utf-8")
         yield
 
 
@@ -231,6 +239,23 @@ SEARCHES = {
 def test_a_next_command_that_searches_is_about_what_was_asked(name, then):
     _, document = answered(name)
     assert document.next == f"lyapcheck {then}"
+
+
+FACTS = {
+    "gate, unstable as run": "! first: accepted; unstable at 100 ms without dry friction or unknown gravity",
+    "gate, unknown payload without an arm": "! b: accepted; open: holds",
+    "simulate, over ranges": "! arm: no limit cycle seen in 3 runs over the ranges",
+    "simulate, unknown payload": (
+        "! arm: no limit cycle seen in 1 gain set, a payload of up to 0.5 kg unknown"
+    ),
+    "gate, too weak": "✗ c: rejected, (10p) at shoulder, (19) at shoulder and elbow",
+}
+"""What the first line must not leave out."""
+
+
+@pytest.mark.parametrize("name", FACTS)
+def test_the_first_line_says_the_worst(name):
+    assert answered(name)[1].title == FACTS[name]
 
 
 def test_a_table_of_gains_loses_no_joint():

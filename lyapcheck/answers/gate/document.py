@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers import arm_words, assumed_line, file_words
 from lyapcheck.answers.gate import accepting, proved_otherwise, remarks, without_19
-from lyapcheck.answers.gate.friction import farthest, swinging, without_friction
+from lyapcheck.answers.gate.friction import ANYWHERE, farthest, swinging, without_friction
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
 from lyapcheck.answers.gate.words import FIELDS, RULES, SYMBOLS, Row, about, advices, repairs
-from lyapcheck.answers.running import INFINITE, open_as_run
+from lyapcheck.answers.running import INFINITE, open_as_run, unstable_alone
 from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, farthest_unknown
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
-from lyapcheck.control.gains import CERTIFICATES
+from lyapcheck.control.gains import CERTIFICATES, Bounds
 from lyapcheck.control.sampling import exact_only
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
@@ -78,6 +78,8 @@ def _of_one(result: GateResult) -> tuple[list[str], list[str], list[Block]]:
         details: list[Block] = [Section("(19)", (Bullets(tuple(aside)),))] if aside else []
         found = fact(result)
         open_ = open_as_run(result.checks)
+        if found and found[1] == unstable_alone(result.checks):
+            open_ = open_as_run(result.checks, unstable=False)
         lead = [_meaning(result), *([open_] if open_ and found and found[1] != open_ else [])]
         if len(standing(result)) > HEADLINE and len(joined := "; ".join(lead)) <= HEADLINE:
             lead = [joined]
@@ -108,7 +110,8 @@ def _meaning(result: GateResult, before: str = "") -> str:
     words = ", ".join(_holds(result, name) for name in result.deciding)
     if set(result.deciding) & set(CERTIFICATES) and ACCEPTED not in torques:
         words += " while no motor saturates"
-    where = "for the numbers under [bounds]" if limits.model is None else f"for {limits.model.name}"
+    stated = "" if result.file.bounds == Bounds() else " under [bounds]"
+    where = "under [bounds]" if limits.model is None else f"for {limits.model.name}{stated}"
     return result.says(f"{before}{words}, proved {where}{' over its ranges' if limits.varied else ''}")
 
 
@@ -150,7 +153,8 @@ def standing(result: GateResult) -> str:
 def _where(result: GateResult) -> str:
     ids: dict[str, list[str]] = {}
     for check in result.failures:
-        ids.setdefault(check.id, []).append(Row(result, check).joint)
+        if check.verdict == result.verdict:
+            ids.setdefault(check.id, []).append(Row(result, check).joint)
     few = [f"({name}) at {' and '.join(joints)}" for name, joints in ids.items() if len(joints) < 3]
     few += [f"({name}) at {len(joints)} joints" for name, joints in ids.items() if len(joints) > 2]
     return f", {', '.join(few).replace(' at all', '')}" if few else ""
@@ -170,8 +174,13 @@ def _counted(answer: GateAnswer, word: str, count: int) -> str:
 def fact(result: GateResult) -> Fact | None:
     """What decides nothing of a set that is accepted: rest beside the goal, else the loop as it is run."""
     model = result.limits.model
-    if model is None or not result.explained or result.verdict != ACCEPTED:
+    if not result.explained or result.verdict != ACCEPTED:
         return None
+    if model is None:
+        open_ = open_as_run(result.checks)
+        return (Fraction(0), open_) if open_ else None
+    if alone := unstable_alone(result.checks):
+        return ANYWHERE, alone
     unknown = farthest_unknown(result.checks)
     if unknown is not None:
         return unknown[0], unknown[1] + without_friction(model) + exact_only(result.record)
@@ -255,6 +264,9 @@ def _next(answer: GateAnswer) -> str:
         return command(
             "gate", *again, *(word for name in dict.fromkeys(other) for word in ("--condition", name))
         )
+    torques = (check for check in result.failures if check.id in ("10", "10p", "10i"))
+    if robot and any(check.limit is not None and check.limit.upper <= 0 for check in torques):
+        return command("robot", *robot, "-v")  # gravity alone needs the motor, and no gains help
     if result.verdict == REJECTED and limits.model is not None and result.m is not None:
         held = HOLDS not in [check.id for check in result.failures]  # else for gains beyond (10p), by proof
         return command("tune", *robot, "--m", result.m, *([] if held else TARGETS))

@@ -147,7 +147,11 @@ class RobotReport(Answer):
         arm = self.path or model.name
         limits = all(number is not None for number in model.torque_limit)
         then = ("tune", *arm_words(arm), "--m", "1") if limits else ("robot", *arm_words(arm), "-v")
-        if limits and not all(number.bounds[0] for number in model.viscous):
+        loads = {row.of.name: row.known.lower or 0 for row in self.rows}
+        limited = enumerate(model.torque_limit, start=1)
+        if any(number is not None and loads.get(f"k_g{i}", 0) >= number.bounds[0] for i, number in limited):
+            then = ("robot", *arm_words(arm), "-v")  # gravity alone needs the motor
+        elif limits and not all(number.bounds[0] for number in model.viscous):
             then += ("--overshoot", "5", "--settle", "2")  # (19) admits no gains there
         return Document(
             _title(self),

@@ -81,9 +81,21 @@ def running_sentences(
     return said
 
 
-def open_as_run(checks: Sequence[Check]) -> str:
-    """Which of these is not decided, or for some starts only, for a headline; empty where none is."""
+def unstable_alone(checks: Sequence[Check]) -> str:
+    """That the loop is unstable but for what acts on it; empty where that is not shown."""
+    return next(
+        (text for one in checks if isinstance(one, SampledCheck) and (text := one.unstable_alone)), ""
+    )
+
+
+def open_as_run(checks: Sequence[Check], unstable: bool = True) -> str:
+    """Which of these is not decided, or for some starts only, for a headline; empty where none is.
+
+    Args:
+        checks: of a gain set.
+        unstable: whether `unstable_alone` is said as well.
+    """
     narrow = [f"{one.id} {one.narrow} only" for one in checks if isinstance(one, SampledCheck) and one.narrow]
     open_ = dict.fromkeys(check.id for check in checks if check.id in (SAMPLED, HOLDS) and check.reason)
-    alone = [text for one in checks if isinstance(one, SampledCheck) and (text := one.unstable_alone)]
+    alone = [text] if unstable and (text := unstable_alone(checks)) else []
     return "; ".join([*narrow, *([f"open: {', '.join(open_)}"] if open_ else []), *alone])

@@ -18,6 +18,7 @@ from lyapcheck.output.digits import NONE, at_least, at_most, shown
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.escapes import csv_text
 from lyapcheck.output.fields import Field
+from lyapcheck.output.text import HEADLINE
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -136,12 +137,13 @@ class Simulation(Answer, Generic[Result]):
             *(overview if one else []),
             *map(self.section, self.results),
         )
+        title, lead = self._title(), [text for text in (self.far_off, *self.motions()) if text]
         then = "" if self.file is None else command("gate", *file_words(self.file, self.robot))
         return Document(
-            self._title(),
+            title,
             tuple(short),
             (*self.legend, NUMERIC, *self._notes()),
-            tuple(filter(None, (self.far_off, *self.motions()))),
+            tuple(lead[: 1 if len(title) > HEADLINE else 2]),
             details,
             next=then,
         )
@@ -220,8 +222,9 @@ class Simulation(Answer, Generic[Result]):
         levels = [self.level(name) for name in names]
         robots = ", ".join(dict.fromkeys(one.robot for one in self.results)) or "simulation"
         left_out = any(one.without_dry_friction for one in self.results)
-        left = [*["the dry friction"] * left_out, *["the [loop]"] * self.unsampled]
-        ideal = f", without {' and '.join(left)} of the file" if left else ""
+        left = [*["dry friction"] * left_out, *["[loop]"] * self.unsampled]
+        the = "the " if len(left) == 1 else ""
+        ideal = f", without {the}{' and '.join(left)} of the file" if left else ""
         counted = f"{'run' if self.arms else 'gain set'}{'' if len(names) == 1 else 's'}"
         count = f"{len(names)} {counted}{' over the ranges' * bool(self.arms)}{self.unknown}{ideal}"
         failed, open_ = levels.count(Level.FAILED), levels.count(Level.UNDECIDED)

@@ -180,8 +180,9 @@ class SetPointRuns(Simulation[Run]):
         return any(one.name == name and one.kind != EXPERIMENT for one in self.results)
 
     def motions(self) -> Sequence[str]:
-        """From where to where and at which period; of runs to the end and runs that were cut short."""
-        said = dict.fromkeys(f"simulated{_rate(one.loop)}: {motion(one, _way(one))}" for one in self.results)
+        """From where to where and at which period, first of runs that were cut short."""
+        runs = sorted(self.results, key=lambda one: one.complete)
+        said = dict.fromkeys(f"simulated{_rate(one.loop)}: {motion(one, _way(one))}" for one in runs)
         return tuple(said)[: 1 if self.far_off else 2]
 
     def section(self, one: Run) -> Section:

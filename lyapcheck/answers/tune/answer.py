@@ -187,6 +187,8 @@ class Tuning(Answer):
         model, arm = self.limits.model, arm_words(self.robot)
         assumed = "; ".join(self.limits.assumptions) if model is None else assumed_line(model, self.robot)
         then = command("tune", *arm, "--m", "1", "--overshoot", "5", "--settle", "2")
+        if not any(item.joints or item.rejected for item in self.sets):  # no targets help
+            then = command("robot", *arm, "-v")
         lead = (self._hardly,) if self._hardly else ()
         return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)
 

@@ -9,6 +9,7 @@ from lyapcheck.cli.show import open_folder, show, write_whole
 from lyapcheck.cli.values import Complaints, gains_on_arm, loop_of, require_joints
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.files.reader import holds
+from lyapcheck.output.answer import FORMATS
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ def arguments(parser: Parser) -> None:
     parser.add_number("--hold-samples", int, about, default=3, least=0, most=MOST_HELD)
     parser.add_loop()
     parser.add_robot()
-    parser.add_format()
+    parser.add_format(FORMATS)
 
 
 def run(
