@@ -109,7 +109,9 @@ class _Writer:
                     yield from self._wrapped(text)
                 case doc.Bullets(items):
                     yield from (line for item in items for line in self._hanging(item))
-                case doc.Equation(text, latex) if "\n" in text and self._said(text) != text:
+                case doc.Equation(text, latex) if "\n" in text and any(
+                    self._said(x) != x for x in text.split("\n")
+                ):
                     yield f"    {self._said(latex)}"  # names would move what stands in lines above each other
                 case doc.Code(text) | doc.Equation(text):
                     yield from (f"    {self._said(line)}" for line in text.splitlines())
