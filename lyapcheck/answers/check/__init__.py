@@ -15,7 +15,6 @@ from lyapcheck.check.kinds.stability import Stable
 from lyapcheck.check.kinds.stable_arm import StableArm
 from lyapcheck.check.statement import Statement
 from lyapcheck.kernel import GRADE, accepted_before
-from lyapcheck.kernel import GRADE as KERNEL
 from lyapcheck.output import fields
 from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
@@ -49,7 +48,7 @@ LEVELS = {
     Verdict.UNDECIDED: Level.UNDECIDED,
 }
 GRADES = {
-    KERNEL: "kernel: a theorem of Coq's kernel as well; recheck --kernel asks it anew.",
+    GRADE: "kernel: a theorem of Coq's kernel as well; recheck --kernel asks it anew.",
     Grade.EXACT.label: "exact: rational numbers and symbolic normal forms.",
     Grade.ENCLOSURE.label: "enclosure: balls that enclose the exact numbers.",
     Grade.NUMERIC.label: "numeric: nothing that could decide the claim.",
@@ -128,7 +127,14 @@ class ClaimResult:
     @property
     def support(self) -> tuple[str, ...]:
         """What supports the verdict: the witness, the reason or a remark, the claims that broke it."""
-        return tuple(self._support())
+        result, reason = [], one_line(self.decision.reason)
+        if (witness := self.decision.witness) is not None:
+            result.append(f"witness: {witness_text(witness)}")
+        if reason:
+            result.append(f"{REASONS.get(self.verdict, 'reason')}: {reason}")
+        if self.broken and "rests on" not in reason:
+            result.append(f"rests on {', '.join(self.broken)}, not proved")
+        return tuple(result)
 
     def data(self, timings: bool = False) -> dict[str, Any]:
         """The row as plain data; ``seconds`` only when asked for."""
@@ -141,15 +147,6 @@ class ClaimResult:
         del row["evidence"]
         row |= {key: " ".join(row[key]) for key in ("uses", "broken")}
         return row | {"witness": None if witness is None else witness_text(witness)}
-
-    def _support(self) -> Iterator[str]:
-        witness, reason = self.decision.witness, one_line(self.decision.reason)
-        if witness is not None:
-            yield f"witness: {witness_text(witness)}"
-        if reason:
-            yield f"{REASONS.get(self.verdict, 'reason')}: {reason}"
-        if self.broken and "rests on" not in reason:
-            yield f"rests on {', '.join(self.broken)}, not proved"
 
 
 def one_line(text: str) -> str:
@@ -270,14 +267,13 @@ class ProofResult(Answer):
         elif self.extent != SHORT and failed:
             first = next(row for verdict in open_ for row in self._with(verdict))
             then = command("explain", first.id, "--proof", script)
+        blocks: tuple[Block, ...] = (*self._index(), *self._of_nothing())
         if self.extent == ALL:
-            shown: tuple[Block, ...] = (*self._of_nothing(), *every)
-            return Document(self._title(), shown, notes, lead, (), self.assumed, then)
-        if self.extent == FAILED:
-            shown = tuple(self._sections(open_))
-            return Document(self._title(), shown, notes, lead, (), self.assumed, then)
-        blocks = (*self._index(), *self._of_nothing())
-        return Document(self._title(), blocks, notes, lead, every, self.assumed, then)
+            blocks = (*self._of_nothing(), *every)
+        elif self.extent == FAILED:
+            blocks = tuple(self._sections(open_))
+        details = every if self.extent == SHORT else ()
+        return Document(self._title(), blocks, notes, lead, details, self.assumed, then)
 
     def data(self) -> dict[str, Any]:
         """``claims: [{id, m, statement, verdict, …}]``, and what they were asked for."""
