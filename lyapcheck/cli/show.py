@@ -40,6 +40,8 @@ WRITING = ("certificates", "csv", "plot", "out", "export", "timings")
 APART = (*VIEWING, *WRITING, "format", "assumptions", "failed", "all", "kv_share", "damping")
 """Options of a command that it does not need again: what it shows and writes, and of `tune` what no target
 goes with."""
+RATES = {"--rate", "--period"}
+"""Two options for one number."""
 OTHERS_NAMED = 8
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The variable by which GitHub names the file that it shows under a job."""
@@ -193,7 +195,7 @@ def _following(parser: Parser, values: Mapping[str, Any], line: str) -> str:
         if not (kept and given and (action.dest, action.metavar) in known):
             continue
         option = action.option_strings[-1]
-        if option not in words:
+        if not (RATES if option in RATES else {option}) & set(words):
             each = value if isinstance(value, list) else [value]
             words += [word for one in each for word in ([option] if one is True else [option, str(one)])]
     return shlex.join(words)

@@ -164,6 +164,22 @@ def loop_of_options(options: Mapping[str, Any]) -> LoopEntry:
     return result
 
 
+def loop_words(own: LoopEntry, used: LoopRecord | None) -> list[str]:
+    """What a gain file says of the loop as words of a command line, with the values that were used."""
+    if used is None:
+        return []
+    values = {name: getattr(used, name) for name, value in vars(own).items() if value is not None}
+    if used.lowpass is not None:
+        values.pop("filter", None)
+    period, words = values.get("period"), []
+    if period is not None and period.numerator == 1:
+        values["period"], words = None, ["--rate", str(1 / period)]
+    for line in LoopEntry(**values).toml.splitlines()[1:]:
+        key, _, value = line.partition(" = ")
+        words += [f"--{key.replace('_', '-')}", value.strip('"[]').replace(" ", "")]
+    return words
+
+
 def _of_option(problem: Problem, options: Mapping[str, Any]) -> Problem:
     """What is wrong with a key of ``[loop]``, said of the option that has its name and of what was typed."""
     key, _, _ = problem.key.partition("[")

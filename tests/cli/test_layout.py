@@ -115,6 +115,7 @@ kv = [0.02]
 RANGED = SATURATING.replace("[60, 40, 5]", "[20, 40, 5]").replace("[0.2, 0.2, 0.2]", "[3, 4, 1]")
 FILES = {
     "saturating.toml": SATURATING,
+    "looped.toml": SATURATING.replace("[[gains]]", "[loop]\nrate = 500\nfilter = [0.5, 0.5]\n[[gains]]"),
     "ranged.toml": RANGED,
     "own.toml": OWN,
     "free.toml": FREE,
@@ -209,6 +210,8 @@ def test_its_next_command_works(name):
 KEEPS = {
     "gate gains.toml --vary viscous=-30%..+30%": "simulate gains.toml --vary viscous=-30%..+30%",
     "gate saturating.toml --vary coulomb=-9%..0%": "tune buap3 --m 1 --vary coulomb=-9%..0%",
+    "gate looped.toml": "tune buap3 --m 1 --rate 500 --filter 0.5,0.5",
+    "gate looped.toml --period 3ms --delay 2": "tune buap3 --m 1 --period 3000us --filter 0.5,0.5 --delay 2",
     "gate gains.toml --period 3ms --condition sampled": "gate gains.toml --explain --condition sampled "
     "--period 3ms",
     "gate gains.toml --rate 500 --delay 2": "simulate gains.toml --rate 500 --delay 2",

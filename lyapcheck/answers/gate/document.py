@@ -17,7 +17,7 @@ from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, farthest_unknown
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
 from lyapcheck.control.gains import CERTIFICATES, Bounds
-from lyapcheck.control.sampling import exact_only
+from lyapcheck.control.sampling import exact_only, loop_words
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
 from lyapcheck.output.text import HEADLINE
@@ -269,7 +269,8 @@ def _next(answer: GateAnswer) -> str:
         return command("robot", *robot, "-v")  # gravity alone needs the motor, and no gains help
     if result.verdict == REJECTED and limits.model is not None and result.m is not None:
         held = HOLDS not in [check.id for check in result.failures]  # else for gains beyond (10p), by proof
-        return command("tune", *robot, "--m", result.m, *([] if held else TARGETS))
+        words = loop_words(result.file.loop, result.record)
+        return command("tune", *robot, "--m", result.m, *words, *([] if held else TARGETS))
     plain = result.verdict == ACCEPTED and limits.model is not None and result.gains.angle_unit == "rad"
     unknown = any(check.reason == NO_LINKS for check in result.checks)  # no run knows that payload either
     return command("simulate", *again) if plain and not unknown else command("gate", *again, "--explain")
