@@ -194,7 +194,9 @@ class BenchTuning(Answer):
         joints: list[Block] = []
         if best is not None:
             joints.append(table(self._fields, [(best, i) for i in range(len(self.joints))]))
-        first = [*(self.missed(best) if best else ()), *lines, *self.model.doubts][:MOST_REMARKS]
+        aside = self.arms and self.arms not in self._simulated
+        apart = [f"each motion was tried on {self.arms}"] if aside else []
+        first = [*apart, *(self.missed(best) if best else ()), *lines, *self.model.doubts][:MOST_REMARKS]
         blocks = (*joints, *([Bullets(tuple(first))] if first else []))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
         found = [one.result for one in self.sets]
@@ -217,16 +219,21 @@ class BenchTuning(Answer):
         ]
         return command("tune", *arm, *asked, *([] if self.good else ["--best"]), "--out", "tuned.toml")
 
+    @property
+    def _simulated(self) -> str:
+        """What was simulated, with the arms if a line has room for them."""
+        motions = f"simulated: {self.scope.rpartition(', ')[0]}"
+        with_arms = f"{motions}, each on {self.arms}" if self.arms else motions
+        simulated = with_arms if len(with_arms) <= HEADLINE else motions
+        arm = f" on {self.model.name}" if self.dry else ""  # for which line 1 has no room
+        return simulated + arm if len(simulated + arm) <= HEADLINE else simulated
+
     def _lead(self) -> tuple[str, ...]:
         """What was simulated, and how the best set is shown to be stable."""
         best = self.best
-        arms = f", each on {self.arms}" if self.arms else ""
-        simulated = f"simulated: {self.scope.rpartition(', ')[0]}{arms}"
-        arm = f" on {self.model.name}" if self.dry else ""  # for which line 1 has no room
-        simulated += arm if len(simulated + arm) <= HEADLINE else ""
         if best is None or best.result is None:
-            return (simulated,)
-        return simulated, best.result.says(f"{best.shown}; no motor can saturate")
+            return (self._simulated,)
+        return self._simulated, best.result.says(f"{best.shown}; no motor can saturate")
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, way, stable_by, met, worst, joints: [...]}]``, runs to six digits."""
