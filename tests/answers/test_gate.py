@@ -3,6 +3,7 @@
 import shutil
 import sys
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from lyapcheck.control import limits
 from lyapcheck.control.gains import paper_gain_file, read_gain_file
 from lyapcheck.control.limits import arm_limits
 from lyapcheck.errors import InputError
+from lyapcheck.robots import load
 
 
 def table2(**options):
@@ -169,3 +171,16 @@ def test_a_summary_of_many_sets_keeps_to_the_size_that_is_shown(monkeypatch, tmp
     assert len(text.encode()) < 2**20
     assert text.startswith("# ✗ 1350 rejected; 150 break (19), stability proved otherwise; 1500 accepted; ")
     assert "## ✓" not in text
+
+
+@pytest.mark.parametrize(
+    ("limit", "said"), [(150, "the joint rests wherever"), (10, "the joint may rest wherever")]
+)
+def test_dry_friction_holds_a_joint_whose_motor_carries_gravity(limit, said, tmp_path):
+    """Of gravity up to 40 N·m a motor of 10 N·m and a friction of 7 N·m leave a part."""
+    arm = load("reyes-kelly2")
+    shoulder, elbow = arm.torque_limit
+    weak = replace(arm, torque_limit=(replace(shoulder, value=Fraction(limit)), elbow))
+    text = '[[gains]]\nname = "a"\nm = 1\nkp = [5, 20]\nkv = [0.1, 0.1]\ncondition = ["lasalle"]\n'
+    (tmp_path / "g.toml").write_text(text)
+    assert said in " ".join(str(gate(tmp_path / "g.toml", weak)).split())

@@ -207,7 +207,8 @@ def friction_lines(result: GateResult, model: RobotModel, stuck: Sequence[int]) 
     lines = []
     for i in stuck:
         number, most, k = model.coulomb[i], decimal_text(friction[i]), decimal_text(gains.kp[i])
-        upto, may = ("up to ", "may rest") if number is not None and number.ranged else ("", "rests")
+        ranged, weak = number is not None and number.ranged, stalls(Fraction(0), room[i])
+        upto, may = "up to " * ranged, "may rest" if ranged or weak else "rests"  # a weak motor lets it fall
         lines.append(
             f"γ k_p of {model.joints[i]} does not exceed its dry friction of {upto}{most} N·m{assumed}: "
             f"the joint {may} wherever it stops; k_p = {k} is in N·m"
