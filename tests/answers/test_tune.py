@@ -11,9 +11,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lyapcheck.answers.gate import gate
-from lyapcheck.answers.tune import _limits, _rooms, tune
-from lyapcheck.answers.tune.gain_file import gain_file_text
-from lyapcheck.answers.tune.largest import best_units, binding, damping_of, propose
+from lyapcheck.answers.tune import _limits, tune
+from lyapcheck.answers.tune.largest import best_units, binding, damping_of, gain_ranges, propose
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.control.gains import Bounds, read_gain_file
 from lyapcheck.files.decimals import decimal_text
@@ -55,7 +54,7 @@ def raised(text, m, key, joint, digits):
 
 def require_largest(tuning, members, folder):
     """Accepted as it is, rejected with any gain of any set one unit larger."""
-    text = gain_file_text(tuning)
+    text = tuning.gain_file()
     assert [result.verdict for result in judged(text, folder)] == ["accepted"] * len(members)
     for index, m in enumerate(members):
         for key in ("kp", "kv"):
@@ -192,11 +191,11 @@ def largest_of(function):
     return function(low)
 
 
-def gain_ranges(robot="buap3", m=2, **targets):
+def ranges_of(robot="buap3", m=2, **targets):
     model = load(robot)
     wanted = Targets(**targets).for_joints(model.n)
     limits, _ = _limits(model, wanted, Bounds())
-    return _rooms(m, model, limits, wanted)
+    return gain_ranges(m, model, limits, wanted)
 
 
 @pytest.mark.parametrize(
@@ -209,22 +208,22 @@ def gain_ranges(robot="buap3", m=2, **targets):
     ],
 )
 def test_the_cone_program_and_exact_search_agree(targets):
-    every = gain_ranges(**targets)
-    proposal = propose(every)
-    assert proposal.status == "optimal"
-    for gain_range, kp in zip(every, proposal.kp, strict=True):
+    every = ranges_of(**targets)
+    status, proposed = propose(every)
+    assert status == "optimal"
+    for gain_range, (kp, _) in zip(every, proposed, strict=True):
         exact = best_units(gain_range)[0] * gain_range.unit
         assert float(exact) == pytest.approx(kp, rel=1e-5, abs=2.1 * float(gain_range.unit))
 
 
 @given(start=st.floats(-1, 1))
 def test_a_wrong_proposal_changes_nothing(start):
-    for gain_range in gain_ranges(damping=(Fraction(3, 100),), kv_share=(Fraction(1, 20),)):
+    for gain_range in ranges_of(damping=(Fraction(3, 100),), kv_share=(Fraction(1, 20),)):
         assert best_units(gain_range, start) == best_units(gain_range)
 
 
 def test_smaller_gains_are_found_out():
-    gain_range = gain_ranges()[0]
+    gain_range = ranges_of()[0]
     kp, kv = best_units(gain_range)
     binding(gain_range, kp, kv)
     for worse in ((kp - 1, kv), (kp - 1, kv - 1)):

@@ -15,13 +15,13 @@ from hypothesis import strategies as st
 
 from lyapcheck import robots
 from lyapcheck.answers.gate import gate
+from lyapcheck.answers.tune import search
 from lyapcheck.answers.tune.bench import BenchTuning, Candidate
-from lyapcheck.answers.tune.gain_file import bench_file_text
 from lyapcheck.answers.tune.search import Search, accepted, tune_for
 from lyapcheck.answers.tune.targets import limits_with
 from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried
 from lyapcheck.cli import main as cli
-from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
+from lyapcheck.control.gains import Bounds, GainSet, paper_gain_file, read_gain_file
 from lyapcheck.control.limits import varied_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
@@ -104,7 +104,7 @@ def test_what_is_promised_of_gains_is_what_a_run_shows(tuned: BenchTuning):
 
 @pytest.mark.slow
 def test_the_gate_accepts_the_gain_file(tuned: BenchTuning, tmp_path: Path) -> None:
-    (tmp_path / "g.toml").write_text(bench_file_text(tuned, tmp_path))
+    (tmp_path / "g.toml").write_text(tuned.gain_file(tmp_path))
     (by_proof,) = gate(read_gain_file(tmp_path / "g.toml"))
     assert (by_proof.name, by_proof.verdict) == ("tau_m1_proof", "accepted")
     assert by_proof.deciding == ("10i", "scalar")
@@ -234,11 +234,10 @@ def test_targets_are_written_only_where_a_set_meets_them(tmp_path: Path) -> None
 
 
 KNOWN = st.one_of(st.just(0.0), st.just(math.inf), st.floats(0, 1e9))
-NUMBERS = st.one_of(st.just(math.nan), KNOWN)
 
 
 @given(
-    rows=st.lists(st.tuples(*[st.tuples(NUMBERS, NUMBERS, NUMBERS, KNOWN)] * 2), min_size=0, max_size=3),
+    rows=st.lists(st.tuples(*[st.tuples(*[KNOWN] * 4)] * 2), min_size=0, max_size=3),
     asked=st.sampled_from(
         [Wishes(overshoot=5), Wishes(settle=1e-9), Wishes(rest_error=1e6), Wishes(5, 1.5, 0.8, 20)]
     ),
@@ -251,7 +250,7 @@ def test_every_number_of_a_trial_has_words(
     sets = []
     for k, row in enumerate(rows):
         columns = [np.array(column) for column in zip(*row, strict=True)]
-        trial = Trial(*columns, late=np.zeros(2), T=3.0, kept=kept)
+        trial = Trial(*columns[:3], np.zeros(2), columns[3], T=3.0, kept=kept)
         way = ("19", "proof", "19")[k]
         gains = GainSet(
             f"s{k}", k + 1, (Fraction(1),) * 2, (Fraction(1),) * 2, condition=("10p", "19")[: 2 * k]
@@ -262,8 +261,27 @@ def test_every_number_of_a_trial_has_words(
         assert tuning.written(form)
     assert (tuning.exit == Exit.PROVED) == tuning.document().title.startswith(("!", "✓"))
     assert "nan" not in str(tuning)
-    assert bench_file_text(tuning) == "" or tuning.good
-    assert bool(bench_file_text(tuning, best=True)) == bool(tuning.sets)
+    assert tuning.gain_file() == "" or tuning.good
+    assert bool(replace(tuning, marked=True).gain_file()) == bool(tuning.sets)
+
+
+def test_a_torque_limit_that_the_user_gives_counts_like_one_of_the_arm_file(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Shares are of the limit that is given, also where the file has another or none."""
+    monkeypatch.setattr(search, "MOST_STEPS", 300)
+    told, other, bare = (tmp_path / f"{name}.toml" for name in ("told", "other", "bare"))
+    text = ONE_JOINT.format(viscous=0.1, torque=10, more="")
+    told.write_text(text)
+    other.write_text(text.replace("torque_limit = 10", "torque_limit = 40"))
+    bare.write_text(text.replace("torque_limit = 10", ""))
+    bench = Trials(Wishes(settle=1, peak_share=0.5), (task_for(1, [0.8], None, None, 5.0),), ("proof",))
+    shares = []
+    for arm, bounds in ((told, None), *((arm, Bounds(torque=(Fraction(10),))) for arm in (other, bare))):
+        (one,) = tune_for(str(arm), bench, [1], bounds).sets
+        shares.append((one.gains, *one.trial.share))
+    assert shares[0] == shares[1] == shares[2]
+    assert shares[0][1] > 0
 
 
 def test_an_error_at_rest_is_not_met_without_a_known_dry_friction() -> None:

@@ -18,12 +18,9 @@ from lyapcheck.answers.tune.answer import (
     Tuning,
 )
 from lyapcheck.answers.tune.largest import (
-    Damping,
-    GainRange,
     best_units,
     binding,
-    damping_of,
-    gain_range_of,
+    gain_ranges,
     obstacle,
     propose,
 )
@@ -31,7 +28,6 @@ from lyapcheck.answers.tune.targets import Targets, arms_over, impossible, limit
 from lyapcheck.control.conditions import ACCEPTED
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.limits import Limits
-from lyapcheck.family.base import named
 from lyapcheck.files.decimals import round_down
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import ArmLike, RobotModel
@@ -82,35 +78,33 @@ def tune(
     model, ranged = arms_over(robot, varies)
     wanted = (targets or Targets()).for_joints(model.n)
     limits, repeated = _limits(ranged, wanted, bounds or Bounds())
-    found = tuple(_tuned(m, model, limits, wanted) for m in dict.fromkeys(members))
-    sets = _confirmed(found, model, repeated, loop)
-    return Tuning(model.address, model.title, wanted, limits, repeated, sets, loop)
-
-
-def _repeated(bounds: Bounds, limits: Limits) -> Bounds:
-    """The bounds that the gain file must repeat: all of them, where they are those of ranges.
-
-    Of gravity those that the arm keeps, whatever was given.
-    """
-    known = tuple(limit for limit in limits.torque if limit is not None)
-    if not limits.varied:
-        return replace(bounds, gravity=None if bounds.gravity is None else limits.gravity)
-    return Bounds(limits.viscous_min or None, known if len(known) == limits.n else None, limits.gravity)
+    sets = [_tuned(m, model, limits, wanted) for m in dict.fromkeys(members)]
+    if gains := tuple(item.gains for item in sets if item.gains is not None):
+        file = GainFile("tuned gains", None, gains, repeated, loop=loop)
+        results = {result.name: result for result in gate(file, model)}
+        sets = [item if item.gains is None else _as_judged(item, results[item.name]) for item in sets]
+    return Tuning(model.address, model.title, wanted, limits, repeated, tuple(sets), loop)
 
 
 def _limits(arm: RobotModel, targets: Targets, bounds: Bounds) -> tuple[Limits, Bounds]:
-    """The limits to tune to, and those that the gain file must repeat."""
+    """The limits to tune to, and those that the gain file must repeat: all, where they are those of ranges.
+
+    Of gravity those that the arm keeps, whatever was given.
+    """
     limits = limits_with(arm, bounds)
-    bounds = _repeated(bounds, limits)
-    if all(share == 1 for share in targets.peak_share):
-        return limits, bounds
-    torque = tuple(
-        None if limit is None else round_down(limit * share, WRITTEN_PLACES)
-        for limit, share in zip(limits.torque, targets.peak_share, strict=True)
-    )
-    known = tuple(limit for limit in torque if limit is not None)
-    repeated = replace(bounds, torque=known if len(known) == arm.n else bounds.torque)
-    return replace(limits, torque=torque), repeated
+    pairs = zip(limits.torque, targets.peak_share, strict=True)
+    less = [
+        most if most is None or share == 1 else round_down(most * share, WRITTEN_PLACES)
+        for most, share in pairs
+    ]
+    known = tuple(most for most in less if most is not None)
+    if limits.varied:
+        bounds = Bounds(limits.viscous_min or None, None, limits.gravity)
+    elif bounds.gravity is not None:
+        bounds = replace(bounds, gravity=limits.gravity)
+    if len(known) == arm.n and (limits.varied or min(targets.peak_share) < 1):
+        bounds = replace(bounds, torque=known)
+    return replace(limits, torque=tuple(less)), bounds
 
 
 def _tuned(m: int, model: RobotModel, limits: Limits, targets: Targets) -> TunedSet:
@@ -120,53 +114,30 @@ def _tuned(m: int, model: RobotModel, limits: Limits, targets: Targets) -> Tuned
         return TunedSet(name, m, INFEASIBLE, reasons=tuple(reasons))
     if reasons := unknown(limits):
         return TunedSet(name, m, UNDECIDED, reasons=tuple(reasons))
-    gain_ranges = _rooms(m, model, limits, targets)
-    obstacles = [obstacle(gain_range, i, limits, targets) for i, gain_range in enumerate(gain_ranges)]
+    ranges = gain_ranges(m, model, limits, targets)
+    obstacles = [obstacle(each, i, limits, targets) for i, each in enumerate(ranges)]
     if any(obstacles):
         return TunedSet(name, m, INFEASIBLE, reasons=tuple(filter(None, obstacles)))
-    proposal = propose(gain_ranges)
-    starts = proposal.kv or (None,) * len(gain_ranges)
-    units = [best_units(gain_range, start) for gain_range, start in zip(gain_ranges, starts, strict=True)]
-    joints = zip(limits.joints, gain_ranges, units, strict=True)
-    return TunedSet(name, m, TUNED, tuple(_joint(*each) for each in joints), program=proposal.status)
-
-
-def _rooms(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[GainRange]:
-    gamma = named("hyperbolic", m).gamma
-    dampings: Sequence[Damping | None] = (None,) * model.n
-    if targets.damping:
-        dampings = damping_of(limits.model or model, m, targets.damping, limits.viscous_min)
-    return [gain_range_of(i, limits, gamma, targets, damping) for i, damping in enumerate(dampings)]
-
-
-def _joint(name: str, gain_range: GainRange, units: tuple[int, int]) -> TunedJoint:
-    kp_bound, kv_bound = binding(gain_range, *units)
-    kp, kv = (gain_range.unit * k for k in units)
-    damping = None if gain_range.damping is None else gain_range.damping.reached(kp, kv)
-    return TunedJoint(name, kp, kv, gain_range.sum_limit, gain_range.kv_limit, kp_bound, kv_bound, damping)
-
-
-def _confirmed(
-    sets: Sequence[TunedSet], model: RobotModel, repeated: Bounds, loop: LoopEntry
-) -> tuple[TunedSet, ...]:
-    """Let the gate judge the gain file that will be written.
-
-    A set that the gate rejects for another reason than its gains, such as an arm file that contradicts
-    itself, is none; the reason is the gate's.
-
-    Raises:
-        ArithmeticError: the gate rejects the gains of one, which would be a fault of tuning.
-    """
-    gains = tuple(item.gains for item in sets if item.gains is not None)
-    if not gains:
-        return tuple(sets)
-    file = GainFile("tuned gains", None, gains, repeated, loop=loop)
-    answers = {result.name: result for result in gate(file, model)}
-    return tuple(item if item.gains is None else _as_judged(item, answers[item.name]) for item in sets)
+    status, proposed = propose(ranges)
+    starts: Sequence[float | None] = [kv for _, kv in proposed] or [None] * len(ranges)
+    joints = []
+    for joint, each, start in zip(limits.joints, ranges, starts, strict=True):
+        units = best_units(each, start)
+        kp, kv = (each.unit * k for k in units)
+        damping = None if each.damping is None else each.damping.reached(kp, kv)
+        ends = binding(each, *units)
+        joints.append(TunedJoint(joint, kp, kv, each.sum_limit, each.kv_limit, *ends, damping))
+    return TunedSet(name, m, TUNED, tuple(joints), program=status)
 
 
 def _as_judged(item: TunedSet, result: GateResult) -> TunedSet:
-    """A set that was accepted as it is; else the reasons that are not its gains."""
+    """A set that the gate accepts; else none, with the gate's reasons other than its gains.
+
+    Such as an arm file that contradicts itself.
+
+    Raises:
+        ArithmeticError: the gate rejects the gains, which would be a fault of tuning.
+    """
     if result.verdict == ACCEPTED:
         return replace(item, runs=runs_of(result))
     reasons = tuple(advice(result, check) for check in result.failures if check.id not in result.deciding)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.running import running_sentences
+from lyapcheck.answers.tune.gain_file import gain_file_text, list_text, set_text
 from lyapcheck.answers.tune.targets import Targets
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.gains import DECIDING, Bounds, GainSet
@@ -23,6 +24,8 @@ from lyapcheck.output.fields import Field, data, table
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from lyapcheck.control.conditions import Check
 
 TUNED, INFEASIBLE, UNDECIDED = "tuned", "infeasible", "undecided"
@@ -39,6 +42,11 @@ DAMPED = (
     "ζ: estimated: the least damping ratio of the joint alone over all ranges of the arm, with the steepest "
     "secant of h in its place."
 )
+HEAD = (
+    "# The largest gains that meet (10p) and (19), with {}.",
+    "# One unit more in the last place of any gain breaks what its comment names.",
+)
+NAMES = BOUNDS | {"damping": "the damping ratio"}
 LIMIT_DIGITS = 6
 """Significant digits of limits, as the gate shows them."""
 DIGITS = 20
@@ -192,6 +200,21 @@ class Tuning(Answer):
         lead = (self._hardly,) if self._hardly else ()
         return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)
 
+    def gain_file(self, folder: Path | None = None) -> str:
+        """The sets that were found as a gain file, which will stand in ``folder``; empty where none was."""
+        texts, shown = [], partial(list_text, digits=self.targets.digits)
+        for item in self.sets:
+            if item.gains is not None:
+                ends = [[NAMES[getattr(one, f"{key}_bound")] for one in item.joints] for key in ("kp", "kv")]
+                texts.append(set_text(item.gains, shown, [f"; {', '.join(each)}" for each in ends]))
+        head = [line.format(self.targets.text()) for line in HEAD]
+        return gain_file_text(head, self.robot, texts, self.bounds, self.loop, folder)
+
+    @property
+    def unwritten(self) -> list[str]:
+        """Why members are not in the gain file."""
+        return [f"no gains for m = {one.m}: {reason}" for one in self.sets for reason in one.reasons]
+
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, status, joints: [...], reasons}]``, numbers as strings."""
         return {
@@ -238,14 +261,11 @@ class Tuning(Answer):
     @property
     def _hardly(self) -> str:
         """That some gains hardly damp the arm; empty where none do."""
-        return next(filter(None, map(self._swings, self.sets)), "")
-
-    def _swings(self, item: TunedSet) -> str:
-        """That the gains of a member hardly damp the arm."""
         from lyapcheck.answers.gate.friction import swinging
 
-        gains, model = item.gains, self.limits.model
-        return "" if gains is None or model is None else swinging(gains, model)
+        model, sets = self.limits.model, [item.gains for item in self.sets if item.gains is not None]
+        found = [swinging(gains, model) for gains in sets] if model is not None else []
+        return next(filter(None, found), "")
 
     def _notes(self) -> tuple[str, ...]:
         tuned = [item for item in self.sets if item.status == TUNED]

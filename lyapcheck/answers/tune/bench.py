@@ -6,14 +6,15 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck.answers import arm_words, assumed_line
 from lyapcheck.answers.gate.stability import LASALLE, SCALAR
-from lyapcheck.answers.running import running_sentences
+from lyapcheck.answers.running import running_sentences, runs_of
+from lyapcheck.answers.tune.gain_file import gain_file_text, list_text, set_text
 from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, NAMES, Trial, Trials
-from lyapcheck.control.conditions import REJECTED
+from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.sampling import record_of, time_text
 from lyapcheck.files.decimals import decimal_text, decimal_texts
@@ -27,6 +28,8 @@ from lyapcheck.promise import all_say
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from lyapcheck.answers.gate import GateResult
     from lyapcheck.control.conditions import Check
     from lyapcheck.robots import RobotModel
@@ -64,19 +67,29 @@ class Candidate:
         trial: its motions on the whole arm.
         way: how it was asked to be stable.
         held: per joint the conditions that keep its gains from being larger.
-        result: the gate's, which accepts it; ``None`` where it does not.
-        runs: what the gate says of it as a computer runs it.
+        tries: how many sets were tried for it.
+        judged: what the gate says of it, with the last of the conditions that may show stability.
     """
 
     gains: GainSet
     trial: Trial
     way: str
     held: tuple[str, ...] = ()
-    result: GateResult | None = None
-    runs: tuple[Check, ...] = ()
+    tries: int = 0
+    judged: GateResult | None = None
 
     def __repr__(self) -> str:
         return f"<Candidate: {self.gains}>"
+
+    @property
+    def result(self) -> GateResult | None:
+        """The gate's, if it accepts the set."""
+        return self.judged if self.judged is not None and self.judged.verdict == ACCEPTED else None
+
+    @cached_property
+    def runs(self) -> tuple[Check, ...]:
+        """What the gate says of it as a computer runs it."""
+        return () if self.judged is None else runs_of(self.judged)
 
     @property
     def stable(self) -> str:
@@ -113,26 +126,18 @@ class BenchTuning(Answer):
     loop: LoopEntry = NOTHING
     """What the user said of the loop, before the arm file."""
     out: str = ""
-    """The file that was written; empty if none was."""
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """The names of the joints."""
-        return self.model.joints
-
-    @property
-    def dry(self) -> bool:
-        """Whether the arm file gives dry friction, which the simulated motions ignore."""
-        return self.model.dry
+    """The file that is meant to be written; empty if none is."""
+    marked: bool = False
+    """Whether the best set is written, marked, where none meets the targets."""
 
     @property
     def scope(self) -> str:
         """What was simulated, in one line."""
         count = len(self.bench.tasks)
         motions = "1 motion" if count == 1 else f"{count} motions"
-        without = (
-            "without the dry friction of the file" if self.dry else "of an arm file without dry friction"
-        )
+        without = "without the dry friction of the file"
+        if not self.model.dry:
+            without = "of an arm file without dry friction"
         record = record_of(self.loop, NOTHING, self.model.loop)
         if record is None or record.period is None:
             return f"{motions} of (11) at an infinite rate, {without}"
@@ -170,6 +175,32 @@ class BenchTuning(Answer):
         return bool(one.stable) and kept and not self.lacking
 
     @property
+    def written_sets(self) -> list[Candidate]:
+        """The sets of the gain file: those that meet the targets, else the best one if asked for."""
+        return self.good or ([self.best] if self.marked and self.best is not None else [])
+
+    @property
+    def unwritten(self) -> list[str]:
+        """Why there is no gain file."""
+        hint = "; --best writes the best one" if self.best is not None else ""
+        said = f"note: no set meets the targets, so none is written{hint}"
+        return [] if self.written_sets else [said]
+
+    def gain_file(self, folder: Path | None = None) -> str:
+        """`written_sets` as a gain file, which will stand in ``folder``; empty where there are none."""
+        head = [f"# Asked: {self.bench.wishes.text()}.", f"# Simulated: {self.scope}."]
+        if self.varies:
+            options = " ".join(f"--vary {one.text}" for one in self.varies)
+            head.append(f"# Gains for ranges of the arm: lyapcheck gate FILE {options}")
+        texts, shown = [], partial(list_text, digits=self.bench.digits)
+        for one in self.written_sets:
+            met = "simulated: meets all targets"
+            if not self.met(one):
+                met = f"BEST FOUND, MISSES THE TARGETS: {'; '.join(self.missed(one))}"
+            texts.append(f"# {met}; {one.shown}\n{set_text(one.gains, shown)}")
+        return gain_file_text(head, self.robot, texts, self.bounds, self.loop, folder)
+
+    @property
     def exit(self) -> Exit:
         """0 if some set meets the targets, else 3: the search found none, and proves nothing."""
         return Exit.PROVED if self.good else Exit.UNDECIDED
@@ -184,7 +215,7 @@ class BenchTuning(Answer):
             tasks += f"; of each number {100 * self.bench.quantile:g} % of the motions count"
         arms = f", each on {self.arms}" if self.arms else ""
         asked = Paragraph(f"Asked: {self.bench.wishes.text()}. Simulated from rest, {tasks}{arms}.")
-        assumed = [joint for joint, b in zip(self.joints, self.model.viscous, strict=True) if b.assumed]
+        assumed = [joint for joint, b in zip(self.model.joints, self.model.viscous, strict=True) if b.assumed]
         friction = f" The viscous friction of {', '.join(assumed)} is assumed." if assumed else ""
         warning = Paragraph(f"Other motions and lower rates may miss the targets.{friction}")
         lines = [*filter(None, (self.lacking,)), *self._given_up(), *self.missing]
@@ -193,7 +224,7 @@ class BenchTuning(Answer):
         best = self.best
         joints: list[Block] = []
         if best is not None:
-            joints.append(table(self._fields, [(best, i) for i in range(len(self.joints))]))
+            joints.append(table(self._fields, [(best, i) for i in range(len(self.model.joints))]))
         aside = self.arms and self.arms not in self._simulated
         apart = [f"each motion was tried on {self.arms}"] if aside else []
         first = [*apart, *(self.missed(best) if best else ()), *lines, *self.model.doubts][:MOST_REMARKS]
@@ -208,7 +239,7 @@ class BenchTuning(Answer):
 
     def _next(self) -> str:
         """The gate on what was written; else the same search, to be written."""
-        if self.out:
+        if self.out and self.written_sets:
             return command("gate", self.out)
         arm = arm_words(self.robot)
         if self.best is None:
@@ -225,7 +256,7 @@ class BenchTuning(Answer):
         motions = f"simulated: {self.scope.rpartition(', ')[0]}"
         with_arms = f"{motions}, each on {self.arms}" if self.arms else motions
         simulated = with_arms if len(with_arms) <= HEADLINE else motions
-        arm = f" on {self.model.name}" if self.dry else ""  # for which line 1 has no room
+        arm = f" on {self.model.name}" if self.model.dry else ""  # for which line 1 has no room
         return simulated + arm if len(simulated + arm) <= HEADLINE else simulated
 
     def _lead(self) -> tuple[str, ...]:
@@ -263,7 +294,7 @@ class BenchTuning(Answer):
         if best is None:
             return f"? {self.robot}: no gains"
         if self.good:
-            where = "without the dry friction of the file" if self.dry else f"on {self.model.name}"
+            where = "without the dry friction of the file" if self.model.dry else f"on {self.model.name}"
             return f"{self._mark} simulated: {best.gains.name} meets the targets {where}"
         if self.lacking and not self.missed(best):
             met = f"{best.gains.name} meets the targets on {self.model.name}"
@@ -273,7 +304,7 @@ class BenchTuning(Answer):
     @property
     def _mark(self) -> str:
         """Of a set that meets the targets, perhaps only without the dry friction of the file."""
-        return "!" if self.dry else "✓"
+        return "!" if self.model.dry else "✓"
 
     def missed(self, one: Candidate) -> list[str]:
         """The targets that a set misses, with the joints and by which factor; or what else it lacks."""
@@ -282,10 +313,10 @@ class BenchTuning(Answer):
     def _missed_in_motions(self, one: Candidate) -> list[str]:
         result = []
         for name, ratios in one.trial.ratios(self.bench.wishes).items():
-            rows = zip(self.joints, ratios, strict=True)
+            rows = zip(self.model.joints, ratios, strict=True)
             joints = [f"{joint} {_times(ratio)}" for joint, ratio in rows if ratio > 1]
             if joints:
-                result.append(f"misses {NAMES[name]}, simulated / target: {', '.join(joints)}")
+                result.append(f"misses {NAMES[name][0]}, simulated / target: {', '.join(joints)}")
         if one.trial.unrest:
             result.append(one.trial.unrest)
         elif not one.trial.kept:
@@ -300,24 +331,29 @@ class BenchTuning(Answer):
         def sign(one: Candidate) -> str:
             return self._mark if self.met(one) else "✗" if one.stable else "?"
 
+        def worst(field: Field) -> Field:
+            """The column of a number, of the joint where it is largest."""
+
+            def most(one: Candidate) -> float:
+                return max((x for x in field.found(one) if not math.isnan(x)), default=math.nan)
+
+            return field._replace(of=most, each=False)
+
         fields = (
             Field("", sign, " ", align="l"),
             Field("", "gains.name", "gains", align="l"),
             Field("", "gains.m", "m"),
             Field("", lambda one: one.stable or NONE, "stable by", align="l"),
             Field("", lambda one: one.trial.worst(self.bench.wishes), "worst", _times),
-            Field("", lambda one: _most(one.trial.overshoot), "overshoot [%]", _up),
-            Field("", lambda one: _most(one.trial.settled, none_is_worst=True), "settling [s]", _seconds),
-            Field("", lambda one: _most(one.trial.share), "torque / limit", _up),
-            Field("", lambda one: float(max(one.trial.rest)), "friction error [°]", _degrees),
+            *(worst(field) for field in self._fields if field.to is _sixes),
         )
         return table(fields, [(one,) for one in self.sets], keys=2)
 
     def _section(self, one: Candidate) -> Section:
-        rows = table(self._fields, [(one, i) for i in range(len(self.joints))])
+        rows = table(self._fields, [(one, i) for i in range(len(self.model.joints))])
         title = f"{one.gains.name} (m = {one.gains.m}, {one.shown})"
         lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
-        lines += tuple(running_sentences(one.runs, self.joints))
+        lines += tuple(running_sentences(one.runs, self.model.joints))
         return Section(title, (rows, Bullets(lines)))
 
     @cached_property
@@ -328,7 +364,7 @@ class BenchTuning(Answer):
             return decimal_text(value, self.bench.digits)
 
         return (
-            Field("joint", lambda one: self.joints, "joint", align="l", each=True),
+            Field("joint", lambda one: self.model.joints, "joint", align="l", each=True),
             Field("kp", "gains.kp", "k_p", gain, decimal_texts, each=True),
             Field("kv", "gains.kv", "k_v", gain, decimal_texts, each=True),
             Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
@@ -337,7 +373,7 @@ class BenchTuning(Answer):
             Field("rest_error", self._rests, "friction error [°]", _degrees, _sixes, each=True),
             Field(
                 "held_by",
-                lambda one: one.held or ("",) * len(self.joints),
+                lambda one: one.held or ("",) * len(self.model.joints),
                 "limited by" if any(map(any, (one.held for one in self.sets))) else "",
                 align="l",
                 each=True,
@@ -354,7 +390,9 @@ class BenchTuning(Answer):
         yield from (f"simulated: {text}" for text in self._missed_in_motions(one))
         if not one.stable:
             yield one.shown
-        held = {rule: [j for j, h in zip(self.joints, one.held, strict=True) if rule in h] for rule in RULES}
+        held = {
+            rule: [j for j, h in zip(self.model.joints, one.held, strict=True) if rule in h] for rule in RULES
+        }
         if one.trial.worst(self.bench.wishes) > 1:
             for rule, joints in held.items():
                 if joints:
@@ -382,9 +420,9 @@ class BenchTuning(Answer):
             "stable_by": one.stable or None,
             "met": self.met(one),
             "condition": list(one.gains.condition),
-            "as_run": running_sentences(one.runs, self.joints),
+            "as_run": running_sentences(one.runs, self.model.joints),
             "worst": _six(trial.worst(self.bench.wishes)),
-            "joints": records(self._fields, one, len(self.joints)),
+            "joints": records(self._fields, one, len(self.model.joints)),
         }
 
 
@@ -404,14 +442,9 @@ def _sixes(values: Iterable[float]) -> list[float | None]:
     return [_six(value) for value in values]
 
 
-def _most(values: Any, none_is_worst: bool = False) -> float:
-    known = [float(x) for x in values if not math.isnan(x)]
-    return math.nan if not known or (none_is_worst and len(known) < len(values)) else max(known)
-
-
 def _up(value: float) -> str:
-    """A simulated number, rounded up; a dash where there is none."""
-    return NONE if math.isnan(value) else at_most(value, 3)
+    """A simulated number, rounded up."""
+    return at_most(value, 3)
 
 
 def _times(ratio: float) -> str:
@@ -419,7 +452,7 @@ def _times(ratio: float) -> str:
 
 
 def _seconds(value: float) -> str:
-    return "no" if math.isnan(value) else at_most(value, 3)
+    return "no" if math.isinf(value) else at_most(value, 3)
 
 
 def _degrees(value: float) -> str:

@@ -3,70 +3,67 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from lyapcheck.answers.tune.answer import TUNED, TunedSet
 from lyapcheck.control.conditions import Conditions
 from lyapcheck.control.foreign import Pid, read_foreign
-from lyapcheck.control.gains import DECIDING, Bounds, GainSet
+from lyapcheck.control.gains import Bounds, GainSet
 from lyapcheck.control.limits import Limits, arm_limits
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, round_down, significant_down
-from lyapcheck.files.loop import NOTHING
+from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.files.toml import key_of, quoted
 from lyapcheck.robots.choice import placed
 
-if TYPE_CHECKING:
-    from lyapcheck.answers.tune.answer import Tuning
-    from lyapcheck.answers.tune.bench import BenchTuning, Candidate
-
-HEAD = """\
-# The largest gains that meet (10p) and (19), with {targets}.
-# One unit more in the last place of any gain breaks what its comment names.
-"""
-NAMES = {"10p": "(10p)", "19": "(19)", "damping": "the damping ratio"}
 BROUGHT = ("10p", "lasalle")
 """Of gains from elsewhere: torque limits, and stability with or without friction."""
 _PLACES = 6
 
 
-def gain_file_text(tuning: Tuning, folder: Path | None = None) -> str:
-    """The tuned sets as TOML that ``lyapcheck gate`` accepts.
+def gain_file_text(
+    head: Sequence[str],
+    robot: str,
+    sets: Sequence[str],
+    bounds: Bounds,
+    loop: LoopEntry,
+    folder: Path | None = None,
+) -> str:
+    """Gain sets as TOML that ``lyapcheck gate`` accepts; empty without any.
 
     Args:
-        tuning: what ``tune`` returned.
+        head: comments on all of them.
+        robot: the name or path of the arm.
+        sets: texts of `set_text`.
+        bounds: what the user said of the arm.
+        loop: what the user said of the loop.
         folder: where the file will stand, as a path of an arm file is meant relative to the gain file.
     """
-    blocks = [HEAD.format(targets=tuning.targets.text()) + f"robot = {quoted(beside(tuning.robot, folder))}"]
-    blocks += [_set(item, tuning.targets.digits) for item in tuning.sets if item.status == TUNED]
-    blocks += _tables(tuning)
+    if not sets:
+        return ""
+    blocks = ["\n".join([*head, f"robot = {quoted(beside(robot, folder))}"]), *sets]
+    blocks += [] if bounds == Bounds() else [_bounds(bounds)]
+    blocks += [] if loop == NOTHING else [loop.toml]
     return "\n\n".join(blocks) + "\n"
 
 
-def _tables(tuning: Tuning | BenchTuning) -> list[str]:
-    """What the user said of the arm and of the loop."""
-    bounds = [] if tuning.bounds == Bounds() else [_bounds(tuning.bounds)]
-    return [*bounds, *([] if tuning.loop == NOTHING else [tuning.loop.toml])]
+def set_text(gains: GainSet, shown: Callable[[Sequence[Fraction]], str], notes: Sequence[str] = ()) -> str:
+    """The table of a gain set, with notes on its k_p and its k_v, or without.
 
-
-def _set(item: TunedSet, digits: int) -> str:
-    lines = []
-    for key in ("kp", "kv"):
-        bounds = ", ".join(NAMES[getattr(joint, f"{key}_bound")] for joint in item.joints)
-        values = list_text([getattr(joint, key) for joint in item.joints], digits)
-        lines.append((f"{key} = {values}", f"# N·m; {bounds}"))
-    width = max(len(line) for line, _ in lines) + 2
-    gains = [line.ljust(width) + comment for line, comment in lines]
-    return _set_text(item.name, item.m, gains, DECIDING)
-
-
-def _set_text(name: str, m: int | None, gains: Sequence[str], condition: Sequence[str]) -> str:
-    """The table of a gain set, with the conditions that decide where there are any."""
-    deciding = [f"condition = [{', '.join(map(quoted, condition))}]"] if condition else []
-    return "\n".join(["[[gains]]", f"name = {quoted(name)}", f"m = {m}", *gains, *deciding])
+    Args:
+        gains: the set, with the conditions that decide where there are any.
+        shown: its k_p, or its k_v, as TOML.
+        notes: what the comment of each goes on with.
+    """
+    lines = [f"{key} = {shown(getattr(gains, key))}" for key in ("kp", "kv")]
+    width = max(map(len, lines)) if notes else 0
+    rows = zip(lines, notes or ("", ""), strict=True)
+    lines = [f"{line.ljust(width)}  # N·m{note}" for line, note in rows]
+    if gains.condition:
+        lines.append(f"condition = [{', '.join(map(quoted, gains.condition))}]")
+    return "\n".join(["[[gains]]", f"name = {quoted(gains.name)}", f"m = {gains.m}", *lines])
 
 
 def _bounds(bounds: Bounds) -> str:
@@ -82,7 +79,7 @@ def _bounds(bounds: Bounds) -> str:
 
 
 def list_text(values: Sequence[Fraction], digits: int) -> str:
-    """Gains as a TOML array."""
+    """Numbers as a TOML array."""
     return f"[{', '.join(decimal_text(value, digits) for value in values)}]"
 
 
@@ -91,39 +88,6 @@ def beside(robot: str, folder: Path | None) -> str:
     if folder is None:
         return robot
     return placed(robot, lambda path: Path(os.path.relpath(path, folder)).as_posix())
-
-
-def bench_file_text(tuning: BenchTuning, folder: Path | None = None, *, best: bool = False) -> str:
-    """The sets that meet the targets as TOML that ``lyapcheck gate`` accepts; empty where none does.
-
-    Args:
-        tuning: what ``tune_for`` returned.
-        best: where no set meets the targets, the best one, marked.
-        folder: where the file will stand, as a path of an arm file is meant relative to the gain file.
-    """
-    sets = tuning.good or ([tuning.best] if best and tuning.best is not None else [])
-    if not sets:
-        return ""
-    lines = [f"# Asked: {tuning.bench.wishes.text()}.", f"# Simulated: {tuning.scope}."]
-    if tuning.varies:
-        options = " ".join(f"--vary {one.text}" for one in tuning.varies)
-        lines.append(f"# Gains for ranges of the arm: lyapcheck gate FILE {options}")
-    lines.append(f"robot = {quoted(beside(tuning.robot, folder))}")
-    blocks = ["\n".join(lines), *(_bench_set(one, tuning) for one in sets)]
-    blocks += _tables(tuning)
-    return "\n\n".join(blocks) + "\n"
-
-
-def _bench_set(one: Candidate, tuning: BenchTuning) -> str:
-    met = "simulated: meets all targets"
-    if not tuning.met(one):
-        met = f"BEST FOUND, MISSES THE TARGETS: {'; '.join(tuning.missed(one))}"
-    gains = one.gains
-    lines = [
-        f"{key} = {list_text(values, tuning.bench.digits)}  # N·m"
-        for key, values in (("kp", gains.kp), ("kv", gains.kv))
-    ]
-    return f"# {met}; {one.shown}\n" + _set_text(gains.name, gains.m, lines, gains.condition)
 
 
 def brought_file(source: Path, robot: str, folder: Path) -> str:
@@ -144,20 +108,16 @@ def brought_file(source: Path, robot: str, folder: Path) -> str:
     pids = read_foreign(source, limits.joints)
     kept = [_bounded(i, pid, limits) for i, pid in enumerate(pids)]
     kp, kv, words = zip(*kept, strict=True)
-    gains = [f"{key} = {_table(pids, values)}  # N·m" for key, values in (("kp", kp), ("kv", kv))]
+    gains = GainSet("brought", 1, kp, kv, condition=BROUGHT)
     lines = [
         f"# From {Path(os.path.relpath(source, folder)).as_posix()}, by joint. Judged is",
         "#   τ = K_p tanh(e) − K_v tanh(q̇) + g(q),",
         "# of the same slope as p e − d q̇ near the goal, and bounded. Your controller has to add g(q):",
         "# a joint trajectory controller does not do that by itself.",
-        *(
-            f"# {pid.joint}: p = {decimal_text(pid.p)}, d = {decimal_text(pid.d)} (line {pid.line})"
-            for pid in pids
-        ),
-        f"robot = {quoted(beside(robot, folder))}",
-        "",
-        _set_text("brought", 1, gains, BROUGHT),
     ]
+    for one in pids:
+        lines.append(f"# {one.joint}: p = {decimal_text(one.p)}, d = {decimal_text(one.d)} (line {one.line})")
+    lines += [f"robot = {quoted(beside(robot, folder))}", "", set_text(gains, partial(_table, pids))]
     lines += [f"# {word}" for word in words if word]
     return "\n".join(lines) + "\n"
 

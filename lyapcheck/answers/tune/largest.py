@@ -22,19 +22,20 @@ the one at which h(x)/x is largest; closer to the goal the spring goes soft.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import floor, isqrt, prod, sqrt
 
-from lyapcheck.answers.tune.targets import Targets
-from lyapcheck.check.expressions.expression import Tree
+from lyapcheck.answers.tune.targets import ONE, Targets
 from lyapcheck.check.numbers.balls import hyperbolic_constants
 from lyapcheck.check.numbers.harmonics import by_parameters, largest
 from lyapcheck.check.numbers.polynomials import Enclosure
 from lyapcheck.control.limits import Limits
-from lyapcheck.control.threshold import Threshold, scaled
+from lyapcheck.control.threshold import scaled
 from lyapcheck.convex import Ended, solved
+from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, round_down
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.trig import to_terms
@@ -63,14 +64,16 @@ class Damping:
 
         Soundness: L enters the square by its lower and the divisor by its upper end.
         """
-        low, high = self.slope
-        return (self.friction + low * kv) ** 2 / (4 * self.ratio**2 * self.inertia * high)
+        return self._square(kv) / self.ratio**2
 
     def reached(self, kp: Fraction, kv: Fraction) -> Fraction:
         """ζ of two gains, from below, to nine decimal places."""
+        return Fraction(isqrt(int(self._square(kv) / kp * 10**18)), 10**9)
+
+    def _square(self, kv: Fraction) -> Fraction:
+        """k_p ζ² from below."""
         low, high = self.slope
-        square = (self.friction + low * kv) ** 2 / (4 * self.inertia * high * kp)
-        return Fraction(isqrt(int(square * 10**18)), 10**9)
+        return (self.friction + low * kv) ** 2 / (4 * self.inertia * high)
 
 
 def damping_of(
@@ -144,47 +147,29 @@ class GainRange:
         return self.most_sum - kv if damped is None else min(self.most_sum - kv, damped)
 
 
-def gain_range_of(
-    joint: int, limits: Limits, gamma: Tree | None, targets: Targets, damping: Damping | None = None
-) -> GainRange:
-    """The range of a joint, counted from 0, on an arm whose torque limits and friction are known.
+def gain_ranges(m: int, model: RobotModel, limits: Limits, targets: Targets) -> list[GainRange]:
+    """The range of each joint of an arm whose torque limits and friction are known.
 
     Soundness: every largest decimal is proved to pass (10p) or (19) as the gate's checks are.
     """
-    torque, friction = limits.torque[joint], limits.viscous_min
-    if torque is None or friction is None or gamma is None:
-        raise ValueError("a range needs a torque limit, a friction and a bounded function")
-    torques = scaled(torque - limits.gravity[joint], limits.n, gamma)
-    dampings = scaled(friction, limits.n, gamma)
-    share = Fraction(1) if targets.kv_share is None else targets.kv_share[joint]
-    kept = scaled(share * friction, limits.n, gamma).most_units(targets.digits)
-    return GainRange(
-        unit=targets.unit,
-        sum_limit=_enclosed(torques),
-        kv_limit=_enclosed(dampings),
-        most_sum=torques.most_units(targets.digits),
-        most_kv=dampings.most_units(targets.digits),
-        least_kv=max(kept, 1),
-        damping=damping,
-    )
+    n, digits, gamma, friction = limits.n, targets.digits, named("hyperbolic", m).gamma, limits.viscous_min
+    if friction is None or gamma is None:
+        raise ValueError("a range needs a friction and a bounded function")
+    asked: Sequence[Damping | None] = (None,) * n
+    if targets.damping:
+        asked = damping_of(limits.model or model, m, targets.damping, friction)
+    dampings, result = scaled(friction, n, gamma), []
+    for room, share, damping in zip(limits.room, targets.kv_share or ONE * n, asked, strict=True):
+        if room is None:
+            raise ValueError("a range needs a torque limit")
+        torques, kept = scaled(room, n, gamma), scaled(share * friction, n, gamma)
+        most = torques.most_units(digits), dampings.most_units(digits), max(kept.most_units(digits), 1)
+        result.append(GainRange(targets.unit, torques.near(), dampings.near(), *most, damping))
+    return result
 
 
-def _enclosed(threshold: Threshold) -> Enclosure:
-    near = threshold.near()
-    return Enclosure(near.lower, near.upper)
-
-
-@dataclass(frozen=True)
-class GainProposal:
-    """The optimum of the program for each joint, N·m; ``kv`` is empty where the solver gave none."""
-
-    status: str
-    kp: tuple[float, ...] = ()
-    kv: tuple[float, ...] = ()
-
-
-def propose(gain_ranges: Sequence[GainRange]) -> GainProposal:
-    """Clarabel's answer; only ``optimal`` is one."""
+def propose(gain_ranges: Sequence[GainRange]) -> tuple[str, list[tuple[float, float]]]:
+    """Clarabel's word, and k_p and k_v of each joint, N·m; only ``optimal`` has them."""
     import cvxpy as cp
 
     torque = [float(gain_range.sum_limit.mid) for gain_range in gain_ranges]
@@ -209,9 +194,9 @@ def propose(gain_ranges: Sequence[GainRange]) -> GainProposal:
             constraints.append(root[i] <= damped / stiff)
     solution = solved(cp.sum(root), constraints, [root, kv])
     if solution.ended is not Ended.SOLVED:
-        return GainProposal(solution.reason)
-    pairs = [(float(s), float(v), t) for s, v, t in zip(*solution.values, torque, strict=True)]
-    return GainProposal("optimal", tuple(s * s * t for s, _, t in pairs), tuple(v * t for _, v, t in pairs))
+        return solution.reason, []
+    rows = zip(*solution.values, torque, strict=True)
+    return "optimal", [(float(s * s * most), float(v * most)) for s, v, most in rows]
 
 
 def _over(values: Sequence[float], scale: Sequence[float]) -> list[float]:
@@ -230,31 +215,21 @@ def best_units(gain_range: GainRange, proposal: float | None = None) -> tuple[in
 
     Soundness: the answer does not depend on the proposal, which only says where to look first.
     """
-    low, high = gain_range.kv_range
-    guess = low if proposal is None else max(low, min(high, int(proposal / float(gain_range.unit))))
-    first = _first_undamped(gain_range, guess)
-    candidates = [kv for kv in (first - 1, first) if low <= kv <= high]
-    kp = max(gain_range.most_kp(kv) for kv in candidates)
-    return kp, min(gain_range.most_kv, gain_range.most_sum - kp)
 
+    def undamped(kv: int) -> bool:
+        """Whether (10p) limits k_p, and not the damping ratio."""
+        damped = gain_range.damped_kp(kv)
+        return damped is None or damped >= gain_range.most_sum - kv
 
-def _undamped(gain_range: GainRange, kv: int) -> bool:
-    """Whether (10p) limits k_p, and not the damping ratio."""
-    damped = gain_range.damped_kp(kv)
-    return damped is None or damped >= gain_range.most_sum - kv
-
-
-def _first_undamped(gain_range: GainRange, guess: int) -> int:
-    """The smallest k_v of the range where (10p) is the limit of k_p; one past the range where none is."""
     low, last = gain_range.kv_range
-    high = last + 1
+    start, end = low, last + 1
+    guess = low if proposal is None else max(low, min(last, int(proposal / float(gain_range.unit))))
     for step in (guess - 1, guess, guess + 1):
-        if low <= step < high:
-            low, high = (low, step) if _undamped(gain_range, step) else (step + 1, high)
-    while low < high:
-        middle = (low + high) // 2
-        low, high = (low, middle) if _undamped(gain_range, middle) else (middle + 1, high)
-    return low
+        if start <= step < end:
+            start, end = (start, step) if undamped(step) else (step + 1, end)
+    first = bisect_left(range(end), True, start, end, key=undamped)
+    kp = max(gain_range.most_kp(kv) for kv in (first - 1, first) if low <= kv <= last)
+    return kp, min(gain_range.most_kv, gain_range.most_sum - kp)
 
 
 def binding(gain_range: GainRange, kp: int, kv: int) -> tuple[str, str]:

@@ -8,7 +8,7 @@ Counts, not clocks, end it; hundreds of motions at once cost little more than on
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -18,7 +18,6 @@ import numpy as np
 from lyapcheck._types import Array, Progress, part, silent
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.stability import LASALLE, SCALAR
-from lyapcheck.answers.running import runs_of
 from lyapcheck.answers.tune.bench import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.targets import arms_over, impossible, limits_with, unknown
 from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried, tried_all
@@ -30,7 +29,7 @@ from lyapcheck.control.threshold import scaled
 from lyapcheck.family.base import named
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import ArmLike, RobotModel
-from lyapcheck.robots.fields import Vary
+from lyapcheck.robots.fields import Number, Vary
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import at_values, corners, corners_text, outside
 
@@ -48,15 +47,6 @@ SHARES_OF_DAMPING = (0.5, 0.25, 0.1)
 """Of J/(T (1 + d)), which k_v must stay below in the loop of a computer, one after the other."""
 POSTURES = 21
 """On the straight way of each task, for the inertia that a joint feels there."""
-
-
-@dataclass(frozen=True, eq=False)
-class Found:
-    """A gain set with what it does on the whole arm."""
-
-    gains: GainSet
-    trial: Trial
-    tries: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +107,7 @@ class Search:
         """Whether there are gains at all."""
         return min(self.most_kv) >= 1
 
-    def run(self, progress: Progress = silent) -> Found:
+    def run(self, progress: Progress = silent) -> Candidate:
         """The best set that was tried; where a computer cannot run it, that with less k_v."""
         if self.record is None:
             return self._best(progress)
@@ -131,7 +121,7 @@ class Search:
                 break
         return replace(found, trial=trial)
 
-    def _best(self, progress: Progress) -> Found:
+    def _best(self, progress: Progress) -> Candidate:
         """The best set that was tried with (11); the rule of thumb is among them."""
         rng, (few, many), (spread, least) = np.random.default_rng(0), SETS, SPREADS
         count = min(max(MOTIONS // (len(self.bench.tasks) * len(self.models)), few), many)
@@ -148,11 +138,11 @@ class Search:
             spread *= 1.0 if best.score[0] < BETTER * last.score[0] else NARROWER
             picked = np.argmin([one.ratios for one in tries], axis=0)
             combined = np.array([tries[k].logs[i] for i, k in enumerate(picked)])
-            progress(
-                max(steps / MOST_STEPS, math.log(SPREADS[0] / spread) / math.log(SPREADS[0] / least)), ""
-            )
+            narrow = math.log(SPREADS[0] / spread) / math.log(SPREADS[0] / least)
+            progress(max(steps / MOST_STEPS, narrow), "")
         gains = self.set_of(best.logs)
-        return Found(gains, tried(gains, self.models, self.bench, exact=True), len(tries))
+        trial = tried(gains, self.models, self.bench, exact=True)
+        return Candidate(gains, trial, self.way, self._held(gains), len(tries))
 
     def _try(self, logs: Sequence[Array]) -> list[_Try]:
         trials = tried_all([self.set_of(one) for one in logs], self.models, self.bench, BRIEFLY)
@@ -164,11 +154,8 @@ class Search:
         half = DAMPING * np.sqrt(J)
         root = np.sqrt(half * half + most + self._friction) - half  # of k_p + 2 ζ √(J k_p) = most + b
         kp = np.minimum(root * root, most)
-        return np.asarray(
-            np.log(
-                np.stack([kp, np.maximum(2 * half * np.sqrt(kp) - self._friction, float(self.unit))], axis=1)
-            )
-        )
+        kv = np.maximum(2 * half * np.sqrt(kp) - self._friction, float(self.unit))
+        return np.asarray(np.log(np.stack([kp, kv], axis=1)))
 
     def _damped(self, logs: Array) -> Array:
         """The same k_v as far as they may be, with k_p small enough for the damping ratio."""
@@ -188,6 +175,14 @@ class Search:
             kv.append(v * self.unit)
         name = f"tau_m{self.m}" + ("" if self.way == BY_19 else "_proof")
         return GainSet(name, self.m, tuple(kp), tuple(kv))
+
+    def _held(self, gains: GainSet) -> tuple[str, ...]:
+        """Per joint the conditions that keep its gains from being larger."""
+        result = []
+        for kp, kv, most, most_kv in zip(gains.kp, gains.kv, self.most_sum, self.most_kv, strict=True):
+            by_19 = self.way == BY_19 and kv == most_kv * self.unit
+            result.append(", ".join(["(10i)"] * (kp + kv == most * self.unit) + ["(19)"] * by_19))
+        return tuple(result)
 
     @cached_property
     def _friction(self) -> Array:
@@ -249,9 +244,12 @@ def tune_for(
     References: (6), (10), (11), (19) of reyes2019family.
     """
     model, ranged = arms_over(robot, varies)
-    name, limits = model.address, limits_with(ranged, bounds)
+    name, limits, given = model.address, limits_with(ranged, bounds), bounds or Bounds()
     known = {name: limits_of(ranged)}
     arms, tried_on = _arms(model, ranged)
+    if given.torque is not None:  # of which shares are told, not of the arm's
+        motors = tuple(Number(most, "N·m") for most in given.torque)
+        arms = tuple(replace(arm, torque_limit=motors) for arm in arms)
     record = record_of(loop, NOTHING, model.loop)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
@@ -268,24 +266,13 @@ def tune_for(
                 why = "(19) admits no k_v without viscous friction; stability by proof does without it"
             reasons.append(f"m = {m}: {why}")
             continue
-        result = search.run(told)
-        judged = accepted(result.gains, way, name, bounds, known, loop)
-        own = judged if judged.verdict == ACCEPTED else None
-        gains = result.gains if own is None else own.gains
-        held = tuple(_held(gains, search))
-        sets.append(Candidate(gains, result.trial, way, held, own, runs_of(judged)))
-    return BenchTuning(
-        name,
-        model,
-        bench,
-        tuple(sets),
-        tuple(dict.fromkeys(reasons)),
-        limits.assumptions,
-        tried_on,
-        bounds or Bounds(),
-        ranged.varies,
-        loop,
-    )
+        found = search.run(told)
+        judged = accepted(found.gains, way, name, bounds, known, loop)
+        gains = judged.gains if judged.verdict == ACCEPTED else found.gains
+        sets.append(replace(found, gains=gains, judged=judged))
+    missing = tuple(dict.fromkeys(reasons))
+    shown = limits.assumptions, tried_on, given, ranged.varies, loop
+    return BenchTuning(name, model, bench, tuple(sets), missing, *shown)
 
 
 def _arms(model: RobotModel, ranged: RobotModel) -> tuple[tuple[RobotModel, ...], str]:
@@ -324,12 +311,3 @@ def accepted(
         if result.verdict == ACCEPTED:
             break
     return result
-
-
-def _held(gains: GainSet, search: Search) -> Iterator[str]:
-    rows = zip(gains.kp, gains.kv, search.most_sum, search.most_kv, strict=True)
-    for kp, kv, most, most_kv in rows:
-        rules = ["(10i)"] if kp + kv == most * search.unit else []
-        if search.way == BY_19 and kv == most_kv * search.unit:
-            rules.append("(19)")
-        yield ", ".join(rules)

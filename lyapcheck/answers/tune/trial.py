@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from lyapcheck.errors import InputError, Problem
 from lyapcheck.simulate import results as indices
 from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.many import Runs, simulate_many
-from lyapcheck.simulate.results import torque_limits
-from lyapcheck.simulate.run import SimulationFailed
+from lyapcheck.simulate.results import motor_limits
+from lyapcheck.simulate.run import Run, SimulationFailed
 from lyapcheck.simulate.task import LONGEST, gains_for
 from lyapcheck.simulate.trial import experiment
 
@@ -28,12 +29,12 @@ if TYPE_CHECKING:
     from lyapcheck.simulate.task import Task
 
 NAMES = {
-    "overshoot": "overshoot",
-    "settle": "settling time",
-    "peak_share": "peak torque",
-    "rest_error": "rest error",
+    "overshoot": ("overshoot", "overshoot ≤ {} %"),
+    "settle": ("settling time", "settled (2 %) within {} s"),
+    "peak_share": ("peak torque", "≤ {} of each torque limit"),
+    "rest_error": ("rest error", "dry friction leaves ≤ {}°"),
 }
-"""The wishes in words."""
+"""The wishes in words, and what is asked."""
 BY_19, BY_PROOF = "19", "proof"
 MOST = 1e6
 """Per cent, s and degrees; who asks for more asks for nothing."""
@@ -90,14 +91,8 @@ class Wishes:
 
     def text(self) -> str:
         """What is asked, in one line."""
-        forms = {
-            "overshoot": "overshoot ≤ {} %",
-            "settle": "settled (2 %) within {} s",
-            "peak_share": "≤ {} of each torque limit",
-            "rest_error": "dry friction leaves ≤ {}°",
-        }
-        said = {name: str(value).removesuffix(".0") for name, value in self.given.items()}
-        return "; ".join(forms[name].format(value) for name, value in said.items())
+        said = ((NAMES[name][1], str(value).removesuffix(".0")) for name, value in self.given.items())
+        return "; ".join(form.format(value) for form, value in said)
 
 
 @dataclass(frozen=True)
@@ -112,25 +107,24 @@ class Trials:
     """The share of motions that counts, joint by joint: 1 is the worst of them."""
 
     def worst(self, values: Array) -> Array:
-        """The worst (n,) of the share of motions (R, n) that counts; NaN counts as nothing."""
-        place = math.ceil(self.quantile * len(values)) - 1
-        return np.asarray(np.sort(np.nan_to_num(values, nan=0.0, posinf=np.inf), axis=0)[place])
+        """The worst (n,) of the share of motions (R, n) that counts."""
+        return np.asarray(np.sort(values, axis=0)[math.ceil(self.quantile * len(values)) - 1])
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
     """The worst of some motions, (n,) each: per cent, s, share of the motor's limit, degrees.
 
-    NaN where there is no such number: ``settled`` of a joint that does not settle in the ``T`` seconds of the
-    motion. ``late`` is the largest error of the last quarter, as a share of the step. ``kept``: the energy
-    that is left after T keeps every joint where it is; else what comes later is not known.
+    ``settled`` is infinite for a joint that does not settle in the ``T`` seconds of the motion. ``late`` is
+    the largest error of the last quarter, as a share of the step. ``kept``: the energy that is left after T
+    keeps every joint where it is; else what comes later is not known.
     """
 
     overshoot: Array
     settled: Array
     share: Array
-    rest: Array
     late: Array
+    rest: Array
     T: float
     kept: bool
     steps: int = 0
@@ -143,9 +137,9 @@ class Trial:
     def ratios(self, wishes: Wishes) -> dict[str, Array]:
         """What was seen over what was asked, by wish, (n,); 1 where it is just met."""
         seen = {
-            "overshoot": np.nan_to_num(self.overshoot, nan=0.0),
-            "settle": np.where(np.isnan(self.settled), self.T * (1.0 + self.late), self.settled),
-            "peak_share": np.nan_to_num(self.share, nan=0.0),
+            "overshoot": self.overshoot,
+            "settle": np.where(np.isinf(self.settled), self.T * (1.0 + self.late), self.settled),
+            "peak_share": self.share,
             "rest_error": self.rest,
         }
         with np.errstate(over="ignore"):
@@ -161,7 +155,7 @@ def tried(gains: GainSet, models: Sequence[RobotModel], bench: Trials, *, exact:
 
     Args:
         gains: the controller.
-        models: the arm at one or several values of what is uncertain.
+        models: the arm at one or several values of what is uncertain, with its torque limits.
         bench: what is asked, and motions from rest, each watched for `LONGER` than the settling time of it.
         exact: watch on until k_pi U(e_i) of an e_i at the edge of what is asked is above the energy that is
             left: as E falls, it stays within.
@@ -179,37 +173,36 @@ def tried_all(
     sets: Sequence[GainSet], models: Sequence[RobotModel], bench: Trials, longer: float = 1.0
 ) -> list[Trial]:
     """Each of many gain sets of one member, see `tried`; ``longer``: so many times as long."""
-    wishes, tasks = bench.wishes, bench.tasks
+    wishes = bench.wishes
     T = max(LONGER * (wishes.settle or 0.0), SHORTEST) * (FLAT if (sets[0].m or 1) > 1 else 1.0) * longer
     T = min(T, LONGEST)
-    goals, starts = (np.tile([getattr(task, end) for task in tasks], (len(sets), 1)) for end in ("q_d", "q0"))
-    each = [one for one in sets for _ in tasks]
-    count = len(each)
-    edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
-    arms = [model for model in models for _ in each]
-    q_d, q0 = (np.tile(x, (len(models), 1)) for x in (goals, starts))
+    arms, each, tasks = zip(*product(models, sets, bench.tasks), strict=True)
+    goals, starts = (np.array([getattr(task, end) for task in tasks]) for end in ("q_d", "q0"))
     # arms that differ in assumed friction alone go together: few runs take as long a step as hundreds
-    runs = simulate_many(
-        each * len(models), arms, q_d, q0, T, points=POINTS, tolerance=TOLERANCE, motions=True
-    )
+    runs = simulate_many(each, arms, goals, starts, T, points=POINTS, tolerance=TOLERANCE, motions=True)
+    assert runs.q is not None
+    assert runs.V is not None
+    done, errors = runs.complete[:, None], goals[:, None] - runs.q[:, 3 * POINTS // 4 :]
+    limits = np.array([motor_limits(model) for model in arms])
+    seen = _seen(runs, np.abs(goals - starts), errors, limits)
+    lost = (NEVER * MOST, math.inf, NEVER, NEVER)
+    columns = [np.where(done, values, worst) for values, worst in zip(seen, lost, strict=True)]
+    edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
+    known = [gains_for(one, models[0].n) for one in each]
+    held = known[0].family.potential(indices.bands(goals - starts, edge)) * [gains.kp for gains in known]
+    kept = done & (runs.V[:, -1:] < held.min(axis=1, keepdims=True))
+
+    def of_each(values: Array) -> Array:
+        """Runs by set: (sets, models and tasks, …)."""
+        shape = (len(models), len(sets), len(bench.tasks), -1)
+        return values.reshape(shape).swapaxes(0, 1).reshape(len(sets), len(models) * len(bench.tasks), -1)
+
     steps = int(runs.steps.reshape(len(models), -1).max(axis=1).sum())
-    seen = [
-        _seen(runs.part(k * count, (k + 1) * count), each, model, goals, starts, edge)
-        for k, model in enumerate(models)
-    ]
-    shape = (len(models), len(sets), len(tasks), -1)
-    columns = [np.stack(column).reshape(shape) for column in zip(*seen, strict=True)]
-    parts = [column.transpose(1, 0, 2, 3).reshape(len(sets), -1, column.shape[-1]) for column in columns]
     result = []
-    for one, overshoot, settled, share, late, kept in zip(sets, *parts, strict=True):
-        of = (bench.worst(values) for values in (overshoot, settled, share, late))
+    for one, safe, *values in zip(sets, *map(of_each, (kept, *columns)), strict=True):
         rest = np.max([[*map(_degrees_above, rest_errors(one, model))] for model in models], axis=0)
-        over, time, torque, end = of
-        result.append(
-            Trial(
-                over, np.where(np.isinf(time), np.nan, time), torque, rest, end, T, bool(np.all(kept)), steps
-            )
-        )
+        over, time, torque, end = map(bench.worst, values)
+        result.append(Trial(over, time, torque, end, rest, T, bool(np.all(safe)), steps))
     return result
 
 
@@ -219,53 +212,38 @@ def as_run(gains: GainSet, models: Sequence[RobotModel], bench: Trials, record: 
     Of more than `MOST_AS_RUN` motions on arms some are run, and what (11) does in all of them counts as well.
     """
     (trial,), loop = tried_all([gains], models, bench), Bench.of(replace(record, **_KNOWN))
-    every = [(model, task) for model in models for task in bench.tasks]
+    every = [*product(models, bench.tasks)]
     chosen = every[:: math.ceil(len(every) / MOST_AS_RUN)]
     rows, unrest = [], ""
     for model, task in chosen:
         free = replace(model, coulomb=(None,) * model.n)
-        limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
         try:
             run = experiment(gains, free, task.q_d, task.q0, T=trial.T, bench=loop)
         except SimulationFailed as failure:
             return replace(trial, unrest=failure.reason, kept=False, as_run=len(chosen))
-        still = np.abs(run.e[0]) < indices.LEAST_STEP
-        late = np.abs(run.e[3 * len(run.t) // 4 :]).max(axis=0) / np.where(still, 1.0, np.abs(run.e[0]))
-        settled = np.where(still, 0.0, np.nan_to_num(run.settling, nan=np.inf))
-        rows.append((np.nan_to_num(run.overshoot), settled, run.peak_torque / limits, late))
+        errors = run.e[3 * len(run.t) // 4 :]
+        rows.append(_seen(run, np.abs(run.e[0]), errors, np.array(motor_limits(model))))
         unrest = unrest or ("" if run.unrest is None else run.unrest.sentence)
     seen = [bench.worst(np.array(column)) for column in zip(*rows, strict=True)]
     if len(chosen) < len(every):
-        ideal = (trial.overshoot, np.nan_to_num(trial.settled, nan=np.inf), trial.share, trial.late)
-        seen = [np.fmax(*pair) for pair in zip(seen, ideal, strict=True)]
-    over, time, share, late = seen
-    settled = np.where(np.isinf(time), np.nan, time)
-    return Trial(
-        over, settled, share, trial.rest, late, trial.T, not unrest, unrest=unrest, as_run=len(chosen)
-    )
+        ideal = (trial.overshoot, trial.settled, trial.share, trial.late)
+        seen = [np.maximum(*pair) for pair in zip(seen, ideal, strict=True)]
+    over, time, torque, end = seen
+    return Trial(over, time, torque, end, trial.rest, trial.T, not unrest, 0, len(chosen), unrest)
 
 
 _KNOWN: dict[str, Any] = {"unknown_payload": Fraction(0), "gravity_error": Fraction(0)}
 
 
-def _seen(
-    runs: Runs, sets: Sequence[GainSet], model: RobotModel, goals: Array, starts: Array, edge: float
-) -> tuple[Array, ...]:
-    """Of R runs overshoot, settling time, torque share, late error (R, n), and what stays in its band."""
-    assert runs.q is not None
-    assert runs.V is not None
-    step = np.abs(goals - starts)
+def _seen(runs: Runs | Run, step: Array, errors: Array, limits: Array) -> tuple[Array, ...]:
+    """Overshoot, settling time, share of torque and late error (…, n), from late errors (…, samples, n)."""
     still = step < indices.LEAST_STEP
-    limits = np.array([np.nan if most is None else most for most in torque_limits(model)])
-    size = np.abs(goals[:, None] - runs.q[:, 3 * POINTS // 4 :]).max(axis=1) / np.where(still, 1.0, step)
-    done = runs.complete[:, None]
-    settled = np.where(still, 0.0, np.where(np.isnan(runs.settling) | ~done, np.inf, runs.settling))
-    known = [gains_for(one, model.n) for one in sets]
-    held = known[0].family.potential(indices.bands(step, edge)) * [gains.kp for gains in known]
-    kept = done & (runs.V[:, -1:] < held.min(axis=1, keepdims=True))
-    late = np.where(done, size, NEVER)
-    overshoot = np.where(done, np.nan_to_num(runs.overshoot), NEVER * MOST)
-    return overshoot, settled, runs.peak_torque / limits, late, kept
+    return (
+        np.nan_to_num(runs.overshoot),
+        np.where(still, 0.0, np.nan_to_num(runs.settling, nan=np.inf)),
+        runs.peak_torque / limits,
+        np.abs(errors).max(axis=-2) / np.where(still, 1.0, step),
+    )
 
 
 def _degrees_above(error: Fraction | None) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -131,9 +130,9 @@ def run(
     targets = Targets(options["digits"], shares.pop("peak_share") or ONE, **shares)
     if n is not None:
         wrong.reading(targets.for_joints, n)
-    torques = wrong.reading(_limits, "--torque", parse_decimals, options["torque"], n, True)
-    gravities = wrong.reading(_limits, "--gravity", parse_decimals, options["gravity"], n, False)
-    friction = wrong.reading(_limits, "--viscous-min", _one_decimal, options["viscous_min"], None, True)
+    torques = wrong.reading(_limits, "--torque", options["torque"], n)
+    gravities = wrong.reading(_limits, "--gravity", options["gravity"], n)
+    friction = wrong.reading(_limits, "--viscous-min", options["viscous_min"], 1)
     bounds = Bounds(friction[0] if friction else None, torques, gravities)
     if wishes:
         wrong.reading(_refuse, options, FOR_LARGEST, "cannot go with targets", "leave one of them out")
@@ -142,52 +141,36 @@ def run(
             wrong.reading(_refuse, options, ("spread", "seed"), rule, repair)
         if model is None:
             wrong.raise_all()
-        bench = wrong.result(_trials_of, robot, model, wishes, options)
+        bench = wrong.result(_trials_of, robot, model, wishes, targets.peak_share, options)
         assert loop is not None
         with progress("tune") as advance:
             found = tune_for(robot, bench, members, bounds, ranges, loop, on_progress=advance)
-        return _told_bench(found, out, options["best"], format)
+        found = replace(found, out="" if out is None else str(out), marked=options["best"])
+        return _told(found, out, format)
     repair = "add --overshoot, --settle or --rest-error"
     wrong.reading(_refuse, options, FOR_TARGETS, "has a meaning with targets only", repair)
     wrong.raise_all()
     assert loop is not None
-    return _told_largest(tune(robot, members, targets, bounds, ranges, loop), out, format)
+    largest = tune(robot, members, targets, bounds, ranges, loop)
+    return _told(largest, out if largest.exit == Exit.PROVED else None, format)
 
 
-def _told_largest(tuning: Tuning, out: Path | None, format: str) -> Exit:  # noqa: A002
-    from lyapcheck.answers.tune.gain_file import gain_file_text
-
-    if out is not None and tuning.exit == Exit.PROVED:
-        write_whole(out, gain_file_text(tuning, out.parent))
-    if format != "toml":
-        show(tuning, format)
-        return tuning.exit
-    write_data(gain_file_text(tuning))
-    for item in tuning.sets:
-        for reason in item.reasons:
-            print(f"no gains for m = {item.m}: {reason}", file=sys.stderr)
-    return tuning.exit
-
-
-def _told_bench(tuning: BenchTuning, out: Path | None, best: bool, format: str) -> Exit:  # noqa: A002
-    """``best``: the best set is written where none meets the targets."""
-    from lyapcheck.answers.tune.gain_file import bench_file_text
-
-    if text := bench_file_text(tuning, None if out is None else out.parent, best=best):
-        if out is not None:
-            write_whole(out, text)
-            tuning = replace(tuning, out=str(out))
-    elif out is not None or format == "toml":
-        hint = "; --best writes the best one" if tuning.best is not None else ""
-        print(f"note: no set meets the targets, so none is written{hint}", file=sys.stderr)
+def _told(tuning: Tuning | BenchTuning, out: Path | None, format: str) -> Exit:  # noqa: A002
+    text = tuning.gain_file(None if out is None else out.parent)
+    if out is not None and text:
+        write_whole(out, text)
+    for line in tuning.unwritten if out is not None or format == "toml" else ():
+        print(line, file=sys.stderr)
     if format == "toml":
-        write_data(bench_file_text(tuning, best=best))
+        write_data(tuning.gain_file())
     else:
         show(tuning, format)
     return tuning.exit
 
 
-def _trials_of(robot: str, model: RobotModel, wishes: dict[str, float], options: dict[str, Any]) -> Trials:
+def _trials_of(
+    robot: str, model: RobotModel, wishes: dict[str, float], shares: Numbers, options: dict[str, Any]
+) -> Trials:
     """What is asked, and of which motions.
 
     Raises:
@@ -204,7 +187,6 @@ def _trials_of(robot: str, model: RobotModel, wishes: dict[str, float], options:
     for task, goal in zip(tasks, goals or [""], strict=True):
         if not any(abs(step) >= LEAST_STEP for step in task.step):
             raise argument_error("--goal", goal, "is where the motion starts", "give another goal or --start")
-    shares = parse_decimals("--peak-share", options["peak_share"]) or ONE
     if len(set(shares)) > 1:
         rule = "is one share with targets"
         raise argument_error("--peak-share", options["peak_share"], rule, "write --peak-share 0.8")
@@ -221,9 +203,7 @@ def _trials_of(robot: str, model: RobotModel, wishes: dict[str, float], options:
     return Trials(asked, tasks, ways, options["digits"], quantile)
 
 
-def _limits(
-    option: str, read: Callable[..., Numbers | None], text: str | None, n: int | None, positive: bool
-) -> Numbers | None:
+def _limits(option: str, text: str | None, n: int | None) -> Numbers | None:
     """The limits that an option gives, as many as joints where that is known; ``None`` where it gives none.
 
     Raises:
@@ -231,21 +211,18 @@ def _limits(
     """
     from lyapcheck.files.decimals import decimal_text
 
-    values = read(option, text)
-    if values is not None and n is not None and len(values) != n:
+    values, alone, may_be_0 = parse_decimals(option, text), option == "--viscous-min", option == "--gravity"
+    if values is None:
+        return None
+    if alone and len(values) != 1:
+        raise argument_error(option, text, "must be one number", f"write {option} 0.406")
+    if n is not None and len(values) != n:
         rule = f"has {len(values)} value{'s' * (len(values) > 1)} for {n} joint{'s' * (n > 1)}"
         given = ",".join(map(decimal_text, values))
         raise argument_error(option, given, rule, f"give {n}, separated by commas")
-    if values is not None and (min(values) < 0 or (positive and min(values) == 0)):
-        rule = "must be positive" if positive else "must not be negative"
+    if min(values) < 0 or (min(values) == 0 and not may_be_0):
+        rule = "must not be negative" if may_be_0 else "must be positive"
         raise argument_error(option, decimal_text(min(values)), rule, "correct the value")
-    return values
-
-
-def _one_decimal(option: str, text: str | None) -> Numbers | None:
-    values = parse_decimals(option, text)
-    if values is not None and len(values) != 1:
-        raise argument_error(option, text, "must be one number", f"write {option} 0.406")
     return values
 
 
