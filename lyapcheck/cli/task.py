@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 MOST_DEGREES = 36_000.0
 """A hundred turns of a joint."""
 CERTIFIED = "certified"
-MAX_BOXES = 100_000
-"""Budget of branch and bound for one gain set; ``lyapcheck epsilon`` goes further."""
 SECONDS = 5.0
 """Duration of a set-point task, as in the paper."""
 SMALL, TURN = 2.0, 360.0

@@ -266,30 +266,20 @@ def _said(promise: Any) -> str:
 
 def _simulate(question: Question, known: UncertainArm, options: Options) -> Answered:
     """One run, and one at each corner that is tried; the slowest of them counts. Observed, never proved."""
-    from lyapcheck.answers.simulate import Unfinished
+    from lyapcheck.answers.simulate.moved import moved, on_arms
     from lyapcheck.answers.simulate.runs import SetPointRuns
     from lyapcheck.robots.vary import corners, corners_text
     from lyapcheck.simulate.closed_loop import simulate
-    from lyapcheck.simulate.run import PromiseBroken, Run, SimulationFailed
     from lyapcheck.simulate.trial import experiment
 
-    gains, task = question.gains, task_of(known.model, options)
-    assert gains is not None
+    task, arms = task_of(known.model, options), ""
+    assert question.gains is not None
     mover = experiment if options["experiment"] else partial(simulate, stop=True)
-    runs: list[Run] = []
-    unfinished: list[Unfinished] = []
-    cases, arms = [(gains, known.model)], ""
     if known.ranges:
-        ends = corners(known.model, known.ranges)
         arms = f"one arm in the ranges and {corners_text(known.model, known.ranges)}"
-        cases += [(replace(gains, name=f"{gains.name}: {what}"), model) for what, model in ends]
-    for one, model in cases:
-        try:
-            runs.append(mover(one, model, task.q_d, task.q0, task.w0, task.T))
-        except SimulationFailed as failure:
-            if not isinstance(failure, PromiseBroken):
-                unfinished.append(Unfinished(one.name, failure.reason))
-            runs += [] if failure.partial is None else [failure.partial]
+    others = corners(known.model, known.ranges) if known.ranges else ()
+    move = partial(mover, target_rad=task.q_d, start_rad=task.q0, velocity_rad=task.w0, T=task.T)
+    runs, unfinished = moved(on_arms([question.gains], known.model, others), move)
     result = SetPointRuns(tuple(runs), tuple(unfinished), arms=arms)
     verdict = OBSERVED if result.exit_code is Exit.PROVED else VERDICTS[result.exit_code]
     # nothing where one joint does not settle

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck._types import Progress
 from lyapcheck.cli.parser import LOOP
 from lyapcheck.cli.show import (
     certificate_folder,
@@ -25,7 +23,6 @@ from lyapcheck.cli.show import (
 from lyapcheck.cli.task import (
     BAND,
     CERTIFIED,
-    MAX_BOXES,
     bench_of,
     check_options,
     eps0_of,
@@ -38,12 +35,10 @@ from lyapcheck.files.fields import file_stem
 from lyapcheck.verdicts import Exit
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.simulate import Simulation, Unfinished
-    from lyapcheck.answers.simulate.runs import SetPointRuns
-    from lyapcheck.answers.simulate.starts import RandomStarts
-    from lyapcheck.answers.simulate.tracking import TrackingRuns
+    from lyapcheck.answers.simulate import Simulation
     from lyapcheck.cli.parser import Parser
-    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.control.conditions import Check
+    from lyapcheck.control.gains import GainFile
     from lyapcheck.robots import RobotModel
     from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.many import Starts
@@ -56,123 +51,27 @@ OF_LOOP = tuple(name for name in LOOP if name not in ("velocity", "within"))
 """Options of the loop; these two have other meanings here."""
 
 
-@dataclass(frozen=True)
-class Job:
-    """The gain sets of a file on an arm, and the progress of them all."""
-
-    file: GainFile
-    model: RobotModel
-    eps0: float | None
-    """With which V is watched."""
-    certified: bool
-    """Whether it is to be certified, for each gain set."""
-    advance: Progress
-    varied: tuple[tuple[str, RobotModel], ...]
-    """The arm at other values of its numbers, each with what was changed."""
-    unfinished: list[Unfinished] = field(default_factory=list)
-
-    def each(self) -> Iterator[tuple[GainSet, RobotModel, Progress]]:
-        """Each gain set on the arm, and on the arm at other values, with its share of the progress of all."""
-        arms = (("", self.model), *self.varied)
-        cases = [(one, what, arm) for one in self.file.gains for what, arm in arms]
-        for done, (one, what, arm) in enumerate(cases):
-            named = replace(one, name=f"{one.name}: {what}") if what else one
-            yield named, arm, partial(self._share, done, len(cases), named.name)
-
-    def _share(self, done: int, cases: int, name: str, fraction: float, note: str) -> None:
-        self.advance((done + fraction) / cases, note or name)
-
-    def fail(self, gain_set: GainSet, reason: str) -> None:
-        """Keep why not all that was asked of a gain set could be found out."""
-        from lyapcheck.answers.simulate import Unfinished
-
-        self.unfinished.append(Unfinished(gain_set.name, reason))
-
-    def moved(self, gain_set: GainSet, mover: Callable[[], Any]) -> Any:
-        """The run of a gain set, or as much of it as was reached."""
-        from lyapcheck.simulate.run import PromiseBroken, SimulationFailed
-
-        try:
-            return mover()
-        except SimulationFailed as failure:
-            if not isinstance(failure, PromiseBroken):
-                self.fail(gain_set, failure.reason)
-            return failure.partial
-
-    def watching(self, gain_set: GainSet, progress: Progress) -> float:
-        """The ε₀ to watch V with, rounded down; 0 where nothing is asked, or none is certified."""
-        if not self.certified:
-            return self.eps0 or 0.0
-        from lyapcheck.answers.epsilon.compute import epsilon
-        from lyapcheck.check.numbers.polynomials import Enclosure
-
-        progress(0.0, f"{gain_set.name}: what ε₀ is certified")
-        found = epsilon(gain_set, self.model, max_boxes=MAX_BOXES, weights=False).certified
-        if found is None:
-            name = f"{gain_set.name} on {self.model.name}"
-            self.fail(gain_set, f"{name}: no ε₀ is certified, V is watched with ε₀ = 0")
-            return 0.0
-        return Enclosure(found, found).float_lower
-
-
-def regulate(
-    job: Job, task: Task, bench: Bench | None, stop: bool, arms: str, certificates: Path | None
-) -> SetPointRuns:
-    """The set-point task, by the equations or as a computer runs it; ``arms`` names all arms in words."""
-    from lyapcheck.answers.gate.judge import judged_sets
-    from lyapcheck.answers.running import runs_of
-    from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
-    from lyapcheck.control.limits import model_limits
+def way_of(
+    task: Task, path: Reference | None, starts: Starts | None, bench: Bench | None, band: float, stop: bool
+) -> tuple[Callable[..., Any], type[Simulation[Any]], Callable[[Any], str]]:
+    """What simulates a gain set on an arm, the answer that takes the results, and their samples as CSV."""
+    from lyapcheck.answers.simulate import runs_csv
+    from lyapcheck.answers.simulate.runs import SetPointRuns
+    from lyapcheck.answers.simulate.starts import RandomStarts, starts_csv
+    from lyapcheck.answers.simulate.tracking import TrackingRuns
     from lyapcheck.simulate.closed_loop import simulate
+    from lyapcheck.simulate.many import sweep
+    from lyapcheck.simulate.tracking import track
     from lyapcheck.simulate.trial import experiment
 
-    runs, broken = [], {}
-    mover = partial(experiment, bench=bench) if bench else partial(simulate, stop=stop)
-    way = (task.q_d, task.q0, task.w0, task.T)
-    for gain_set, arm, told in job.each():
-        number = job.watching(gain_set, told)
-        runs.append(job.moved(gain_set, partial(mover, gain_set, arm, *way, eps0=number, on_progress=told)))
-        if certificates is not None and bench is None:
-            certificate = breach_certificate(runs[-1], gain_set, arm)
-            if certificate is not None:
-                broken[f"{file_stem(gain_set.name)}.breach.json"] = certificate
-    if certificates is not None:
-        write_certificates(certificates, broken)
-    judged = {}
-    if bench is not None and not job.varied:  # what the checker says of each gain set, run like that
-        name, limits = job.model.name, {job.model.name: model_limits(job.model)}
-        results = judged_sets(job.file, name, arms=limits, explained=0, loop=bench.entry)
-        judged = {result.name: runs_of(result) for result in results}
-    return SetPointRuns(tuple(runs), tuple(job.unfinished), job.file, arms, judged=judged)
-
-
-def follow(
-    job: Job, reference: Reference, task: Task, band: float, stop: bool, unsampled: bool
-) -> TrackingRuns:
-    """The tracking scheme (21) along a reference."""
-    from lyapcheck.answers.simulate.tracking import TrackingRuns
-    from lyapcheck.simulate.tracking import track
-
-    runs = []
-    mover = partial(track, eps0=job.eps0, band_rad=band, stop=stop)
-    for gain_set, arm, told in job.each():
-        way = (gain_set, arm, reference, task.q0, task.w0, task.T)
-        runs.append(job.moved(gain_set, partial(mover, *way, on_progress=told)))
-    return TrackingRuns(tuple(runs), tuple(job.unfinished), job.file, unsampled=unsampled)
-
-
-def spread_out(job: Job, task: Task, starts: Starts, unsampled: bool) -> RandomStarts:
-    """The set-point task from many random starts."""
-    from lyapcheck.answers.simulate.starts import RandomStarts
-    from lyapcheck.simulate.many import sweep
-
-    result = []
-    for gain_set, arm, told in job.each():
-        number = job.watching(gain_set, told)
-        result.append(sweep(gain_set, arm, task, starts, eps0=number, on_progress=told))
-        if left := starts.count - result[-1].finished:
-            job.fail(gain_set, f"{gain_set.name} on {arm.name}: {left} of {starts.count} runs")
-    return RandomStarts(tuple(result), tuple(job.unfinished), job.file, unsampled=unsampled)
+    if starts is not None:
+        return partial(sweep, task=task, starts=starts), RandomStarts, starts_csv
+    way: dict[str, Any] = {"start_rad": task.q0, "velocity_rad": task.w0, "T": task.T}
+    if path is not None:
+        return partial(track, reference=path, band_rad=band, stop=stop, **way), TrackingRuns, runs_csv
+    if bench is not None:
+        return partial(experiment, target_rad=task.q_d, bench=bench, **way), SetPointRuns, runs_csv
+    return partial(simulate, target_rad=task.q_d, stop=stop, **way), SetPointRuns, runs_csv
 
 
 def plot_run(run: Motion, place: Path) -> None:
@@ -254,8 +153,8 @@ def run(
       lyapcheck simulate gains.toml --vary viscous=-30%..+0%
       lyapcheck simulate gains.toml --eps0 1 --certificates breaches/
     """
-    from lyapcheck.answers.simulate import runs_csv
-    from lyapcheck.answers.simulate.starts import starts_csv
+    from lyapcheck.answers.simulate.moved import moved, on_arms
+    from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
     from lyapcheck.robots import load
     from lyapcheck.robots.vary import corners, corners_text, outside
     from lyapcheck.simulate.reference import read_reference
@@ -289,24 +188,41 @@ def run(
         task = wrong.reading(request_of, model, path, start, velocity, time, eps0, band, certified)
     wrong.raise_all()
     ranged = load(name, vary=ranges) if ranges else model
-    arms = tuple(corners(ranged, ranges)) if ranges else ()
     where = ", which lies outside the ranges," if outside(model, ranged) else ""
-    text = f"the arm of the file{where} and {corners_text(ranged, ranges)}" if ranges else ""
+    arms = f"the arm of the file{where} and {corners_text(ranged, ranges)}" if ranges else ""
     folder = certificate_folder(certificates)
     assert task is not None
-    stop, unsampled = not options["keep_going"], bench is not None
+    cases = on_arms(gain_file.gains, model, corners(ranged, ranges) if ranges else ())
+    move, kind, samples = way_of(task, path, starts, bench, band, not options["keep_going"])
+    watched = eps0 if path is not None else eps0 or 0.0
     with progress("simulate") as advance:
-        job = Job(gain_file, model, eps0, certified, advance, arms)
-        if path is not None:
-            return told(follow(job, path, task, band, stop, unsampled), name, runs_csv, csv, plot, format)
-        if starts is not None:
-            return told(spread_out(job, task, starts, unsampled), name, starts_csv, csv, plot, format)
-        return told(regulate(job, task, bench, stop, text, folder), name, runs_csv, csv, plot, format)
+        results, left = moved(cases, move, watched, model if certified else None, advance)
+        if folder is not None:
+            tried = [] if bench else list(zip(results, cases, strict=True))
+            broken = {one.name: breach_certificate(one, *case) for one, case in tried}
+            made = {f"{file_stem(key)}.breach.json": one for key, one in broken.items() if one is not None}
+            write_certificates(folder, made)
+        known: dict[str, Any] = {"unsampled": bench is not None}
+        if kind is SetPointRuns:
+            judged = {} if bench is None or ranges else judged_as_run(gain_file, model, bench)
+            known = {"arms": arms, "judged": judged}
+        answer = kind(tuple(results), tuple(left), gain_file, robot=name, **known)
+        return told(answer, samples, csv, plot, format)
+
+
+def judged_as_run(file: GainFile, model: RobotModel, bench: Bench) -> dict[str, tuple[Check, ...]]:
+    """What the checker says of each gain set on a computer."""
+    from lyapcheck.answers.gate.judge import judged_sets
+    from lyapcheck.answers.running import runs_of
+    from lyapcheck.control.limits import model_limits
+
+    limits = {model.name: model_limits(model)}
+    results = judged_sets(file, model.name, arms=limits, explained=0, loop=bench.entry)
+    return {result.name: runs_of(result) for result in results}
 
 
 def told(
     answer: Simulation[Any],
-    robot: str,
     samples: Callable[[Any], str],
     csv: str | None,
     plot: Path | None,
@@ -320,7 +236,7 @@ def told(
     if csv == "-":
         write_data(samples(answer.results))
     else:
-        show(replace(answer, robot=robot), format)
+        show(answer, format)
     for sentence in answer.complaints():
         print(sentence, file=sys.stderr)
     return answer.exit_code
