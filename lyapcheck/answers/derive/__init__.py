@@ -131,7 +131,6 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: ArmLike | None = N
         '1 positive root, γ = 1.053569219'
     """
     from lyapcheck.answers.derive import rows
-    from lyapcheck.answers.derive import rows as parts
     from lyapcheck.derive import written_arm
     from lyapcheck.derive.family import member
     from lyapcheck.robots import arm_of
@@ -145,10 +144,10 @@ def derivation(m: int | Sequence[int] = 2, n: int = 2, robot: ArmLike | None = N
     arm = None if model is None else written_arm(model)
     members = [member(one) for one in ms]
     judged = [row for one in members for row in rows.of_member(one)] + rows.of_loop(joints)
-    shown = [*map(parts.family, members), parts.value(), parts.rate()]
+    shown = [*map(rows.family, members), rows.value(), rows.rate()]
     if model is not None and arm is not None:
         judged += rows.of_arm(model, arm)
-        shown.append(parts.arm(model, arm))
+        shown.append(rows.arm(model, arm))
     return Derivation(ms, joints, "" if model is None else model.name, tuple(shown), tuple(judged))
 
 

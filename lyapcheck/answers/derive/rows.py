@@ -23,7 +23,7 @@ from lyapcheck.check.statement import Statement
 from lyapcheck.claims import loops
 from lyapcheck.claims.bounds import rate_of_mass
 from lyapcheck.claims.expressions import Expr, diff, expr, var
-from lyapcheck.claims.letters import AnyMatrix, AnyVector, diagonal, every_n
+from lyapcheck.claims.letters import diagonal, every_n
 from lyapcheck.claims.procedures import propose
 from lyapcheck.claims.statements import Missing, identity
 from lyapcheck.control.judgement import judged_statement
@@ -94,15 +94,15 @@ def number(expression: Any) -> Expr:
     if isinstance(expression, sp.MatAdd):
         return reduce(add, map(number, expression.args))
     scalar, parts = _factors(expression)
-    result = _scalar(scalar)
+    result = _written(scalar)
     while parts:
         if parts[0].shape == (1, 1):
             result *= number(parts.pop(0))
             continue
         last = next(k for k, part in enumerate(parts) if part.shape[1] == 1)
-        row, column = _vector(parts[0].T.doit()), _vector(sp.MatMul(*parts[1 : last + 1]).doit())
+        row, column = _written(parts[0].T.doit()), _written(sp.MatMul(*parts[1 : last + 1]).doit())
         result, parts = result * (row @ column), parts[last + 1 :]
-    return result
+    return cast("Expr", result)
 
 
 def _factors(expression: Any) -> tuple[Any, list[Any]]:
@@ -113,56 +113,29 @@ def _factors(expression: Any) -> tuple[Any, list[Any]]:
     return sp.Mul(*(part for part in expression.args if not part.is_Matrix)), matrices
 
 
-def _vector(expression: Any) -> AnyVector:
-    if isinstance(expression, sp.MatrixSymbol):
-        return cast("AnyVector", LETTERS[expression.name])
-    if isinstance(expression, sp.MatAdd):
-        return reduce(add, map(_vector, expression.args))
-    scalar, parts = _factors(expression)
-    result = _vector(parts[-1])
-    for part in reversed(parts[:-1]):
-        result = _matrix(part) @ result
-    return result if scalar == 1 else result.times(_scalar(scalar))
-
-
-def _matrix(expression: Any) -> AnyMatrix:
-    if isinstance(expression, sp.MatAdd):
-        return reduce(add, map(_matrix, expression.args))
-    if isinstance(expression, sp.Transpose):
-        return _matrix(expression.arg).T
-    return cast("AnyMatrix", LETTERS[expression.name])
-
-
-def _scalar(expression: Any) -> Expr:
-    """Sums, products and powers of numbers."""
+def _written(expression: Any) -> Any:
+    """A number, a vector or a matrix in the letters of every n."""
     if expression.is_Rational:
         return expr(str(expression))
-    if expression.is_Symbol:
-        return cast("Expr", LETTERS[expression.name])
+    if isinstance(expression, sp.Symbol | sp.MatrixSymbol):
+        return LETTERS[expression.name]
+    if isinstance(expression, sp.Transpose):
+        return _written(expression.arg).T
+    if isinstance(expression, sp.MatMul):
+        scalar, parts = _factors(expression)
+        product = reduce(lambda right, left: left @ right, map(_written, reversed(parts)))
+        return product if scalar == 1 else product.times(_written(scalar))
     if expression.is_Pow:
-        return _scalar(expression.base) ** int(expression.exp)
-    return reduce(add if expression.is_Add else mul, map(_scalar, expression.args))
+        return _written(expression.base) ** int(expression.exp)
+    return reduce(mul if expression.is_Mul else add, map(_written, expression.args))
 
 
 def _letters(x: Letters) -> dict[str, Any]:
     """The letters of SymPy by name as those of the checker."""
-    s = LOOP
-    named = {
-        x.w: s.w,
-        x.e: s.e,
-        x.h: s.h,
-        x.hw: s.hw,
-        x.U: s.U,
-        x.kp: s.kp,
-        x.M: s.M,
-        x.C: s.C,
-        x.slope: diagonal(s.dh),
-        x.Kp: diagonal(s.kp),
-        x.Kv: diagonal(s.kv),
-        x.B: diagonal(s.b),
-        EPS: s.eps,
-        R: s.r,
-    }
+    same = {getattr(x, name): getattr(LOOP, name) for name in ("w", "e", "h", "hw", "U", "kp", "M", "C")}
+    diagonals = {x.slope: LOOP.dh, x.Kp: LOOP.kp, x.Kv: LOOP.kv, x.B: LOOP.b}
+    numbers = {EPS: LOOP.eps, R: LOOP.r}
+    named = same | {letter: diagonal(one) for letter, one in diagonals.items()} | numbers
     return {letter.name: value for letter, value in named.items()}
 
 
