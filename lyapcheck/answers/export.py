@@ -140,9 +140,8 @@ class Exported:
     def from_rest(self) -> str:
         """Where from the gate shows this very loop to be stable, at its period alone; empty where nowhere."""
         for check in self.judged.checks:
-            if not isinstance(check, SampledCheck) or check.record != self.controller.loop:
-                continue
-            if check.promise is not None and check.narrow:
+            same = isinstance(check, SampledCheck) and check.record == self.controller.loop
+            if same and check.promise is not None and check.narrow:
                 return check.promise.says(f"stable {check.narrow}")
         return ""
 

@@ -80,6 +80,11 @@ class Check:
         return UNDECIDED if self.judgement is None else self.judgement.verdict
 
     @property
+    def narrow(self) -> str:
+        """From where alone it is accepted, as a proof about a loop as it is run may say; else empty."""
+        return ""
+
+    @property
     def own_promise(self) -> Promise:
         """That a check holds which is accepted: of a proof about the arm, else of its value and its limit.
 

@@ -8,6 +8,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from lyapcheck import asked
+from lyapcheck.certificate import Certificate
 from lyapcheck.check.covers import require_covered
 from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.refusal import Refused
@@ -17,7 +19,8 @@ from lyapcheck.files.decimals import decimal_text, significant_up
 from lyapcheck.promise import Promise, promised
 
 if TYPE_CHECKING:
-    from lyapcheck.check.certificate import Certificate
+    from lyapcheck.check.certificate import About
+    from lyapcheck.check.certificate import Certificate as Read
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
@@ -48,6 +51,12 @@ class JudgedStatement:
     def verdict(self) -> str:
         return VERDICTS.get(self.shown, UNDECIDED)
 
+    def certificate(self, about: About) -> Certificate | None:
+        """The certificate of it; ``None`` where no proof was accepted."""
+        if self.proof is None:
+            return None
+        return Certificate(about, self.statement, self.shown, self.grade, self.proof)
+
 
 def judged_statement(statement: Statement, proofs: Iterable[Proof]) -> JudgedStatement:
     """The verdict on a statement.
@@ -66,7 +75,7 @@ def judged_statement(statement: Statement, proofs: Iterable[Proof]) -> JudgedSta
 
 
 def shown_by(
-    kept: Iterable[Certificate], question: Callable[[Statement], Statement | None]
+    kept: Iterable[Read], question: Callable[[Statement], Statement | None]
 ) -> Iterator[tuple[Promise, JudgedStatement]]:
     """The promises of certificates that answer a question, each judged again.
 
@@ -178,3 +187,30 @@ def resting(gains: GainSet, dry: Sequence[Fraction], room: Room) -> JudgedStatem
     statement = Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), errors)
     judged = judged_statement(statement, [AtBounds()])
     return judged if judged.shown == "proved" else None
+
+
+def promised_rest(
+    gains: GainSet, dry: Sequence[Fraction], room: Room, rounded: Callable[[Fraction], Fraction]
+) -> tuple[Promise | None, str]:
+    """The promise of these bounds as they are printed, or why there is none.
+
+    Args:
+        gains: of a bounded h that the checker knows.
+        dry: bounds of dry friction, N·m.
+        room: of each motor.
+        rounded: an angle in degrees as it is printed, which is not below it.
+    """
+    shown = resting(gains, dry, room)
+    if shown is None:
+        return None, ""
+    assert isinstance(shown.statement, Resting)
+    errors = [None if e is None else rounded(e * DEGREES) / DEGREES for e in shown.statement.errors]
+    return promised(asked.resting(gains, dry, errors), shown)
+
+
+def promised_errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
+    """The bounds of |e_i|, rad, of a promise of `promised_rest`; ``None`` for each joint without one."""
+    if promise is None:
+        return (None,) * n
+    assert isinstance(promise.asked, Resting)
+    return promise.asked.errors

@@ -10,18 +10,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lyapcheck import asked
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.answers.running.holds import HoldsCheck, holds_checks
 from lyapcheck.check.judgement import LARGEST
-from lyapcheck.check.kinds.resting import Resting
-from lyapcheck.control.judgement import ACCEPTED, DEGREES, REJECTED, Room, resting, stalls
+from lyapcheck.control.judgement import (
+    ACCEPTED,
+    DEGREES,
+    REJECTED,
+    Room,
+    promised_errors,
+    promised_rest,
+    stalls,
+)
 from lyapcheck.control.limits import model_limits
 from lyapcheck.control.sampling import exact_only
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.vary import corners, corners_text
 from lyapcheck.simulate.closed_loop import SetPoint
 from lyapcheck.simulate.task import set_up
@@ -29,8 +34,8 @@ from lyapcheck.simulate.task import set_up
 if TYPE_CHECKING:
     from lyapcheck.control.conditions import Check
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.control.judgement import JudgedStatement
     from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.promise import Promise
     from lyapcheck.robots import RobotModel
     from lyapcheck.robots.fields import Vary
     from lyapcheck.simulate.task import Task
@@ -38,8 +43,8 @@ if TYPE_CHECKING:
     Varied = tuple[RobotModel, Sequence[Vary]]
     """An arm with ranges, and which."""
 
-PLACES = 6
-"""Decimals of a degree."""
+UNIT = Fraction(1, 10**6)
+"""Of angles that are printed, degrees."""
 POINTS, TOLERANCE = 1001, 1e-8
 """Samples of a run, and its relative tolerance."""
 JUST_INSIDE = 0.95
@@ -96,7 +101,7 @@ class BoundsComparison:
     @property
     def rest(self) -> tuple[Fraction | None, ...]:
         """rad, |e_i| at every state of rest; none for a joint without a bound."""
-        return _errors(self.promise, len(self.joints))
+        return promised_errors(self.promise, len(self.joints))
 
     @property
     def rest_degrees(self) -> tuple[Fraction | None, ...]:
@@ -165,9 +170,8 @@ def compare(
     room = (limits if motors is None else replace(limits, torque=tuple(motors))).room
     # at rest no joint asks anything of another: one of unknown friction has no bound, and the others have
     supposed = [Fraction(LARGEST) if f is None else f for f in most]
-    shown = resting(gain_set, supposed, room)
-    promise, reason = (None, "") if shown is None else _promised(gain_set, supposed, shown)
-    errors = _errors(promise, model.n)
+    promise, reason = promised_rest(gain_set, supposed, room, lambda angle: ceil(angle / UNIT) * UNIT)
+    errors = promised_errors(promise, model.n)
     runs = []
     for index, arm in enumerate(arms):
         progress(index / len(arms), "simulation")
@@ -192,25 +196,6 @@ def compare(
         sampled=record is not None and record.period is not None,
         exact_only=exact_only(record),
     )
-
-
-def _promised(gains: GainSet, dry: Sequence[Fraction], shown: JudgedStatement) -> tuple[Promise | None, str]:
-    """The promise of what is printed, in degrees and rounded up; or why there is none."""
-    assert isinstance(shown.statement, Resting)
-    unit = Fraction(1, 10**PLACES)
-    errors = [
-        None if error is None else ceil(error * DEGREES / unit) * unit / DEGREES
-        for error in shown.statement.errors
-    ]
-    return promised(asked.resting(gains, dry, errors), shown)
-
-
-def _errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
-    """rad, what is promised of each joint."""
-    if promise is None:
-        return (None,) * n
-    assert isinstance(promise.asked, Resting)
-    return promise.asked.errors
 
 
 def _reason(

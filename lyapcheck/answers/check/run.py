@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -117,9 +117,8 @@ def run_proof(
     proved only if its own certificate is accepted and every claim that it uses is proved for the same m.
     Claims behind the hypotheses of a theorem must state these hypotheses.
     """
-    proposed = proposed_proof(path, ms, robot, n, gains, only, on_progress)
-    result = proposed.result(judge_afresh(proposed.certificates))
-    return replace(result, elsewhere=_elsewhere(result, proposed.model))
+    made, result = proposed_proof(path, ms, robot, n, gains, only, on_progress)
+    return result(judge_afresh(made))
 
 
 def _elsewhere(result: ProofResult, model: Any) -> dict[Key, tuple[str, ClaimResult]]:
@@ -155,54 +154,6 @@ def _conditions(theorem: Stable) -> set[object]:
     return {*theorem.argument.where, *theorem.granted}.difference(meanings)
 
 
-@dataclass(frozen=True)
-class ProposedProof:
-    """What searches propose for the claims of a proof; nothing of it is decided.
-
-    Args:
-        path: of the script.
-        ms: the members of the family.
-        joints: n.
-        model: the arm, if there is one.
-        only: the ids to report; all if empty.
-        handover: what the script states.
-        proposals: a row for each claim and m.
-        certificates: of those rows for which there is a proof or a refutation.
-    """
-
-    path: str
-    ms: tuple[int, ...]
-    joints: int
-    model: Any
-    only: tuple[str, ...]
-    handover: Handover
-    proposals: Mapping[Key, Proposal]
-    certificates: Mapping[Key, Certificate]
-
-    def result(self, judged: Mapping[Key, Judged]) -> ProofResult:
-        """What a fresh process of the checker makes of it, see `judge_afresh`."""
-        results, claims = _results(self.proposals, judged), self.handover.claims
-        about_arm = any("robot" in answer.read for claim in claims for answer in claim.answers)
-        places = {claim.id: k for k, claim in enumerate(claims)}
-        every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
-        made = self.certificates
-        return ProofResult(
-            self.handover.name,
-            self.handover.title,
-            self.ms,
-            self.joints,
-            self.model.name if self.model else None,
-            tuple(results[key] for key in every if not self.only or key[0] in self.only),
-            self.model.assumptions if self.model is not None and about_arm else (),
-            {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
-            self.path,
-            frozenset(
-                claim.id for claim in claims if any("gains" in answer.read for answer in claim.answers)
-            ),
-            assumed=assumed_line(self.model, self.model.name) if self.model and about_arm else "",
-        )
-
-
 def proposed_proof(
     path: str | Path,
     ms: Sequence[int] = (1, 2, 3),
@@ -211,8 +162,12 @@ def proposed_proof(
     gains: Any = None,
     only: Sequence[str] = (),
     on_progress: Progress | None = None,
-) -> ProposedProof:
-    """What is proposed for the claims of a proof script, to be judged beside others; see `run_proof`."""
+) -> tuple[Mapping[Key, Certificate], Callable[[Mapping[Key, Judged]], ProofResult]]:
+    """What searches propose for the claims of a proof script, of which nothing is decided; see `run_proof`.
+
+    Returns:
+        The certificates, to be judged beside others, and what makes of their verdicts the result.
+    """
     script = find_script(str(path))
     model = _robot(robot, n)
     if model is not None:
@@ -222,8 +177,31 @@ def proposed_proof(
     asked = tuple((m, joints, model, next((s for s in sets if s.m == m), None)) for m in dict.fromkeys(ms))
     handover = ask(ScriptRequest(str(script), script.name, asked, _others(asked), tuple(only)))
     proposals = _proposals(handover, asked, script.name, on_progress or silent)
-    made = certificates(proposals, handover.name)
-    return ProposedProof(str(path), tuple(ms), joints, model, tuple(only), handover, proposals, made)
+    made, claims = certificates(proposals, handover.name), handover.claims
+    about_arm, about_gains = (
+        frozenset(claim.id for claim in claims if any(name in answer.read for answer in claim.answers))
+        for name in ("robot", "gains")
+    )
+
+    def result(judged: Mapping[Key, Judged]) -> ProofResult:
+        results, places = _results(proposals, judged), {claim.id: k for k, claim in enumerate(claims)}
+        every = sorted(results, key=lambda key: (places[key[0]], key[1] or 0))
+        found = ProofResult(
+            handover.name,
+            handover.title,
+            tuple(ms),
+            joints,
+            model.name if model else None,
+            tuple(results[key] for key in every if not only or key[0] in only),
+            model.assumptions if model and about_arm else (),
+            {file_name(*key): made[key] for key in every if results[key].decision.certificate is not None},
+            str(path),
+            about_gains,
+            assumed=assumed_line(model, model.name) if model and about_arm else "",
+        )
+        return replace(found, elsewhere=_elsewhere(found, model))
+
+    return made, result
 
 
 def paper_case_data(m: int) -> CaseData:
@@ -347,10 +325,7 @@ def _results(proposals: Mapping[Key, Proposal], judged: Mapping[Key, Judged]) ->
 
 
 def _robot(robot: Any, n: int | None) -> Any:
-    if robot is None and n is not None:
-        return None
-    if robot is not None and not isinstance(robot, (str, Path)):
-        return robot
-    from lyapcheck.robots import load
+    """The arm; ``None`` where a number of joints is given instead."""
+    from lyapcheck.robots import arm_of
 
-    return load(str(robot or DEFAULT_ROBOT))
+    return None if robot is None and n is not None else arm_of(robot or DEFAULT_ROBOT)

@@ -7,7 +7,7 @@ condition that fails. There is one for each check as well, which is about number
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -30,7 +30,7 @@ from lyapcheck.check.kinds.gate_accepted import (
 )
 from lyapcheck.check.kinds.gravity import GravityOfPotential
 from lyapcheck.check.numbers.balls import hyperbolic_constants
-from lyapcheck.check.statement import Proof, Statement
+from lyapcheck.check.statement import Proof
 from lyapcheck.check.verify import weakest
 from lyapcheck.control.conditions import ACCEPTED, REJECTED
 from lyapcheck.control.gains import CERTIFICATES, RUNNING
@@ -39,6 +39,7 @@ from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.fields import file_stem
+from lyapcheck.promise import Judged, Promise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,7 +60,7 @@ def whole(result: GateResult) -> Certificate | None:
     Soundness: every part is a judgement of ``lyapcheck.check.verify``.
     """
     checks = [check for check in result.checks if result.decides(check) and check.id not in RUNNING]
-    known = [(check, check.judgement) for check in checks if check.judgement is not None]
+    known = [check.judgement for check in checks if check.judgement is not None]
     if result.verdict not in (ACCEPTED, REJECTED) or len(known) < len(checks):
         return None  # without a limit there is no statement to certify
     if not checks or (result.verdict == REJECTED and REJECTED not in {check.verdict for check in checks}):
@@ -71,21 +72,15 @@ def whole(result: GateResult) -> Certificate | None:
         kept = one.statement
         if isinstance(kept, GateAccepted) and not kept.stability and one.shown == "proved":
             about = replace(about, says=f"{result.name}: {', '.join(kept.conditions)}")
-        return Certificate(about, one.statement, one.shown, one.grade, _proof(one))
+        return one.certificate(about)
     names = [f"{check.id} {Row(result, check).joint}" for check in checks]
-    parts = AllOf(tuple((name, outcome.statement) for name, (_, outcome) in zip(names, known, strict=True)))
+    parts = AllOf(tuple((name, outcome.statement) for name, outcome in zip(names, known, strict=True)))
+    proofs = [(k, outcome.proof) for k, outcome in enumerate(known) if outcome.proof is not None]
     if result.verdict == REJECTED:
-        first = next(k for k, (check, _) in enumerate(known) if check.verdict == REJECTED)
-        outcome = known[first][1]
-        proof = OnePart(first, _proof(outcome))
-        return Certificate(about, parts, "refuted", outcome.grade, proof)
-    every = EveryPart(tuple(_proof(outcome) for _, outcome in known))
-    return Certificate(about, parts, "proved", weakest(outcome.grade for _, outcome in known), every)
-
-
-def _proof(result: JudgedStatement) -> Proof:
-    assert result.proof is not None
-    return result.proof
+        first, against = next((k, proof) for k, proof in proofs if known[k].verdict == REJECTED)
+        return Certificate(about, parts, "refuted", known[first].grade, OnePart(first, against))
+    every = EveryPart(tuple(proof for _, proof in proofs))
+    return Certificate(about, parts, "proved", weakest(outcome.grade for outcome in known), every)
 
 
 def certificates(results: Sequence[GateResult]) -> tuple[dict[str, Certificate], tuple[str, ...]]:
@@ -101,124 +96,105 @@ def certificates(results: Sequence[GateResult]) -> tuple[dict[str, Certificate],
     for result in results:
         verdict = whole(result)
         checks = (*result.checks, *(() if result.otherwise is None else (result.otherwise,)))
-        own = [verdict, *(_certificate(result, check) for check in checks)]
-        own += [*_of_friction(result), *_of_periods(result)]
-        for one in own:
-            if one is not None and made.setdefault(_file(one), one) is not one:
+        own = (verdict, *_of_checks(result, checks), *_of_friction(result), *_of_periods(result))
+        for one in filter(None, own):
+            if made.setdefault(f"{file_stem(one.claim.id)}.json", one) is not one:
                 raise argument_error(
                     "--certificates", result.name, "names gain sets of two files", "judge one file at a time"
                 )
-        granted += _premises(result, verdict)
+        statement = None if verdict is None else verdict.statement
+        if result.limits.robot and isinstance(statement, GateAccepted) and not statement.gravity:
+            granted += [
+                f"{result.limits.robot}: no certificate shows |g_{i}| ≤ {decimal_text(k)} N·m for all q"
+                for i, k in enumerate(statement.k_g, 1)
+            ]
     return made, tuple(dict.fromkeys(granted))
-
-
-def _premises(result: GateResult, verdict: Certificate | None) -> Iterator[str]:
-    """The bounds of gravity that a verdict of an arm takes for granted."""
-    statement = None if verdict is None else verdict.statement
-    if result.limits.robot and isinstance(statement, GateAccepted) and not statement.gravity:
-        for i, k in enumerate(statement.k_g, 1):
-            yield f"{result.limits.robot}: no certificate shows |g_{i}| ≤ {decimal_text(k)} N·m for all q"
-
-
-def _certificate(result: GateResult, check: Check) -> Certificate | None:
-    outcome = check.judgement
-    if outcome is None or outcome.proof is None:
-        return None
-    parts = [result.name, check.id, *([] if check.joint is None else [Row(result, check).joint])]
-    narrow = check.narrow if isinstance(check, SampledCheck) else ""
-    says = f"{result.name}, {Row(result, check).joint}: {narrow or RULES[check.id].formula}"
-    about = About(".".join(parts), says, result.m, result.limits.n, PROOF)
-    return Certificate(about, outcome.statement, outcome.shown, outcome.grade, outcome.proof)
-
-
-def _of_friction(result: GateResult) -> Iterator[Certificate]:
-    """What is said of dry friction beside the checks."""
-    model, gains = result.limits.model, result.gains
-    if model is None or not result.explained:
-        return
-    rows = [(f"held.{model.joints[i]}", HELD, one) for i, one in held(gains, model).items()]
-    rest = resting(gains, model, result.limits.room)
-    for name, says, one in [*rows, *([] if rest is None else [("rest", REST, rest.judged)])]:
-        if one.proof is not None:
-            about = About(f"{gains.name}.{name}", f"{gains.name}: {says}", gains.m, model.n, PROOF)
-            yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
 
 
 def running_certificates(result: GateResult) -> Iterator[Certificate]:
     """What was decided of the loop as it is run."""
-    runs = (_certificate(result, check) for check in result.checks if check.id in RUNNING)
-    yield from (one for one in runs if one is not None)
-    yield from _of_periods(result)
+    runs = [check for check in result.checks if check.id in RUNNING]
+    return filter(None, (*_of_checks(result, runs), *_of_periods(result)))
 
 
-def _of_periods(result: GateResult) -> Iterator[Certificate]:
+Made = Iterator[Certificate | None]
+"""``None`` for what was not decided."""
+
+
+def _of(result: GateResult, name: str, says: str, judged: Judged | None) -> Certificate | None:
+    """The certificate of something about a gain set, whose name goes before its own and before the words."""
+    if not isinstance(judged, JudgedStatement):
+        return None
+    own = result.name
+    return judged.certificate(About(f"{own}.{name}", f"{own}{says}", result.m, result.limits.n, PROOF))
+
+
+def _of_checks(result: GateResult, checks: Iterable[Check]) -> Made:
+    for check in checks:
+        joint = Row(result, check).joint
+        name = check.id if check.joint is None else f"{check.id}.{joint}"
+        says = f", {joint}: {check.narrow or RULES[check.id].formula}"
+        yield _of(result, name, says, check.judgement)
+
+
+def _of_friction(result: GateResult) -> Made:
+    """What is said of dry friction beside the checks."""
+    model, gains = result.limits.model, result.gains
+    if model is None or not result.explained:
+        return
+    for i, one in held(gains, model).items():
+        yield _of(result, f"held.{model.joints[i]}", f": {HELD}", one)
+    if (rest := resting(gains, model, result.limits.room)) is not None:
+        yield _of(result, "rest", f": {REST}", rest.shown)
+
+
+def _of_periods(result: GateResult) -> Made:
     """What is said of other periods than that of the record, which is undecided."""
     for check in result.checks:
         if isinstance(check, SampledCheck) and (check.judgement is None or check.narrow):
-            promises = (("shown", check.up_to), ("from-rest", None if check.narrow else check.from_rest))
-            known = [(name, None if one is None else one.shown) for name, one in promises]
-            for name, one in (*known, ("unstable", check.refuted)):
-                if isinstance(one, JudgedStatement) and one.proof is not None:
-                    says = f"{result.name}: what is {name} of its periods"
-                    about = About(f"{result.name}.sampled.{name}", says, result.m, result.limits.n, PROOF)
-                    yield Certificate(about, one.statement, one.shown, one.grade, one.proof)
-
-
-def _file(certificate: Certificate) -> str:
-    return f"{file_stem(certificate.claim.id)}.json"
+            from_rest = None if check.narrow else check.from_rest
+            known = {"shown": check.up_to, "from-rest": from_rest, "unstable": check.refuted}
+            for name, one in known.items():
+                judged = one.shown if isinstance(one, Promise) else one
+                yield _of(result, f"sampled.{name}", f": what is {name} of its periods", judged)
 
 
 def verdict_statement(result: GateResult) -> JudgedStatement | None:
     """What the checker says of the whole verdict; ``None`` where no such statement can be made of it.
 
+    With the gravity of the model; where it does not serve, k_g is a premise.
+
     Soundness: that of ``lyapcheck.check.verify``.
     """
-    statement = _statement(result)
-    if statement is None or result.verdict not in (ACCEPTED, REJECTED):
-        return None
-    known, proofs = _with_gravity(result, statement)
-    if result.verdict == REJECTED:
-        its = judged_statement(known, _refutations(result, known))
-        return its if its.shown == "refuted" else None
-    stability = tuple(proof for _, proof in _stability(result))
-    its = judged_statement(known, (GateParts(proofs, digits, stability) for digits in DIGITS))
-    if its.shown != "proved" and stability and known.conditions:
-        # stability at nominal numbers is no part of a statement over ranges; its check has a certificate
-        alone = replace(known, stability=())
-        its = judged_statement(alone, (GateParts(proofs, digits, ()) for digits in DIGITS))
-    return its if its.shown == "proved" else None
-
-
-def _statement(result: GateResult) -> GateAccepted | None:
-    """The statement, so far without gravity; ``None`` for an h unknown to the checker."""
     limits, gains = result.limits, result.gains
     torques = {"10", *TORQUES} & set(result.deciding)
     if not is_stated(gains, limits) or (torques and None in limits.torque):
         return None
-    k_g = tuple(map(Fraction, limits.gravity))
-    its = tuple(statement for statement, _ in _stability(result))
+    stability = [
+        (known.statement, known.proof)
+        for check in result.checks
+        if check.id in result.deciding and check.id in CERTIFICATES and (known := check.judgement) is not None
+        if known.shown == "proved" and known.proof is not None
+    ]
+    k_g, bounds = tuple(map(Fraction, limits.gravity)), tuple[Proof, ...]()
     asked = gate_accepted(gains, limits.model, result.file.bounds, k_g, result.deciding)
-    return replace(asked, stability=its)
-
-
-def _stability(result: GateResult) -> Iterator[tuple[Statement, Proof]]:
-    """The statements about stability that decide, with their proofs."""
-    for check in result.checks:
-        known, about_arm = check.judgement, check.id in result.deciding and check.id in CERTIFICATES
-        if about_arm and known is not None and known.shown == "proved" and known.proof is not None:
-            yield known.statement, known.proof
-
-
-def _with_gravity(result: GateResult, statement: GateAccepted) -> tuple[GateAccepted, tuple[Proof, ...]]:
-    """With the gravity of the model; where it does not serve, k_g is a premise."""
-    model = result.limits.model
-    shown = None if model is None else shown_gravity(model, statement.k_g)
-    if shown is None or not isinstance(shown.statement, AllOf) or not isinstance(shown.proof, EveryPart):
-        return statement, ()
-    (_, slope), *_ = shown.statement.parts
-    if not isinstance(slope, GravityOfPotential):  # g of these links is too long to be written out
-        return statement, ()
-    return replace(statement, gravity=slope.gravity, potential=slope.potential), shown.proof.parts[1:]
+    asked = replace(asked, stability=tuple(statement for statement, _ in stability))
+    shown = None if limits.model is None else shown_gravity(limits.model, k_g)
+    if shown is not None and isinstance(shown.statement, AllOf) and isinstance(shown.proof, EveryPart):
+        (_, slope), *_ = shown.statement.parts
+        if isinstance(slope, GravityOfPotential):  # else g of these links is too long to be written out
+            asked = replace(asked, gravity=slope.gravity, potential=slope.potential)
+            bounds = shown.proof.parts[1:]
+    if result.verdict == REJECTED:
+        its = judged_statement(asked, _refutations(result, asked))
+        return its if its.shown == "refuted" else None
+    proofs = tuple(proof for _, proof in stability)
+    its = judged_statement(asked, (GateParts(bounds, digits, proofs) for digits in DIGITS))
+    if its.shown != "proved" and proofs and asked.conditions:
+        # stability at nominal numbers is no part of a statement over ranges; its check has a certificate
+        alone = replace(asked, stability=())
+        its = judged_statement(alone, (GateParts(bounds, digits, ()) for digits in DIGITS))
+    return its if its.shown == "proved" else None
 
 
 def _refutations(result: GateResult, statement: GateAccepted) -> Iterator[Proof]:

@@ -13,14 +13,12 @@ References: (6), (11) of reyes2019family.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import degrees, exp, pi, sqrt
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.stability import small
-from lyapcheck.asked import resting as asked_resting
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.control.judgement import (
     ACCEPTED,
@@ -28,16 +26,16 @@ from lyapcheck.control.judgement import (
     JudgedStatement,
     Room,
     dry_friction,
+    promised_errors,
+    promised_rest,
     rest_error,
     stalls,
 )
-from lyapcheck.control.judgement import resting as judged_resting
 from lyapcheck.control.sampling import exact_only
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.errors import installed
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, significant_up
-from lyapcheck.promise import promised
 from lyapcheck.robots import trig
 
 if TYPE_CHECKING:
@@ -142,36 +140,17 @@ def _limit(friction: Fraction, gamma: Tree) -> Threshold:
     return scaled(friction, 1, gamma, "<=")
 
 
-@dataclass(frozen=True)
-class Rest:
-    """How far from the goal the joints may rest.
-
-    Args:
-        judged: as the checker accepts it, to six digits.
-        promise: with the angles that are printed and the largest dry friction in the ranges.
-        degrees: these angles; ``None`` for a joint without a bound.
-    """
-
-    judged: JudgedStatement
-    promise: Promise | None
-    degrees: tuple[Fraction | None, ...]
-
-
 @lru_cache(maxsize=64)
-def resting(gains: GainSet, model: RobotModel, room: Room) -> Rest | None:
-    """``None`` where nothing is known of dry friction, or no joint has a bound."""
+def resting(gains: GainSet, model: RobotModel, room: Room) -> Promise | None:
+    """How far from the goal the joints may rest, in angles as they are printed.
+
+    ``None`` where nothing is known of dry friction, or no joint has a bound.
+    """
     friction = dry_friction(model)
     if not any(friction) or not named(gains.family, gains.m).bounded or gains.angle_unit == "deg":
         return None
     _ = named(gains.family, gains.m).checked  # or say that the checker does not know the function
-    judged = judged_resting(gains, friction, room)
-    if judged is None:
-        return None
-    errors = judged.statement.errors  # type: ignore[attr-defined]
-    degrees = tuple(None if e is None else significant_up(e * DEGREES, 4) for e in errors)
-    printed = [None if angle is None else angle / DEGREES for angle in degrees]
-    promise, _ = promised(asked_resting(gains, friction, printed), judged)
-    return Rest(judged, promise, degrees)
+    return promised_rest(gains, friction, room, lambda angle: significant_up(angle, 4))[0]
 
 
 def farthest(result: GateResult, model: RobotModel) -> Fact | None:
@@ -184,11 +163,11 @@ def farthest(result: GateResult, model: RobotModel) -> Fact | None:
     if stuck:
         joints = ", ".join(model.joints[i] for i in stuck)
         return ANYWHERE, f"dry friction{assumed} may hold {joints} anywhere"
-    known = () if rest is None else tuple(angle for angle in rest.degrees if angle is not None)
-    if rest is None or rest.promise is None or len(known) < len(rest.degrees):
+    known = [error * DEGREES for error in promised_errors(rest, model.n) if error is not None]
+    if rest is None or len(known) < model.n:
         return ANYWHERE, f"dry friction{assumed} may leave it off its goal"
     most = max(known)
-    words = rest.promise.says(f"dry friction{assumed} leaves at most {decimal_text(most)}°")
+    words = rest.says(f"dry friction{assumed} leaves at most {decimal_text(most)}°")
     return most, words + without_friction(model) + exact_only(result.record)
 
 
@@ -219,11 +198,13 @@ def friction_lines(result: GateResult, model: RobotModel, stuck: Sequence[int]) 
         if f and stalls(f, most)
     ]
     rest = resting(gains, model, room)
-    if rest is not None and rest.promise is not None:
-        angles = zip(model.joints, rest.degrees, friction, strict=True)
-        far = [f"{joint} {decimal_text(angle)}°" for joint, angle, f in angles if f and angle is not None]
+    if rest is not None:
+        rows = zip(model.joints, promised_errors(rest, model.n), friction, strict=True)
+        far = [
+            f"{joint} {decimal_text(error * DEGREES)}°" for joint, error, f in rows if f and error is not None
+        ]
         if far:
             leaves = f"dry friction{assumed} leaves at most {', '.join(far)}, at every state of rest"
             leaves += exact_only(result.record)
-            lines.append(rest.promise.says(leaves))
+            lines.append(rest.says(leaves))
     return lines

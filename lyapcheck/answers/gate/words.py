@@ -130,10 +130,10 @@ def value_text(check: Check) -> str:
 
 def limit_text(check: Check) -> str:
     """The limit to six digits, all correct; ``none`` where there is no limit."""
-    if isinstance(check, SampledCheck) and check.narrow:
+    if check.narrow or check.id == GRAVITY:
         return check.narrow
-    if check.id == GRAVITY or (fixed := RULES[check.id].limit):
-        return "" if check.id == GRAVITY else fixed
+    if fixed := RULES[check.id].limit:
+        return fixed
     if check.limit is None:
         return "none"
     return f"{at_least(1000 * check.limit.lower)} ms" if check.id == SAMPLED else _digits(check.limit)
@@ -194,7 +194,7 @@ def significant_text(numerator: int, denominator: int, digits: int) -> str:
 def advice(result: GateResult, check: Check) -> str:
     """What is wrong and what to change, in one sentence; of an accepted check its narrow scope."""
     if check.verdict == ACCEPTED:
-        return check.narrow if isinstance(check, SampledCheck) else ""
+        return check.narrow
     return f"({check.id}) {Row(result, check).joint}: {broken(result, check)}"
 
 

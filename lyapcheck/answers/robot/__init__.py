@@ -69,12 +69,12 @@ def build(
         constants = arm_constants(model, max_boxes or MAX_BOXES, on_progress)
         if on_progress is not None:
             on_progress(1.0, "properties 2.1–2.8")
-        proposed = proposed_proof("published.py", [1], model, only=IDS)
+        proposed, result = proposed_proof("published.py", [1], model, only=IDS)
     prints, bounds = list(print_questions(model)), list(bound_questions(model, constants))
     made = certificates(model, [*prints, *bounds])
     # one process for all, in which what several rest on is judged once
-    judged = judge_afresh({**proposed.certificates, **made})
-    decided, of_properties = properties(model, proposed.result(judged))
+    judged = judge_afresh({**proposed, **made})
+    decided, of_properties = properties(model, result(judged))
     positive = decided[0].verdict is Verdict.PROVED
     about_prints, about_bounds = answered(model, prints, made, judged), answered(model, bounds, made, judged)
     own = {

@@ -95,7 +95,7 @@ def open_as_run(checks: Sequence[Check], unstable: bool = True) -> str:
         checks: of a gain set.
         unstable: whether `unstable_alone` is said as well.
     """
-    narrow = [f"{one.id} {one.narrow} only" for one in checks if isinstance(one, SampledCheck) and one.narrow]
+    narrow = [f"{one.id} {one.narrow} only" for one in checks if one.narrow]
     open_ = dict.fromkeys(check.id for check in checks if check.id in (SAMPLED, HOLDS) and check.reason)
     alone = [text] if unstable and (text := unstable_alone(checks)) else []
     return "; ".join([*narrow, *([f"open: {', '.join(open_)}"] if open_ else []), *alone])
