@@ -41,6 +41,7 @@ def decreasing(
     coupling: tuple[Fraction, ...] = (),
     *,
     nominal: bool = False,
+    viscous_min: Fraction | None = None,
 ) -> Decreasing | ChainDecreasing:
     """Does V fall at every state of every arm in the ranges, with this ε₀? See `Decreasing`.
 
@@ -52,12 +53,13 @@ def decreasing(
         eps0: that is printed.
         coupling: the diagonal of Λ, where one is printed.
         nominal: the question is about the nominal numbers of the arm alone.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
     """
     from lyapcheck.check.kinds.decreasing import Decreasing
     from lyapcheck.check.kinds.link_bounds import ChainDecreasing
 
+    viscous = viscous_of(arm, viscous_min, nominal=nominal)
     arm = arm.fixed() if nominal else arm
-    viscous = tuple((b.value, b.value) if nominal else b.bounds for b in arm.viscous)
     try:
         mass = arm.mass_terms
     except TooManyTerms:
@@ -128,7 +130,9 @@ def sampled(
     )
 
 
-def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: RobotModel, within: Fraction) -> SampledFromRest:
+def sampled_from_rest(
+    gains: GainSet, loop: LoopRecord, arm: RobotModel, within: Fraction, viscous_min: Fraction | None = None
+) -> SampledFromRest:
     """Do these gains bring the arm to each goal from rest within so many degrees, at exactly this period?
 
     Args:
@@ -136,6 +140,7 @@ def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: RobotModel, within:
         loop: how the computer runs it: backward differences, intervals of the nominal period.
         arm: for all of its ranges; ``fixed()`` asks about its nominal inertia, not about its friction.
         within: of every |e_i|, degrees.
+        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
 
     Raises:
         TooManyTerms: M of the arm is too long to be written out.
@@ -145,7 +150,7 @@ def sampled_from_rest(gains: GainSet, loop: LoopRecord, arm: RobotModel, within:
     assert loop.period is not None
     return SampledFromRest(
         **_controller(gains),
-        viscous=tuple(number.bounds for number in arm.viscous),
+        viscous=viscous_of(arm, viscous_min),
         mass=arm.mass_terms,
         potential=tuple(to_terms(arm.potential)),
         parameters=arm.ranges,

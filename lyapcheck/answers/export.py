@@ -15,7 +15,7 @@ from lyapcheck.answers import assumed_line, file_words
 from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.answers.running.holds import NO_LINKS
-from lyapcheck.answers.running.sampled import SampledCheck, largest, question
+from lyapcheck.answers.running.sampled import AsRun, SampledCheck, largest
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.control.conditions import REJECTED, UNDECIDED
@@ -336,7 +336,7 @@ def _certified_period(
 ) -> tuple[Promise | None, str]:
     """That the loop is stable at each period up to one just below all that (S) shows; or why it is open."""
     try:
-        asked = question(gains, limits, loop, viscous_min)
+        asked = AsRun(gains, limits, loop, viscous_min).question()
     except ValueError as error:
         return None, str(error)
     most, _, why = largest(asked, limits.joints)

@@ -16,10 +16,10 @@ import pytest
 from lyapcheck import robots
 from lyapcheck.answers.gate import GateResult, accepting, gate
 from lyapcheck.answers.running.holds import HoldsCheck
-from lyapcheck.answers.running.sampled import SampledCheck, shown_from_rest
+from lyapcheck.answers.running.sampled import AsRun, SampledCheck
 from lyapcheck.control.conditions import Check
 from lyapcheck.control.gains import GainSet, read_gain_file
-from lyapcheck.control.limits import arm_limits
+from lyapcheck.control.limits import arm_limits, model_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.output.answer import JUDGED_FORMATS
@@ -357,6 +357,7 @@ def test_ranges_with_too_many_corners_are_not_tried_on_long_arms(monkeypatch):
     monkeypatch.setattr("lyapcheck.answers.running.sampled.MOST_CORNERS", 1)
     arm = varied(robots.load("px100"), [Vary.parsed("payload=0..0.1")])
     gains = GainSet("a", 1, (Fraction(1),) * arm.n, (Fraction(1),) * arm.n)
-    promise, why = shown_from_rest(gains, arm, LoopRecord(period=MS, within=Fraction(5)), None)
+    record = LoopRecord(period=MS, within=Fraction(5))
+    promise, why = AsRun(gains, model_limits(arm), record, None).from_rest(arm)
     assert promise is None
     assert why == "(P) asks for at most 1 corners of the ranges of so many joints"

@@ -18,12 +18,13 @@ import numpy as np
 import pytest
 
 from lyapcheck import robots
-from lyapcheck.answers.running.sampled import shown_from_rest
+from lyapcheck.answers.running.sampled import AsRun
 from lyapcheck.answers.tune.search import Search
 from lyapcheck.answers.tune.targets import limits_with
 from lyapcheck.answers.tune.trial import BY_PROOF, Trials, Wishes
 from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.control.gains import GainSet
+from lyapcheck.control.limits import model_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.robots import RobotModel
 from lyapcheck.robots.dynamics import Chain
@@ -273,7 +274,7 @@ def test_gains_that_are_proved_from_rest_settle(name: str, kp: str, kv: str, rat
     model, random = arm(name), np.random.default_rng(3)
     given = GainSet(name, 1, *([Fraction(word) for word in row.split()] for row in (kp, kv)))
     record = LoopRecord(period=Fraction(1, rate), within=Fraction(within))
-    promise, why = shown_from_rest(given, model, record, None)
+    promise, why = AsRun(given, model_limits(model), record, None).from_rest(model)
     assert promise is not None, why
     for corner in random.choice([-1.0, 1.0], (3, model.n)):
         start = GOAL - np.radians(within) * corner

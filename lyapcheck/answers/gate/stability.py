@@ -186,18 +186,11 @@ class Prover:
             proof, reason = chain_epsilon(gains, chain, viscous)
         if proof is None or proof.judged is None:
             return Check(name, reason=reason)
-        promise, reason = promised(self._asked(gains, model, proof.eps0), proof.judged)
+        asked = decreasing(gains, model, proof.eps0, nominal=not self.ranges, viscous_min=self.viscous_min)
+        promise, reason = promised(asked, proof.judged)
         if promise is None:
             return Check(name, reason=reason)
         return Check(name, judgement=proof.judged, value=proof.eps0, promise=promise)
-
-    def _asked(
-        self, gains: GainSet, model: RobotModel, eps0: Fraction, weights: tuple[Fraction, ...] = ()
-    ) -> Statement:
-        """That V falls for these gains; see ``lyapcheck.asked.decreasing``."""
-        nominal = not self.ranges
-        stated = decreasing(gains, model, eps0, weights, nominal=nominal)
-        return replace(stated, viscous=viscous_of(model, self.viscous_min, nominal=nominal))
 
     def _at_fault(self, controlled: ControlledArm, found: Check) -> Check:
         """A check without a proof; where the arm itself is at fault that is why, looked at once."""
@@ -224,8 +217,9 @@ class Prover:
 
         if not isinstance(stated, Decreasing | ChainDecreasing):
             return None
+        own = gains, model, stated.eps0, getattr(stated, "coupling", ())
         try:
-            return self._asked(gains, model, stated.eps0, getattr(stated, "coupling", ()))
+            return decreasing(*own, nominal=not self.ranges, viscous_min=self.viscous_min)
         except TooManyTerms:
             return None
 

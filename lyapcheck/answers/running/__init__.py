@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, falls, holds_checks, holds_sentences
-from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck, sampled_check
+from lyapcheck.answers.running.sampled import SAMPLED, AsRun, SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
 from lyapcheck.control.gains import GainSet
 from lyapcheck.control.limits import Limits
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
     from lyapcheck.check.certificate import Certificate
 
+NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 INFINITE = "no [loop] gives a rate: judged for an infinite rate, as in (11)"
 
 
@@ -44,10 +45,12 @@ def running_checks(
         kept: certificates that are judged before anything is searched.
     """
     checks: list[Check] = []
-    if SAMPLED in deciding or (record is not None and record.period is not None):
+    if record is not None and record.period is not None:
         passed = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
         inside = any(each and all(each) for each in passed)
-        checks.append(sampled_check(gains, limits, record, viscous_min, inside, searched, kept))
+        checks.append(AsRun(gains, limits, record, viscous_min, kept).check(inside, searched))
+    elif SAMPLED in deciding:
+        checks.append(Check(SAMPLED, reason=NO_PERIOD))
     if HOLDS in deciding or (record is not None and not record.knows_gravity):
         checks += holds_checks(gains, limits.model, record, limits.room)
     return tuple(checks)

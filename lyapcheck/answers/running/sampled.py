@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 SAMPLED = "sampled"
-NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 LOWPASS = "lowpass is no filter of finitely many taps: give its taps, cut off where they are small"
 SATURATES = "({}) supposes that no motor saturates: it counts together with (10i) or (10p) only"
 STEPS = "({}) speaks of exact readings: leave encoder out of the loop, and simulate with it"
@@ -153,89 +152,135 @@ def unstable_text(refuted: JudgedStatement, alone: bool) -> str:
     return f"unstable at {time_text(proof.period)}{without}, at the goal q_d = ({place})°{some}"
 
 
-def sampled_check(
-    gains: GainSet,
-    limits: Limits,
-    record: LoopRecord | None,
-    viscous_min: Fraction | None,
-    inside: bool,
-    searched: bool = True,
-    kept: Sequence[Certificate] = (),
-) -> Check:
-    """Are these gains stable, run in this way?
+@dataclass(frozen=True)
+class AsRun:
+    """Gains on an arm, as a computer runs them.
 
     Args:
         gains: the controller.
         limits: of the arm; without its model any serial revolute arm with these bounds of gravity is meant.
-        record: how a computer runs it.
+        record: how a computer runs it, with a period.
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
-        inside: whether (10i) or (10p) is accepted, so that no motor saturates.
-        searched: whether to look for a refutation where nothing is shown.
         kept: certificates that are judged before anything is searched.
-
-    Soundness: that of ``lyapcheck.check.verify``.
     """
-    if record is None or record.period is None:
-        return Check(SAMPLED, reason=NO_PERIOD)
-    known = SampledCheck(SAMPLED, value=record.period, record=record, counts=inside)
-    try:
-        asked = question(gains, limits, record, viscous_min)
-    except ValueError as error:
-        return replace(known, reason=str(error))
-    most, joint, why = largest(asked, limits.joints)
-    known = replace(known, joint=joint, rests=asked.conclusion == "rest")
-    if most is not None:
-        shown = judged_sampled(replace(asked, period=most[0]))
-        up_to, why_not = promised(replace(asked, period=most[0]), shown)
-        fits = exact_decimal(decimal_text(significant_down(most[0], DIGITS)))
-        known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to, largest_admissible=fits)
-        if up_to is not None and asked.period <= most[0]:
-            promise, _ = promised(asked, shown)
-            if promise is not None and inside and record.encoder is None:
-                return replace(known, judgement=shown, promise=promise)
-            return replace(known, reason=(SATURATES if record.encoder is None else STEPS).format("S"))
-        why = why_not or f"(S) shows no period above {time_text(most[0])}"
-    refuted, missing = _refuted(asked, limits.model) if searched else (None, "")
-    if refuted is not None and not known.rests and refuted.proof.period <= asked.period:  # type: ignore[union-attr]
-        return replace(known, judgement=refuted, refuted=refuted)
-    arm = limits.model
-    promise, lacks = shown_from_rest(gains, arm, record, viscous_min, kept)
-    nominal = promise is None and arm is not None and bool(arm.parameters) and not limits.varied
-    if nominal and arm is not None:
-        promise, _ = shown_from_rest(gains, arm.fixed(), record, viscous_min, kept)
-    known = replace(known, refuted=refuted, from_rest=promise, nominal=nominal)
-    if promise is not None and known.counts and not known.rests and record.encoder is None:
-        known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]
-        known = replace(known, joint=None, limit=None, largest_admissible=None)
-        why = missing = ""
-    elif promise is not None:
-        lacks = DRY if known.rests else (SATURATES if record.encoder is None else STEPS).format("P")
-    return replace(known, reason="; ".join(filter(None, (why, missing, lacks))))
 
+    gains: GainSet
+    limits: Limits
+    record: LoopRecord
+    viscous_min: Fraction | None
+    kept: Sequence[Certificate] = ()
 
-def question(
-    gains: GainSet, limits: Limits, record: LoopRecord, viscous_min: Fraction | None
-) -> SampledStable:
-    """The statement that is asked about, at the period of the record.
+    def check(self, inside: bool, searched: bool = True) -> SampledCheck:
+        """Are these gains stable, run in this way?
 
-    Raises:
-        ValueError: (S) does not speak of such a loop or such an h; it says why.
-    """
-    if record.lowpass is not None:
-        raise ValueError(LOWPASS)
-    family = named(gains.family, gains.m)
-    if not family.bounded:
-        raise ValueError("h is unbounded, of which (S) does not speak")
-    _ = family.checked
-    assert record.period is not None
-    loop = require_sampled(record)
-    arm, bare = limits.model, [limits.viscous_min or Fraction(0)] * limits.n
-    goal = "goal" if record.knows_gravity and (arm is None or not arm.dry) else "rest"
-    least = bare if arm is None else [low for low, _ in viscous_of(arm, viscous_min)]
-    try:
-        return sampled(gains, loop, least, arm, limits.gravity, goal)
-    except TooManyTerms:
-        return sampled(gains, loop, least, None, limits.gravity, goal)
+        Args:
+            inside: whether (10i) or (10p) is accepted, so that no motor saturates.
+            searched: whether to look for a refutation where nothing is shown.
+
+        Soundness: that of ``lyapcheck.check.verify``.
+        """
+        record, arm = self.record, self.limits.model
+        known = SampledCheck(SAMPLED, value=record.period, record=record, counts=inside)
+        try:
+            asked = self.question()
+        except ValueError as error:
+            return replace(known, reason=str(error))
+        most, joint, why = largest(asked, self.limits.joints)
+        known = replace(known, joint=joint, rests=asked.conclusion == "rest")
+        if most is not None:
+            shown = judged_sampled(replace(asked, period=most[0]))
+            up_to, why_not = promised(replace(asked, period=most[0]), shown)
+            fits = exact_decimal(decimal_text(significant_down(most[0], DIGITS)))
+            known = replace(known, limit=Enclosure(most[1], most[1]), up_to=up_to, largest_admissible=fits)
+            if up_to is not None and asked.period <= most[0]:
+                promise, _ = promised(asked, shown)
+                if promise is not None and inside and record.encoder is None:
+                    return replace(known, judgement=shown, promise=promise)
+                return replace(known, reason=(SATURATES if record.encoder is None else STEPS).format("S"))
+            why = why_not or f"(S) shows no period above {time_text(most[0])}"
+        refuted, missing = _refuted(asked, arm) if searched else (None, "")
+        if refuted is not None and not known.rests and refuted.proof.period <= asked.period:  # type: ignore[union-attr]
+            return replace(known, judgement=refuted, refuted=refuted)
+        promise, lacks = self.from_rest(arm)
+        nominal = promise is None and arm is not None and bool(arm.parameters) and not self.limits.varied
+        if nominal and arm is not None:
+            promise, _ = self.from_rest(arm.fixed())
+        known = replace(known, refuted=refuted, from_rest=promise, nominal=nominal)
+        if promise is not None and known.counts and not known.rests and record.encoder is None:
+            known = replace(known, promise=promise, judgement=promise.shown)  # type: ignore[arg-type]
+            known = replace(known, joint=None, limit=None, largest_admissible=None)
+            why = missing = ""
+        elif promise is not None:
+            lacks = DRY if known.rests else (SATURATES if record.encoder is None else STEPS).format("P")
+        return replace(known, reason="; ".join(filter(None, (why, missing, lacks))))
+
+    def question(self) -> SampledStable:
+        """The statement that is asked about, at the period of the record.
+
+        Raises:
+            ValueError: (S) does not speak of such a loop or such an h; it says why.
+        """
+        gains, limits = self.gains, self.limits
+        if self.record.lowpass is not None:
+            raise ValueError(LOWPASS)
+        family = named(gains.family, gains.m)
+        if not family.bounded:
+            raise ValueError("h is unbounded, of which (S) does not speak")
+        _ = family.checked
+        loop = require_sampled(self.record)
+        arm, bare = limits.model, [limits.viscous_min or Fraction(0)] * limits.n
+        goal = "goal" if loop.knows_gravity and (arm is None or not arm.dry) else "rest"
+        least = bare if arm is None else [low for low, _ in viscous_of(arm, self.viscous_min)]
+        try:
+            return sampled(gains, loop, least, arm, limits.gravity, goal)
+        except TooManyTerms:
+            return sampled(gains, loop, least, None, limits.gravity, goal)
+
+    # --- (P): from rest within so many degrees, at exactly one period.
+
+    def from_rest(self, arm: RobotModel | None) -> tuple[Promise | None, str]:
+        """That these gains bring an arm, in its ranges, to each goal at exactly the period; or why not.
+
+        Its dry friction is left out. Starts are at rest with each |e_i| ≤ ``within`` of the record; without
+        it nothing is looked for but the widest of ``kept``.
+
+        Soundness: that of ``lyapcheck.check.verify``.
+        """
+        unfit, within = _unfit(arm, self.record), self.record.within
+        if arm is None or unfit:
+            return None, unfit if within is not None else ""
+        answers = shown_by(self.kept, lambda stated: self._from_rest(arm, stated))
+        widest = max(answers, key=lambda pair: pair[0].asked.within, default=None)  # type: ignore[attr-defined]
+        if widest is not None:
+            return widest[0], ""
+        lacks = without("(P) takes", "numpy", "scipy", "cvxpy", "clarabel") if within is not None else UNTRIED
+        if lacks or within is None:
+            return None, lacks
+        from lyapcheck.search.controlled_arm import chains_of
+        from lyapcheck.search.sampled_energy import falling_energy
+
+        asked = self._from_rest(arm)
+        if asked is None:
+            return None, "M(q) of these links is too long to be written out, which (P) asks for"
+        proof = falling_energy(asked, chains_of(arm, arm.ranges) if _few_corners(arm) else ())
+        if proof is None:
+            ranging = any(low < high for low, high in (*asked.viscous, *asked.parameters))
+            over = " over the ranges of the arm" if ranging else ""
+            return None, f"(P) finds no proof from rest within {decimal_text(within)}°{over}"
+        return promised(asked, judged_statement(asked, [proof]))
+
+    def _from_rest(self, arm: RobotModel, stated: Statement | None = None) -> SampledFromRest | None:
+        """The question from within so many degrees, or from as many as a statement has."""
+        within = self.record.within
+        if stated is not None:
+            if not isinstance(stated, SampledFromRest):
+                return None
+            within = within or stated.within
+        assert within is not None
+        try:
+            return sampled_from_rest(self.gains, self.record, arm, within, self.viscous_min)
+        except TooManyTerms:
+            return None
 
 
 def largest(
@@ -270,71 +315,11 @@ def _refuted(asked: SampledStable, arm: RobotModel | None) -> tuple[JudgedStatem
     return (None, "") if proof is None else (judged_statement(goal, [proof]), "")
 
 
-# --- (P): from rest within so many degrees, at exactly one period.
-
-
-def shown_from_rest(
-    gains: GainSet,
-    arm: RobotModel | None,
-    record: LoopRecord,
-    low: Fraction | None,
-    kept: Sequence[Certificate] = (),
-) -> tuple[Promise | None, str]:
-    """That these gains bring the arm, in its ranges, to each goal at exactly the period; or why not.
-
-    Its dry friction is left out; ``low``, N·m·s/rad, replaces its λmin(B). Starts are at rest with
-    each |e_i| ≤ ``within`` of the record; without it nothing is looked for but the widest of ``kept``.
-
-    Soundness: that of ``lyapcheck.check.verify``.
-    """
-    unfit, within = _unfit(gains, arm, record), record.within
-    if kept and arm is not None and record.period is not None and not unfit:
-        known = shown_by(kept, lambda stated: _asked(gains, arm, record, low, stated))
-        widest = max(known, key=lambda pair: pair[0].asked.within, default=None)  # type: ignore[attr-defined]
-        if widest is not None:
-            return widest[0], ""
-    if within is None or unfit or arm is None or record.period is None:
-        return None, unfit if within is not None else "" if unfit else UNTRIED
-    if lacking := without("(P) takes", "numpy", "scipy", "cvxpy", "clarabel"):
-        return None, lacking
-    from lyapcheck.search.controlled_arm import chains_of
-    from lyapcheck.search.sampled_energy import falling_energy
-
-    try:
-        asked = sampled_from_rest(gains, record, arm, within)
-    except TooManyTerms:
-        return None, "M(q) of these links is too long to be written out, which (P) asks for"
-    asked = replace(asked, viscous=viscous_of(arm, low))
-    proof = falling_energy(asked, chains_of(arm, arm.ranges) if _few_corners(arm) else ())
-    if proof is None:
-        ranging = any(low < high for low, high in (*asked.viscous, *asked.parameters))
-        over = " over the ranges of the arm" if ranging else ""
-        return None, f"(P) finds no proof from rest within {decimal_text(within)}°{over}"
-    return promised(asked, judged_statement(asked, [proof]))
-
-
-def _asked(
-    gains: GainSet,
-    arm: RobotModel,
-    record: LoopRecord,
-    low: Fraction | None,
-    stated: Statement,
-) -> Statement | None:
-    """The question from within so many degrees, or from as many as a statement has."""
-    if not isinstance(stated, SampledFromRest):
-        return None
-    try:
-        asked = sampled_from_rest(gains, record, arm, record.within or stated.within)
-    except TooManyTerms:
-        return None
-    return replace(asked, viscous=viscous_of(arm, low))
-
-
 def _few_corners(arm: RobotModel) -> bool:
     return bool(2 ** sum(low < high for low, high in arm.ranges) <= MOST_CORNERS)
 
 
-def _unfit(gains: GainSet, arm: RobotModel | None, record: LoopRecord) -> str:
+def _unfit(arm: RobotModel | None, record: LoopRecord) -> str:
     """Why (P) does not speak of this loop; empty where it does."""
     rules = {
         "asks for the arm itself: name one with robot = …": arm is not None,
