@@ -16,7 +16,6 @@ from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.certificates import certificates
 from lyapcheck.answers.running.holds import NO_LINKS
 from lyapcheck.answers.running.sampled import AsRun, SampledCheck, largest
-from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
 from lyapcheck.control.conditions import REJECTED, UNDECIDED
 from lyapcheck.control.gains import GainFile, GainSet
@@ -158,10 +157,8 @@ class Exported:
             return None
         gains, shown = self.controller.gains, self.sampled.shown
         assert isinstance(shown, JudgedStatement)
-        assert shown.proof is not None
         says = f"stable as a computer runs it: {gains.name} on {self.controller.model.name}"
-        about = About(f"{gains.name}.sampled", says, gains.m, gains.n, PROOF)
-        return Certificate(about, shown.statement, shown.shown, shown.grade, shown.proof)
+        return shown.certificate(About(f"{gains.name}.sampled", says, gains.m, gains.n, PROOF))
 
     @property
     def files(self) -> dict[str, str]:

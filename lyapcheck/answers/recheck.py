@@ -15,7 +15,7 @@ from lyapcheck.output.answer import Annotation, Answer, Level
 from lyapcheck.output.document import Bullets, Document, Paragraph, Section, Table, command
 from lyapcheck.output.text import View
 from lyapcheck.process_tree import temporary_folder
-from lyapcheck.rechecking import GENERAL, Writer, as_json
+from lyapcheck.rechecking import GENERAL, Writer, as_json, granted_of, unlimited
 
 if TYPE_CHECKING:
     from lyapcheck.kernel import Kernel
@@ -59,8 +59,7 @@ class Recheck(Answer):
         more = [f"{len(rows) - MOST_ROWS} more: -v lists them"] if len(rows) > MOST_ROWS else []
         reasons = [f"{one.file}: {one.reason}" for one in rows if not one.accepted]
         said = (*more, *self._alarm_texts(), *reasons[: MOST_REASONS - len(more)])
-        unlimited = [name for name in ("seconds", "memory") if name not in self.outcome.limited]
-        special = dict(self._granted())
+        special = granted_of(self.outcome)
         return Document(
             self._title(),
             (
@@ -71,7 +70,7 @@ class Recheck(Answer):
             (
                 WHOSE,
                 *([MEANING] if self.kernel else []),
-                *(f"The system keeps no limit on {name} here." for name in unlimited),
+                *(f"The system keeps no limit on {name} here." for name in unlimited(self.outcome)),
                 *(f"Every verdict: {text}" for text in GENERAL),
                 *(f"{files}: {text}" for granted, files in special.items() for text in granted),
             ),
@@ -167,14 +166,6 @@ class Recheck(Answer):
         if rows:
             heads = ("theorem", "where it is proved", "certificates that rest on it")
             yield Section("Theorems applied", (Table(heads, tuple(rows), align="lll"),))
-
-    def _granted(self) -> Iterator[tuple[tuple[str, ...], str]]:
-        """What only some verdicts take for granted, files of which that is so together."""
-        groups: dict[tuple[str, ...], list[str]] = {}
-        for one in self.outcome.checked:
-            if granted := self.outcome.granted.get(one.file):
-                groups.setdefault(granted, []).append(one.file)
-        return ((granted, ", ".join(files)) for granted, files in groups.items())
 
     def _code(self) -> Iterator[Section]:
         """The rules and modules behind all that is proved, and behind all that is refuted."""

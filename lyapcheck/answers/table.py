@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.certificate import About
-from lyapcheck.check.expressions.expression import Tree
 from lyapcheck.check.kinds.constant import ExactNumbers, SeparateBalls
 from lyapcheck.check.kinds.norm_bound import NormBound, Supremum
 from lyapcheck.check.numbers.balls import Constants, hyperbolic_constants
 from lyapcheck.check.numbers.polynomials import Enclosure
-from lyapcheck.check.refusal import Refused
-from lyapcheck.check.verify import Accepted, verify
 from lyapcheck.control.gains import PRINTED_GAMMA
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.family.members.hyperbolic import gamma_less_than
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.answer import Answer
@@ -84,7 +81,12 @@ class Table(Answer):
     @cached_property
     def _fields(self) -> tuple[Field, ...]:
         """What is said of a member; last what the paper prints."""
-        constants = (Field(key, key, head, self._cell, self._ends, "l") for key, head in CONSTANTS.items())
+
+        def cell(value: Enclosure | None) -> str:
+            return INFINITY if value is None else correct_digits(value, self.digits)
+
+        both = partial(ends, digits=self.digits)
+        constants = (Field(key, key, head, cell, both, "l") for key, head in CONSTANTS.items())
         slope = Field("slope_at_0", lambda row: str(slope_at_zero(row.m)), "h′(0)", align="l")
         return Field("m", "m", "m"), *constants, slope, Field("gamma_printed", lambda row: _printed(row.m))
 
@@ -93,12 +95,6 @@ class Table(Answer):
         for m in (row.m for row in self.rows if row.m in PRINTED_GAMMA):
             bounds = "an upper bound of h" if printed_bounds(m) else "not an upper bound, h exceeds it"
             yield f"The paper prints γ_{m} = {decimal_text(PRINTED_GAMMA[m])}: {bounds}."
-
-    def _cell(self, value: Enclosure | None) -> str:
-        return INFINITY if value is None else correct_digits(value, self.digits)
-
-    def _ends(self, value: Enclosure) -> dict[str, str]:
-        return ends(value, self.digits)
 
 
 def build_table(
@@ -156,26 +152,13 @@ def printed_bounds(m: int) -> bool:
 
 def certificates(table: Table) -> dict[str, Certificate]:
     """Certificates by file name; none of a bound that the checker does not accept."""
-    made = {}
+    made, x = {}, ("var", "x")
+    numbers = (ExactNumbers(), *map(SeparateBalls, PRECISIONS))
     for row in table.rows:
         for name, function in FUNCTIONS.items():
             _, upper = decimals(getattr(row, name), table.digits)
-            x: Tree = ("var", "x")
             statement = NormBound((function, row.m, x), 1, ("num", str(Fraction(upper))))
-            shown = _shown(statement)
-            if shown is None:
-                continue
-            accepted, proof = shown
             about = About(f"m{row.m}.{name}", f"{name} of m = {row.m} is at most {upper}", row.m, 1, PROOF)
-            certificate = Certificate(about, statement, accepted.verdict, accepted.grade, proof)
-            made[f"m{row.m}.{name}.json"] = certificate
-    return made
-
-
-def _shown(statement: NormBound) -> tuple[Accepted, Supremum] | None:
-    """The verdict on a bound and what shows it; ``None`` where the numbers are too close to it."""
-    for numbers in (ExactNumbers(), *map(SeparateBalls, PRECISIONS)):
-        with suppress(Refused):
-            proof = Supremum(numbers)
-            return verify(statement, proof), proof
-    return None
+            judged = judged_statement(statement, map(Supremum, numbers))
+            made[f"m{row.m}.{name}.json"] = judged.certificate(about)
+    return {file: one for file, one in made.items() if one is not None}

@@ -94,12 +94,13 @@ def text(outcome: Outcome, trusted: bool = False) -> str:
     lines.append("")
     if trusted:
         lines += [*_trusted(outcome), ""]
-    for name, files in outcome.theorems.items():
-        claims = "1 claim rests" if len(files) == 1 else f"{len(files)} claims rest"
-        lines.append(f"{claims} on {name} ({outcome.references[name]}): {', '.join(files)}")
-    lines += _granted(outcome)
+    for name, own in outcome.theorems.items():
+        claims = "1 claim rests" if len(own) == 1 else f"{len(own)} claims rest"
+        lines.append(f"{claims} on {name} ({outcome.references[name]}): {', '.join(own)}")
+    for granted, files in granted_of(outcome).items():
+        lines += [f"{files}: taken for granted:", *(f"  {sentence}" for sentence in granted)]
     lines += ["every verdict takes for granted:", *(f"  {sentence}" for sentence in GENERAL)]
-    lines += [f"the system keeps no limit on {name} here" for name in _unlimited(outcome)]
+    lines += [f"the system keeps no limit on {name} here" for name in unlimited(outcome)]
     lines += [*_alarms(outcome), _tally(outcome)]
     return "\n".join(lines) + "\n"
 
@@ -121,7 +122,7 @@ def as_json(outcome: Outcome, trusted: bool = False) -> str:
         ],
         "granted": list(GENERAL),
         "theorems": {name: list(files) for name, files in outcome.theorems.items()},
-        "unlimited": _unlimited(outcome),
+        "unlimited": unlimited(outcome),
         "certificates": [_row(one, outcome) for one in outcome.checked],
     }
     if trusted:
@@ -149,15 +150,13 @@ def _certificate(one: Checked) -> Iterator[str]:
         yield f"{INDENT}statement {result.statement_digest[:12]}; the author's words: {words}"
 
 
-def _granted(outcome: Outcome) -> Iterator[str]:
-    """What statements take for granted, once for all the files of which that is so."""
+def granted_of(outcome: Outcome) -> dict[tuple[str, ...], str]:
+    """What statements take for granted, with all the files of which that is so."""
     groups: dict[tuple[str, ...], list[str]] = {}
     for one in outcome.checked:
         if granted := outcome.granted.get(one.file):
             groups.setdefault(granted, []).append(one.file)
-    for granted, files in groups.items():
-        yield f"{', '.join(files)}: taken for granted:"
-        yield from (f"  {sentence}" for sentence in granted)
+    return {granted: ", ".join(files) for granted, files in groups.items()}
 
 
 def _alarms(outcome: Outcome) -> Iterator[str]:
@@ -203,7 +202,8 @@ def _names(rules: tuple[tuple[str, str], ...]) -> list[str]:
     return [name for name, _ in rules]
 
 
-def _unlimited(outcome: Outcome) -> list[str]:
+def unlimited(outcome: Outcome) -> list[str]:
+    """What the system keeps no limit on here."""
     return [name for name in ("seconds", "memory") if name not in outcome.limited]
 
 

@@ -10,7 +10,7 @@ from lyapcheck.answers.gate.friction import damping_lines, friction_lines, held
 from lyapcheck.answers.gate.judge import DAMPED, GRAVITY, GateResult, judged_sets
 from lyapcheck.answers.gate.words import FIELDS, RULES, Row, advices
 from lyapcheck.answers.running import running_sentences
-from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
+from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, GainFile, gain_file_of
 from lyapcheck.control.limits import Limits
 from lyapcheck.files.decimals import decimal_text
@@ -39,6 +39,10 @@ _NO_FRICTION = (
 )
 
 
+OTHERWISE = (Field("condition", "id"), Field("eps0", "value", to=decimal_text))
+"""What is said of a proof of stability."""
+
+
 class GateAnswer(tuple[GateResult, ...], Answer):
     """The results of gain sets, in the order of their files."""
 
@@ -60,7 +64,26 @@ class GateAnswer(tuple[GateResult, ...], Answer):
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, verdict, checks: [...]}]``, numbers as decimal strings, limits enclosed."""
-        return {"results": [_data(result) for result in self]}
+        return {
+            "results": [
+                {
+                    "name": result.name,
+                    "file": result.file.path,
+                    "family": result.gains.family,
+                    "m": result.m,
+                    "verdict": result.spoken,
+                    "standing": result.spoken_standing,
+                    "deciding": list(result.deciding),
+                    "strict": result.strict,
+                    "loop": None if result.record is None else result.record.text,
+                    "stable_otherwise": None if result.stable is None else data(OTHERWISE, result.stable),
+                    "remarks": remarks(result),
+                    "assumptions": list(result.rests_on),
+                    "checks": [data(FIELDS, Row(result, check)) for check in result.checks],
+                }
+                for result in self
+            ]
+        }
 
     def records(self) -> list[dict[str, Any]]:
         """A row a check."""
@@ -111,29 +134,6 @@ def gate(
     """
     file = gain_file_of(gain_file)
     return GateAnswer(judged_sets(file, robot, deciding, strict, arms, on_progress=on_progress, loop=loop))
-
-
-OTHERWISE = (Field("condition", "id"), Field("eps0", "value", to=decimal_text))
-"""What is said of a proof of stability."""
-
-
-def _data(result: GateResult) -> dict[str, Any]:
-    stable = result.stable
-    return {
-        "name": result.name,
-        "file": result.file.path,
-        "family": result.gains.family,
-        "m": result.m,
-        "verdict": result.spoken,
-        "standing": result.spoken_standing,
-        "deciding": list(result.deciding),
-        "strict": result.strict,
-        "loop": None if result.record is None else result.record.text,
-        "stable_otherwise": None if stable is None else data(OTHERWISE, stable),
-        "remarks": remarks(result),
-        "assumptions": list(result.rests_on),
-        "checks": [data(FIELDS, Row(result, check)) for check in result.checks],
-    }
 
 
 def _annotations(result: GateResult) -> Iterator[Annotation]:
@@ -193,7 +193,11 @@ def without_19(result: GateResult) -> list[str]:
     if known is not None:
         where = "over all its ranges" if result.limits.varied else "at its nominal numbers"
         how = "proved stable while no motor saturates" if result.saturates else "proved stable without it"
-        outcome = f"(19) fails, yet the gains are {how}: {_proof(known, where)}"
+        proof = f"M(q) ≻ 0 is proved for the arm {where}, the rest is LaSalle's theorem"
+        if known.value is not None:
+            eps0 = at_least(known.value)
+            proof = f"dV/dt < 0 with ε₀ = {eps0} ({known.id} certificate, for the arm {where})"
+        outcome = f"(19) fails, yet the gains are {how}: {proof}"
         outcome += _accepts(result) if "19" in result.deciding else ""
         said = [outcome, _NO_FRICTION] if frictionless else [outcome]
         return [known.own_promise.says(words) for words in said]
@@ -217,15 +221,7 @@ def proved_otherwise(result: GateResult, titled: bool = False) -> str:
     known = result.stable
     assert known is not None
     nominal = " at nominal numbers" if result.limits.nominal and not titled else ""
-    options = accepting(result)
-    accepted = f"; {' '.join(options)} accepts it" if options else ""
-    return known.own_promise.says(f"proved stable ({known.id}){nominal}{accepted}")
-
-
-def _proof(known: Check, where: str) -> str:
-    if known.value is None:
-        return f"M(q) ≻ 0 is proved for the arm {where}, the rest is LaSalle's theorem"
-    return f"dV/dt < 0 with ε₀ = {at_least(known.value)} ({known.id} certificate, for the arm {where})"
+    return known.own_promise.says(f"proved stable ({known.id}){nominal}{_accepts(result)}")
 
 
 def _accepts(result: GateResult) -> str:

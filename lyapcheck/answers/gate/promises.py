@@ -65,7 +65,6 @@ class GateQuestions:
 
     def __init__(self, file: GainFile, limits: Limits) -> None:
         self.file, self.limits = file, limits
-        self._known: dict[tuple[str, int | None], bool] = {}
 
     @cached_property
     def gravity(self) -> Grounds:
@@ -94,7 +93,7 @@ class GateQuestions:
         numbers = tuple(name for name in CONDITIONS if name in names)
         if not numbers:
             return Grounds(known)
-        if not self._stated(gains):
+        if not is_stated(gains, self.limits):
             # an h that the checker does not know: each check by itself
             own = [check for check in checks if check.id in numbers]
             return Grounds((*known, *(check.own_promise for check in own)))
@@ -110,13 +109,6 @@ class GateQuestions:
         if one is None:
             return Grounds(missing=missing)
         return Grounds((*gravity.promises, one, *known), gravity.premises)
-
-    def _stated(self, gains: GainSet) -> bool:
-        """The same, once a function."""
-        key = gains.family, gains.m
-        if key not in self._known:
-            self._known[key] = is_stated(gains, self.limits)
-        return self._known[key]
 
 
 def is_stated(gains: GainSet, limits: Limits) -> bool:
