@@ -8,7 +8,6 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from lyapcheck import asked
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.covers import require_covered
 from lyapcheck.check.kinds.resting import AtBounds, Resting
@@ -187,30 +186,3 @@ def resting(gains: GainSet, dry: Sequence[Fraction], room: Room) -> JudgedStatem
     statement = Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), errors)
     judged = judged_statement(statement, [AtBounds()])
     return judged if judged.shown == "proved" else None
-
-
-def promised_rest(
-    gains: GainSet, dry: Sequence[Fraction], room: Room, rounded: Callable[[Fraction], Fraction]
-) -> tuple[Promise | None, str]:
-    """The promise of these bounds as they are printed, or why there is none.
-
-    Args:
-        gains: of a bounded h that the checker knows.
-        dry: bounds of dry friction, N·m.
-        room: of each motor.
-        rounded: an angle in degrees as it is printed, which is not below it.
-    """
-    shown = resting(gains, dry, room)
-    if shown is None:
-        return None, ""
-    assert isinstance(shown.statement, Resting)
-    errors = [None if e is None else rounded(e * DEGREES) / DEGREES for e in shown.statement.errors]
-    return promised(asked.resting(gains, dry, errors), shown)
-
-
-def promised_errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
-    """The bounds of |e_i|, rad, of a promise of `promised_rest`; ``None`` for each joint without one."""
-    if promise is None:
-        return (None,) * n
-    assert isinstance(promise.asked, Resting)
-    return promise.asked.errors

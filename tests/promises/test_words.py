@@ -218,7 +218,7 @@ def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch):
     assert "leaves at most" in invoke(*RANGED).stdout
 
     monkeypatch.setattr(
-        "lyapcheck.control.judgement.resting",
+        "lyapcheck.answers.gate.friction.judged_resting",
         lambda gains, friction, room: resting(gains, [f / 2 for f in friction], room),
     )
     assert "leaves at most" not in invoke(*RANGED).stdout
@@ -241,7 +241,7 @@ def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bou
 
     words = (*BOUNDS, "--friction", "1,0.5")
     assert invoke(*words).exit_code == 0
-    monkeypatch.setattr("lyapcheck.control.judgement.resting", easier)
+    monkeypatch.setattr("lyapcheck.answers.gate.friction.judged_resting", easier)
     done = invoke(*words)
     assert done.exit_code == 3
     assert done.stdout.startswith("? not all errors at rest are proved")

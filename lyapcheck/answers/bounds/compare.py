@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lyapcheck._types import Array, Progress, silent
+from lyapcheck.answers.gate.friction import promised_errors, promised_rest
 from lyapcheck.answers.running.holds import HoldsCheck, holds_checks
 from lyapcheck.check.judgement import LARGEST
 from lyapcheck.control.judgement import (
@@ -18,8 +19,6 @@ from lyapcheck.control.judgement import (
     DEGREES,
     REJECTED,
     Room,
-    promised_errors,
-    promised_rest,
     stalls,
 )
 from lyapcheck.control.limits import model_limits

@@ -12,13 +12,15 @@ References: (6), (11) of reyes2019family.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import degrees, exp, pi, sqrt
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.stability import small
+from lyapcheck.asked import resting as asked_resting
+from lyapcheck.check.kinds.resting import Resting
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.control.judgement import (
     ACCEPTED,
@@ -26,16 +28,16 @@ from lyapcheck.control.judgement import (
     JudgedStatement,
     Room,
     dry_friction,
-    promised_errors,
-    promised_rest,
     rest_error,
     stalls,
 )
+from lyapcheck.control.judgement import resting as judged_resting
 from lyapcheck.control.sampling import exact_only
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.errors import installed
 from lyapcheck.family.base import named
 from lyapcheck.files.decimals import decimal_text, significant_up
+from lyapcheck.promise import promised
 from lyapcheck.robots import trig
 
 if TYPE_CHECKING:
@@ -151,6 +153,33 @@ def resting(gains: GainSet, model: RobotModel, room: Room) -> Promise | None:
         return None
     _ = named(gains.family, gains.m).checked  # or say that the checker does not know the function
     return promised_rest(gains, friction, room, lambda angle: significant_up(angle, 4))[0]
+
+
+def promised_rest(
+    gains: GainSet, dry: Sequence[Fraction], room: Room, rounded: Callable[[Fraction], Fraction]
+) -> tuple[Promise | None, str]:
+    """The promise of these bounds as they are printed, or why there is none.
+
+    Args:
+        gains: of a bounded h that the checker knows.
+        dry: bounds of dry friction, N·m.
+        room: of each motor.
+        rounded: an angle in degrees as it is printed, which is not below it.
+    """
+    shown = judged_resting(gains, dry, room)
+    if shown is None:
+        return None, ""
+    assert isinstance(shown.statement, Resting)
+    errors = [None if e is None else rounded(e * DEGREES) / DEGREES for e in shown.statement.errors]
+    return promised(asked_resting(gains, dry, errors), shown)
+
+
+def promised_errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
+    """The bounds of |e_i|, rad, of a promise of `promised_rest`; ``None`` for each joint without one."""
+    if promise is None:
+        return (None,) * n
+    assert isinstance(promise.asked, Resting)
+    return promise.asked.errors
 
 
 def farthest(result: GateResult, model: RobotModel) -> Fact | None:
