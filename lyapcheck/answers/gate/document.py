@@ -48,7 +48,8 @@ def document(answer: GateAnswer) -> Document:
     if len(rows) > MOST_ROWS:
         said.insert(0, f"{len(rows) - MOST_ROWS} further rows: -v shows them")
     blocks += [Bullets(tuple(said[:MOST_REMARKS]))] if said else []
-    kept = _rows_left(answer, rows)
+    checks = () if many else chain.from_iterable(result.checks for result in answer)
+    kept = [Row(answer[0], one) for one in checks if not any(one is row.check for row in rows[:MOST_ROWS])]
     more: list[Block] = [Section("Other conditions", (_table(kept),))] if kept else []
     more += (
         [Section("Further remarks", (Bullets(tuple(said[MOST_REMARKS:])),))] if said[MOST_REMARKS:] else []
@@ -207,14 +208,6 @@ def _room(check: Check) -> Fraction:
     if check.limit is None or check.margin is None or not check.limit.lower:
         return Fraction(10**6)
     return check.margin / abs(check.limit.lower)
-
-
-def _rows_left(answer: GateAnswer, rows: Sequence[Row]) -> list[Row]:
-    """The checks of one set that its table leaves out."""
-    if len(answer) != 1:
-        return []
-    shown = [row.check for row in rows[:MOST_ROWS]]
-    return [Row(answer[0], check) for check in answer[0].checks if not any(check is one for one in shown)]
 
 
 def _table(rows: Sequence[Row], named: bool = False) -> Table:

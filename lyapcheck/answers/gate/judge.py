@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from lyapcheck._types import Progress, part, silent
-from lyapcheck.answers.gate.promises import NO_GROUNDS, GateQuestions, Grounds
+from lyapcheck.answers.gate.promises import NO_GROUNDS, Grounds, grounds
 from lyapcheck.answers.gate.stability import Prover
 from lyapcheck.check.kinds.constant import Constant, ExactNumbers
 from lyapcheck.check.refusal import Refused
@@ -199,7 +199,6 @@ def judged_sets(
         limits = replace(limits, assumptions=granted)
     broken = [Check(GRAVITY, one.joint, one.refuted, one.bound) for one in limits.refuted if one.own]
     results: list[GateResult] = []
-    questions = GateQuestions(gain_file, limits)
     for gains, names, certificates in zip(gain_file.gains, deciding, proved, strict=True):
         key = gains.family, gains.m
         if key not in conditions:
@@ -216,11 +215,11 @@ def judged_sets(
             checks = (*checks, *run)
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
-        grounds = questions.grounds(gains, names, checks) if passes else NO_GROUNDS
-        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, grounds, record)
+        known = grounds(gains, limits, gain_file.bounds, names, checks) if passes else NO_GROUNDS
+        result = GateResult(gain_file, gains, limits, checks, names, strict, None, more, known, record)
         # what breaks (19) may still be stable
-        known = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
-        if more and not known and result.verdict_of(("19",)) == REJECTED:
+        told = result.stable is not None or result.verdict_of((DAMPED,)) == REJECTED
+        if more and not told and result.verdict_of(("19",)) == REJECTED:
             result = replace(result, otherwise=prover.otherwise(gains))
         results.append(result)
     return results

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.stability import unknown_function
@@ -32,7 +32,7 @@ from lyapcheck.promise import Promise, promised
 from lyapcheck.robots.dynamics import TooManyTerms
 
 if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainFile, GainSet
+    from lyapcheck.control.gains import Bounds, GainSet
     from lyapcheck.control.limits import Limits
     from lyapcheck.robots import RobotModel
 
@@ -55,60 +55,55 @@ class Grounds:
 NO_GROUNDS = Grounds()
 
 
-class GateQuestions:
-    """The questions of one gain file about one arm.
+@lru_cache(maxsize=16)
+def _gravity(arm: RobotModel | None, k_g: tuple[Fraction, ...]) -> Grounds:
+    """The promise that an arm keeps its bounds k_gi, or the premise that it does."""
+    if arm is None:
+        return NO_GROUNDS
+    shown = shown_gravity(arm, k_g)
+    if shown is None:
+        unshown = "premise: |g_{}| ≤ {} N·m, which nothing shows"
+        return Grounds(premises=tuple(unshown.format(i, decimal_text(k)) for i, k in enumerate(k_g, 1)))
+    promise, why_not = promised(gravity_kept(arm, k_g), shown)
+    return Grounds(missing=why_not) if promise is None else Grounds((promise,))
+
+
+def grounds(
+    gains: GainSet, limits: Limits, bounds: Bounds, deciding: Sequence[str], checks: Sequence[Check]
+) -> Grounds:
+    """The promises by which a set that passes its checks is accepted.
 
     Args:
-        file: the gains.
-        limits: by which they are judged.
+        gains: the set.
+        limits: by which it is judged.
+        bounds: of its file.
+        deciding: the conditions that must hold.
+        checks: of them and others.
+
+    Soundness: ``lyapcheck.promise``.
     """
-
-    def __init__(self, file: GainFile, limits: Limits) -> None:
-        self.file, self.limits = file, limits
-
-    @cached_property
-    def gravity(self) -> Grounds:
-        """The promise that the arm keeps its bounds k_gi, or the premise that it does."""
-        arm, k_g = self.limits.model, tuple(self.limits.gravity)
-        if arm is None:
-            return NO_GROUNDS
-        shown = shown_gravity(arm, k_g)
-        if shown is None:
-            unshown = "premise: |g_{}| ≤ {} N·m, which nothing shows"
-            premises = (unshown.format(i, decimal_text(k)) for i, k in enumerate(k_g, 1))
-            return Grounds(premises=tuple(premises))
-        promise, why_not = promised(gravity_kept(arm, k_g), shown)
-        return Grounds(missing=why_not) if promise is None else Grounds((promise,))
-
-    def grounds(self, gains: GainSet, deciding: Sequence[str], checks: Sequence[Check]) -> Grounds:
-        """The promises by which a set that passes its checks is accepted.
-
-        Soundness: ``lyapcheck.promise``.
-        """
-        proofs = [check.promise for check in checks if check.id in deciding and check.id not in CONDITIONS]
-        if None in proofs:
-            return Grounds(missing="a proof of stability is about another arm")
-        known = tuple(one for one in proofs if one is not None)
-        names = (*deciding, *([] if SAMPLED not in deciding or set(TORQUES) & set(deciding) else ["10i"]))
-        numbers = tuple(name for name in CONDITIONS if name in names)
-        if not numbers:
-            return Grounds(known)
-        if not is_stated(gains, self.limits):
-            # an h that the checker does not know: each check by itself
-            own = [check for check in checks if check.id in numbers]
-            return Grounds((*known, *(check.own_promise for check in own)))
-        gravity = self.gravity if NEEDS_GRAVITY & set(numbers) else NO_GROUNDS
-        if gravity.missing:
-            return gravity
-        asked = gate_accepted(
-            gains, self.limits.model, self.file.bounds, tuple(map(Fraction, self.limits.gravity)), numbers
-        )
-        one, missing = promised(
-            asked, judged_statement(asked, (GateParts((), digits, ()) for digits in DIGITS))
-        )
-        if one is None:
-            return Grounds(missing=missing)
-        return Grounds((*gravity.promises, one, *known), gravity.premises)
+    proofs = [check.promise for check in checks if check.id in deciding and check.id not in CONDITIONS]
+    if None in proofs:
+        return Grounds(missing="a proof of stability is about another arm")
+    known = tuple(one for one in proofs if one is not None)
+    names = (*deciding, *([] if SAMPLED not in deciding or set(TORQUES) & set(deciding) else ["10i"]))
+    numbers = tuple(name for name in CONDITIONS if name in names)
+    if not numbers:
+        return Grounds(known)
+    if not is_stated(gains, limits):
+        # an h that the checker does not know: each check by itself
+        own = [check for check in checks if check.id in numbers]
+        return Grounds((*known, *(check.own_promise for check in own)))
+    k_g = tuple(map(Fraction, limits.gravity))
+    gravity = _gravity(limits.model, k_g) if NEEDS_GRAVITY & set(numbers) else NO_GROUNDS
+    if gravity.missing:
+        return gravity
+    asked = gate_accepted(gains, limits.model, bounds, k_g, numbers)
+    shown = judged_statement(asked, (GateParts((), digits, ()) for digits in DIGITS))
+    one, missing = promised(asked, shown)
+    if one is None:
+        return Grounds(missing=missing)
+    return Grounds((*gravity.promises, one, *known), gravity.premises)
 
 
 def is_stated(gains: GainSet, limits: Limits) -> bool:

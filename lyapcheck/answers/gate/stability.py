@@ -14,7 +14,7 @@ References: (11)-(15) of reyes2019family; LaSalle's theorem, khalil2002nonlinear
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
@@ -226,6 +226,8 @@ class Prover:
     def _global(
         self, controlled: ControlledArm, progress: Progress
     ) -> tuple[DecreaseProof | ChainProof | None, str]:
+        """A proof that the checker has accepted, of the largest ε₀ that can be hoped for."""
+        from lyapcheck.search.certified import certified_epsilon
         from lyapcheck.search.scalar_program import REFUSED, norm_epsilon
 
         if self.viscous_min not in (None, min(number.value for number in controlled.model.viscous)):
@@ -233,17 +235,10 @@ class Prover:
         coarse, reason = norm_epsilon(controlled)
         if coarse is None:
             return None, reason
-        return next(_proofs(controlled, coarse, progress), None), REFUSED
-
-
-def _proofs(controlled: ControlledArm, coarse: DecreaseProof, progress: Progress) -> Iterator[DecreaseProof]:
-    """Proofs that the checker has accepted, of the largest ε₀ that can be hoped for first."""
-    from lyapcheck.search.certified import certified_epsilon
-
-    step = 1 / len(CEILINGS)
-    for number, ceiling in enumerate(CEILINGS):
-        advance = part(progress, number * step, (number + 1) * step, ", ")
-        result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES, on_progress=advance)
-        if result.proof is not None:
-            yield result.proof
-    yield coarse
+        step = 1 / len(CEILINGS)
+        for number, ceiling in enumerate(CEILINGS):
+            advance = part(progress, number * step, (number + 1) * step, ", ")
+            result = certified_epsilon(controlled, ceiling * coarse.loop.eps0, MAX_BOXES, on_progress=advance)
+            if result.proof is not None:
+                return result.proof, REFUSED
+        return coarse, REFUSED
