@@ -135,7 +135,7 @@ def test_the_search_is_never_worse_than_the_rule_of_thumb(name: str):
     for kp, kv, torque, pull in zip(thumb.kp, thumb.kv, limits.torque, limits.gravity, strict=True):
         assert float((kp + kv) / (torque - pull)) == pytest.approx(0.98, abs=2e-3)
     found = search.run()
-    assert found.trial.worst(bench.wishes) < tried(thumb, [model], bench, exact=True).worst(bench.wishes)
+    assert found.trial.worst < tried(thumb, [model], bench, exact=True).worst
     sets = [search.set_of(search.first() + shift) for shift in (-3.0, 0.1, 3.0)]
     for one in (found.gains, *sets):
         rows = zip(one.kp, one.kv, limits.torque, limits.gravity, strict=True)
@@ -250,7 +250,7 @@ def test_every_number_of_a_trial_has_words(
     sets = []
     for k, row in enumerate(rows):
         columns = [np.array(column) for column in zip(*row, strict=True)]
-        trial = Trial(*columns[:3], np.zeros(2), columns[3], T=3.0, kept=kept)
+        trial = Trial(asked, *columns[:3], np.zeros(2), columns[3], T=3.0, kept=kept)
         way = ("19", "proof", "19")[k]
         gains = GainSet(
             f"s{k}", k + 1, (Fraction(1),) * 2, (Fraction(1),) * 2, condition=("10p", "19")[: 2 * k]

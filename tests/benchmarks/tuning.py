@@ -43,12 +43,12 @@ def row(name):
     search = Search(bench, (model,), limits_with(model), 1, "proof")
     start = time.process_time()
     found = search.run()
-    ours, mine = time.process_time() - start, found.trial.worst(wishes)
+    ours, mine = time.process_time() - start, found.trial.worst
     first = search.first()
     start = time.process_time()
-    evolved = tried(evolution(search, first), (model,), bench, exact=True).worst(wishes)
+    evolved = tried(evolution(search, first), (model,), bench, exact=True).worst
     theirs = time.process_time() - start
-    thumb = tried(search.set_of(first), (model,), bench, exact=True).worst(wishes)
+    thumb = tried(search.set_of(first), (model,), bench, exact=True).worst
     shown = (
         f"{mine:.3f}",
         f"{ours:.0f} s",
@@ -69,9 +69,7 @@ def evolution(search, first):
 
     def worst(points):
         sets = [search.set_of(point.reshape(n, 2)) for point in points.T]
-        return np.array(
-            [t.worst(search.bench.wishes) for t in tried_all(sets, search.models, search.bench, BRIEFLY)]
-        )
+        return np.array([t.worst for t in tried_all(sets, search.models, search.bench, BRIEFLY)])
 
     result = differential_evolution(
         worst,

@@ -51,7 +51,7 @@ SEEN = {
     "answers/tune/bench.py:_angles": "angles that the user gave",
     "answers/tune/bench.py:_six": "simulated",
     "answers/simulate/runs.py:far_off": "how far from the goal a run ended",
-    "answers/tune/search.py:of": "an order of candidates",
+    "answers/tune/search.py:_try": "an order of candidates",
     "answers/tune/search.py:set_of": "gains, which the gate judges as they are written",
 }
 """The functions of the strict rooms that may round to nearest, each with what it prints."""

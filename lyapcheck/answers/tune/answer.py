@@ -47,10 +47,6 @@ HEAD = (
     "# One unit more in the last place of any gain breaks what its comment names.",
 )
 NAMES = BOUNDS | {"damping": "the damping ratio"}
-LIMIT_DIGITS = 6
-"""Significant digits of limits, as the gate shows them."""
-DIGITS = 20
-"""Of limits, for programs."""
 
 
 @dataclass(frozen=True)
@@ -104,10 +100,6 @@ class TunedSet:
         return GainSet(self.name, self.m, kp, kv, condition=DECIDING)
 
 
-def _limit(value: Enclosure) -> str:
-    return at_least(value, LIMIT_DIGITS)
-
-
 ASKED = (
     Field("digits", "digits"),
     *(Field(key, key, to=decimal_texts) for key in ("peak_share", "kv_share", "damping")),
@@ -122,16 +114,14 @@ TUNED_TO = (
 
 def of_joint(digits: int, damped: bool) -> tuple[Field, ...]:
     """What is said of a joint, its gains with so many decimal places."""
-
-    def gain(value: Fraction) -> str:
-        return decimal_text(value, digits)
-
+    gain = partial(decimal_text, places=digits)
+    limit, to = partial(at_least, digits=6), partial(ends, digits=20)  # six as the gate shows them
     return (
         Field("joint", "name", "joint", align="l"),
         Field("kp", "kp", "k_p", gain, gain),
         Field("kv", "kv", "k_v", gain, gain),
-        Field("sum_limit", "sum_limit", "(10p) limit", _limit, partial(ends, digits=DIGITS)),
-        Field("kv_limit", "kv_limit", "(19) limit", _limit, partial(ends, digits=DIGITS)),
+        Field("sum_limit", "sum_limit", "(10p) limit", limit, to),
+        Field("kv_limit", "kv_limit", "(19) limit", limit, to),
         Field("kp_bound", "kp_bound", "k_p ends at", BOUNDS.__getitem__, align="l"),
         Field("kv_bound", "kv_bound", "k_v ends at", BOUNDS.__getitem__, align="l"),
         Field("damping", "damping", "ζ" if damped else "", at_least, decimal_text),
@@ -198,7 +188,13 @@ class Tuning(Answer):
         if not any(item.joints or item.rejected for item in self.sets):  # no targets help
             then = command("robot", *arm, "-v")
         lead = (self._hardly,) if self._hardly else ()
-        return Document(self._verdict(), tuple(short), self._notes(), lead, details, assumed, then)
+        notes = (
+            *LIMITS,
+            *([ENDS] if found else []),
+            *([DAMPED] if found and self.targets.damping else []),
+            *(f"{text}." for text in self.limits.assumptions),
+        )
+        return Document(self._verdict(), tuple(short), notes, lead, details, assumed, then)
 
     def gain_file(self, folder: Path | None = None) -> str:
         """The sets that were found as a gain file, which will stand in ``folder``; empty where none was."""
@@ -266,15 +262,6 @@ class Tuning(Answer):
         model, sets = self.limits.model, [item.gains for item in self.sets if item.gains is not None]
         found = [swinging(gains, model) for gains in sets] if model is not None else []
         return next(filter(None, found), "")
-
-    def _notes(self) -> tuple[str, ...]:
-        tuned = [item for item in self.sets if item.status == TUNED]
-        return (
-            *LIMITS,
-            *([ENDS] if tuned else []),
-            *([DAMPED] if tuned and self.targets.damping else []),
-            *(f"{text}." for text in self.limits.assumptions),
-        )
 
 
 def _section(item: TunedSet, digits: int, joints: Sequence[str]) -> Section:

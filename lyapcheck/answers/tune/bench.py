@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
@@ -51,7 +50,8 @@ NOTES = (
     "The search is not exhaustive; better gains may exist.",
 )
 INSIDE = "The gate proves (10i) for the sets that were found: no motor saturates at any state of (11)."
-RULES = ("(10i)", "(19)")
+RULES = {"(10i)": "k_p + k_v", "(19)": "k_v"}
+"""What keeps which gains from being larger."""
 FLAT = (
     "For m ≥ 2 h is flat at the goal: less torque near it, a slower end, and dry friction holds the joint "
     "farther away."
@@ -156,7 +156,7 @@ class BenchTuning(Answer):
         return min(self.sets, key=self._rank, default=None)
 
     def _rank(self, one: Candidate) -> tuple[bool, float]:
-        return not one.stable, one.trial.worst(self.bench.wishes)
+        return not one.stable, one.trial.worst
 
     @property
     def lacking(self) -> str:
@@ -171,7 +171,7 @@ class BenchTuning(Answer):
 
     def met(self, one: Candidate) -> bool:
         """Whether a set is proved stable and met all that was asked in every motion, and keeps to it."""
-        kept = one.trial.kept and one.trial.worst(self.bench.wishes) <= 1
+        kept = one.trial.kept and one.trial.worst <= 1
         return bool(one.stable) and kept and not self.lacking
 
     @property
@@ -221,21 +221,23 @@ class BenchTuning(Answer):
         lines = [*filter(None, (self.lacking,)), *self._given_up(), *self.missing]
         said = (Bullets(tuple(lines)),) if lines else ()
         details = (asked, warning, self._overview(), *said, *(self._section(one) for one in self.sets))
-        best = self.best
-        joints: list[Block] = []
+        best, blocks = self.best, list[Block]()
         if best is not None:
-            joints.append(table(self._fields, [(best, i) for i in range(len(self.model.joints))]))
+            blocks.append(self._joints(best))
         aside = self.arms and self.arms not in self._simulated
         apart = [f"each motion was tried on {self.arms}"] if aside else []
         first = [*apart, *(self.missed(best) if best else ()), *lines, *self.model.doubts][:MOST_REMARKS]
-        blocks = (*joints, *([Bullets(tuple(first))] if first else []))
+        if first:
+            blocks.append(Bullets(tuple(first)))
         flat = [FLAT] if any((one.gains.m or 1) > 1 for one in self.sets) else []
         found = [one.result for one in self.sets]
         promises = [one for result in found if result is not None for one in result.grounds.promises]
         inside = [all_say(promises, INSIDE)] if found and all(found) else []
         notes = (*NOTES, *inside, *flat, *self.assumptions)
-        granted = assumed_line(self.model, self.robot)
-        return Document(self._title(), blocks, notes, self._lead(), details, granted, self._next())
+        lead, granted = [self._simulated], assumed_line(self.model, self.robot)
+        if best is not None and best.result is not None:
+            lead.append(best.result.says(f"{best.shown}; no motor can saturate"))
+        return Document(self._title(), tuple(blocks), notes, tuple(lead), details, granted, self._next())
 
     def _next(self) -> str:
         """The gate on what was written; else the same search, to be written."""
@@ -259,35 +261,39 @@ class BenchTuning(Answer):
         arm = f" on {self.model.name}" if self.model.dry else ""  # for which line 1 has no room
         return simulated + arm if len(simulated + arm) <= HEADLINE else simulated
 
-    def _lead(self) -> tuple[str, ...]:
-        """What was simulated, and how the best set is shown to be stable."""
-        best = self.best
-        if best is None or best.result is None:
-            return (self._simulated,)
-        return self._simulated, best.result.says(f"{best.shown}; no motor can saturate")
-
     def data(self) -> dict[str, Any]:
         """``results: [{name, m, way, stable_by, met, worst, joints: [...]}]``, runs to six digits."""
+        results = [
+            {
+                "name": one.gains.name,
+                "m": one.gains.m,
+                "way": one.way,
+                "stable_by": one.stable or None,
+                "met": self.met(one),
+                "condition": list(one.gains.condition),
+                "as_run": running_sentences(one.runs, self.model.joints),
+                "worst": _six(one.trial.worst),
+                "joints": records(self._fields, one, self.model.n),
+            }
+            for one in self.sets
+        ]
         return {
             "robot": self.robot,
             "asked": self.bench.wishes.given,
             "tasks": [
-                {"start": _degrees_of(task.q0), "goal": _degrees_of(task.q_d)} for task in self.bench.tasks
+                {"start": _sixes(map(math.degrees, task.q0)), "goal": _sixes(map(math.degrees, task.q_d))}
+                for task in self.bench.tasks
             ],
             "simulated": self.scope,
             "arms": self.arms or None,
-            "results": [self._data(one) for one in self.sets],
+            "results": results,
             "missing": list(self.missing),
             "assumptions": list(self.assumptions),
         }
 
     def records(self) -> list[dict[str, Any]]:
         """A row a joint of each set."""
-        rows = []
-        for one in self.data()["results"]:
-            head = {key: value for key, value in one.items() if key != "joints"}
-            rows += [head | joint for joint in one["joints"]]
-        return rows
+        return [one | joint for one in self.data()["results"] for joint in one.pop("joints")]
 
     def _title(self) -> str:
         best = self.best
@@ -312,7 +318,7 @@ class BenchTuning(Answer):
 
     def _missed_in_motions(self, one: Candidate) -> list[str]:
         result = []
-        for name, ratios in one.trial.ratios(self.bench.wishes).items():
+        for name, ratios in one.trial.ratios.items():
             rows = zip(self.model.joints, ratios, strict=True)
             joints = [f"{joint} {_times(ratio)}" for joint, ratio in rows if ratio > 1]
             if joints:
@@ -333,47 +339,42 @@ class BenchTuning(Answer):
 
         def worst(field: Field) -> Field:
             """The column of a number, of the joint where it is largest."""
-
-            def most(one: Candidate) -> float:
-                return max((x for x in field.found(one) if not math.isnan(x)), default=math.nan)
-
-            return field._replace(of=most, each=False)
+            return field._replace(of=lambda one: max(field.found(one), key=_known), each=False)
 
         fields = (
             Field("", sign, " ", align="l"),
             Field("", "gains.name", "gains", align="l"),
             Field("", "gains.m", "m"),
             Field("", lambda one: one.stable or NONE, "stable by", align="l"),
-            Field("", lambda one: one.trial.worst(self.bench.wishes), "worst", _times),
+            Field("", lambda one: one.trial.worst, "worst", _times),
             *(worst(field) for field in self._fields if field.to is _sixes),
         )
         return table(fields, [(one,) for one in self.sets], keys=2)
 
     def _section(self, one: Candidate) -> Section:
-        rows = table(self._fields, [(one, i) for i in range(len(self.model.joints))])
         title = f"{one.gains.name} (m = {one.gains.m}, {one.shown})"
         lines = tuple(self._behind(one)) or ("simulated: all targets are met",)
         lines += tuple(running_sentences(one.runs, self.model.joints))
-        return Section(title, (rows, Bullets(lines)))
+        return Section(title, (self._joints(one), Bullets(lines)))
+
+    def _joints(self, one: Candidate) -> Table:
+        return table(self._fields, [(one, i) for i in range(self.model.n)])
 
     @cached_property
     def _fields(self) -> tuple[Field, ...]:
         """What is said of each joint of a set."""
-
-        def gain(value: Fraction) -> str:
-            return decimal_text(value, self.bench.digits)
-
+        gain, up = partial(decimal_text, places=self.bench.digits), partial(at_most, digits=3)
         return (
             Field("joint", lambda one: self.model.joints, "joint", align="l", each=True),
             Field("kp", "gains.kp", "k_p", gain, decimal_texts, each=True),
             Field("kv", "gains.kv", "k_v", gain, decimal_texts, each=True),
-            Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
+            Field("overshoot", "trial.overshoot", "overshoot [%]", up, _sixes, each=True),
             Field("settling", "trial.settled", "settling [s]", _seconds, _sixes, each=True),
-            Field("torque_share", "trial.share", "torque / limit", _up, _sixes, each=True),
+            Field("torque_share", "trial.share", "torque / limit", up, _sixes, each=True),
             Field("rest_error", self._rests, "friction error [°]", _degrees, _sixes, each=True),
             Field(
                 "held_by",
-                lambda one: one.held or ("",) * len(self.model.joints),
+                lambda one: one.held or ("",) * self.model.n,
                 "limited by" if any(map(any, (one.held for one in self.sets))) else "",
                 align="l",
                 each=True,
@@ -390,48 +391,25 @@ class BenchTuning(Answer):
         yield from (f"simulated: {text}" for text in self._missed_in_motions(one))
         if not one.stable:
             yield one.shown
-        held = {
-            rule: [j for j, h in zip(self.model.joints, one.held, strict=True) if rule in h] for rule in RULES
-        }
-        if one.trial.worst(self.bench.wishes) > 1:
-            for rule, joints in held.items():
-                if joints:
-                    gain = "k_p + k_v" if rule == "(10i)" else "k_v"
-                    yield f"{rule} keeps {gain} of {', '.join(joints)} from being larger"
+        for rule, gain in RULES.items() if one.trial.worst > 1 else ():
+            rows = zip(self.model.joints, one.held, strict=True)
+            if joints := [joint for joint, held in rows if rule in held]:
+                yield f"{rule} keeps {gain} of {', '.join(joints)} from being larger"
 
     def _given_up(self) -> Iterator[str]:
         """What (19) costs for each member, where both ways were tried."""
-        wishes = self.bench.wishes
         for m in dict.fromkeys(one.gains.m for one in self.sets):
             by = {one.way: one for one in self.sets if one.gains.m == m}
             if len(by) == 2:
-                a, b = (by[way].trial.worst(wishes) for way in (BY_19, BY_PROOF))
+                a, b = (by[way].trial.worst for way in (BY_19, BY_PROOF))
                 if b < 0.95 * a:
                     ratios = f"worst ratio {_times(a)} with (19), {_times(b)} by proof"
                     factor = f" ({_times(a / b)} times as much)" if b else ""
                     yield f"simulated: m = {m}: {ratios}{factor}"
 
-    def _data(self, one: Candidate) -> dict[str, Any]:
-        trial = one.trial
-        return {
-            "name": one.gains.name,
-            "m": one.gains.m,
-            "way": one.way,
-            "stable_by": one.stable or None,
-            "met": self.met(one),
-            "condition": list(one.gains.condition),
-            "as_run": running_sentences(one.runs, self.model.joints),
-            "worst": _six(trial.worst(self.bench.wishes)),
-            "joints": records(self._fields, one, len(self.model.joints)),
-        }
-
 
 def _angles(values: tuple[float, ...]) -> str:
     return f"({', '.join(f'{math.degrees(x):.4g}' for x in values)})°"
-
-
-def _degrees_of(values: tuple[float, ...]) -> list[float | None]:
-    return [_six(math.degrees(x)) for x in values]
 
 
 def _six(value: float) -> float | None:
@@ -442,9 +420,8 @@ def _sixes(values: Iterable[float]) -> list[float | None]:
     return [_six(value) for value in values]
 
 
-def _up(value: float) -> str:
-    """A simulated number, rounded up."""
-    return at_most(value, 3)
+def _known(value: float) -> float:
+    return -1.0 if math.isnan(value) else value
 
 
 def _times(ratio: float) -> str:

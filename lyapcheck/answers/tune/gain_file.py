@@ -44,7 +44,14 @@ def gain_file_text(
     if not sets:
         return ""
     blocks = ["\n".join([*head, f"robot = {quoted(beside(robot, folder))}"]), *sets]
-    blocks += [] if bounds == Bounds() else [_bounds(bounds)]
+    lines = []
+    if bounds.viscous_min is not None:
+        lines.append(f"viscous_min = {decimal_text(bounds.viscous_min)}  # N·m·s/rad")
+    for key in ("torque", "gravity"):
+        values = getattr(bounds, key)
+        if values is not None:
+            lines.append(f"{key} = {list_text(values, 0)}  # N·m")
+    blocks += ["\n".join(["[bounds]", *lines])] if lines else []
     blocks += [] if loop == NOTHING else [loop.toml]
     return "\n\n".join(blocks) + "\n"
 
@@ -64,18 +71,6 @@ def set_text(gains: GainSet, shown: Callable[[Sequence[Fraction]], str], notes: 
     if gains.condition:
         lines.append(f"condition = [{', '.join(map(quoted, gains.condition))}]")
     return "\n".join(["[[gains]]", f"name = {quoted(gains.name)}", f"m = {gains.m}", *lines])
-
-
-def _bounds(bounds: Bounds) -> str:
-    """The table of limits that the arm alone does not have."""
-    lines = ["[bounds]"]
-    if bounds.viscous_min is not None:
-        lines.append(f"viscous_min = {decimal_text(bounds.viscous_min)}  # N·m·s/rad")
-    for key in ("torque", "gravity"):
-        values = getattr(bounds, key)
-        if values is not None:
-            lines.append(f"{key} = {list_text(values, 0)}  # N·m")
-    return "\n".join(lines)
 
 
 def list_text(values: Sequence[Fraction], digits: int) -> str:

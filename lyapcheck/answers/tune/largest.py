@@ -171,36 +171,24 @@ def gain_ranges(m: int, model: RobotModel, limits: Limits, targets: Targets) -> 
 def propose(gain_ranges: Sequence[GainRange]) -> tuple[str, list[tuple[float, float]]]:
     """Clarabel's word, and k_p and k_v of each joint, N·m; only ``optimal`` has them."""
     import cvxpy as cp
+    import numpy as np
 
-    torque = [float(gain_range.sum_limit.mid) for gain_range in gain_ranges]
-    low = [float(gain_range.least_kv * gain_range.unit) for gain_range in gain_ranges]
-    high = [
-        float(min(gain_range.most_kv, gain_range.most_sum - 1) * gain_range.unit)
-        for gain_range in gain_ranges
-    ]
+    torque = np.array([float(each.sum_limit.mid) for each in gain_ranges])
+    low, high = np.array([[float(kv * each.unit) for kv in each.kv_range] for each in gain_ranges]).T
     root, kv = cp.Variable(len(gain_ranges), nonneg=True), cp.Variable(len(gain_ranges), nonneg=True)
     # each joint in units of its own limit: gains of 10⁻² and 10³ N·m stand side by side
-    constraints = [cp.square(root) + kv <= 1]
-    constraints += [kv >= _over(low, torque), kv <= _over(high, torque)]
-    for i, gain_range in enumerate(gain_ranges):
-        if gain_range.damping is not None:
-            ratio, friction, inertia = (
-                float(x)
-                for x in (gain_range.damping.ratio, gain_range.damping.friction, gain_range.damping.inertia)
-            )
-            slope = float(gain_range.damping.slope[0])
+    constraints = [cp.square(root) + kv <= 1, kv >= low / torque, kv <= high / torque]
+    for i, damping in enumerate(each.damping for each in gain_ranges):
+        if damping is not None:
+            numbers = damping.ratio, damping.friction, damping.inertia, damping.slope[0]
+            ratio, friction, inertia, slope = map(float, numbers)
             stiff = 2 * ratio * sqrt(inertia * slope * torque[i])
-            damped = friction + slope * torque[i] * kv[i]
-            constraints.append(root[i] <= damped / stiff)
+            constraints.append(root[i] <= (friction + slope * torque[i] * kv[i]) / stiff)
     solution = solved(cp.sum(root), constraints, [root, kv])
     if solution.ended is not Ended.SOLVED:
         return solution.reason, []
     rows = zip(*solution.values, torque, strict=True)
     return "optimal", [(float(s * s * most), float(v * most)) for s, v, most in rows]
-
-
-def _over(values: Sequence[float], scale: Sequence[float]) -> list[float]:
-    return [value / unit for value, unit in zip(values, scale, strict=True)]
 
 
 def best_units(gain_range: GainRange, proposal: float | None = None) -> tuple[int, int]:

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
+from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from lyapcheck.answers.gate import GateResult, gate
 from lyapcheck.answers.gate.stability import LASALLE, SCALAR
 from lyapcheck.answers.tune.bench import IN_WORDS, BenchTuning, Candidate
 from lyapcheck.answers.tune.targets import arms_over, impossible, limits_with, unknown
-from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried, tried_all
+from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, as_run, tried, tried_all
 from lyapcheck.control.gains import Bounds, GainFile, GainSet
 from lyapcheck.control.judgement import ACCEPTED
 from lyapcheck.control.limits import Limits, limits_of
@@ -49,23 +51,13 @@ POSTURES = 21
 """On the straight way of each task, for the inertia that a joint feels there."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Try:
-    """Logarithms of gains (n, 2), what they do, and the worst ratio of each joint (n,)."""
+class _Try(NamedTuple):
+    """Logarithms of gains (n, 2), and what they do."""
 
     score: tuple[float, float]
     """The worst first; ratios that are close count as the same, so that others may get better."""
     logs: Array
     trial: Trial
-    ratios: Array
-
-    @classmethod
-    def of(cls, logs: Array, trial: Trial, wishes: Wishes) -> _Try:
-        ratios = np.max([*trial.ratios(wishes).values()], axis=0)
-        return cls((round(float(np.max(ratios)), 3), float(np.sum(np.square(ratios)))), logs, trial, ratios)
-
-    def __lt__(self, other: _Try) -> bool:
-        return self.score < other.score
 
 
 class Search:
@@ -127,16 +119,16 @@ class Search:
         count = min(max(MOTIONS // (len(self.bench.tasks) * len(self.models)), few), many)
         combined = self.first()
         tries = self._try([combined, self._damped(combined)])
-        best, steps = min(tries), 0
+        best, steps = min(tries, key=itemgetter(0)), 0
         while spread > least and steps < MOST_STEPS:
             about = np.where(np.arange(count)[:, None, None] % 2, best.logs, combined)
             drawn = about + spread * rng.standard_normal(about.shape)
             now = self._try([combined, *drawn[1:]])
             tries += now
             steps += max(one.trial.steps for one in now)
-            last, best = best, min(tries)
+            last, best = best, min(tries, key=itemgetter(0))
             spread *= 1.0 if best.score[0] < BETTER * last.score[0] else NARROWER
-            picked = np.argmin([one.ratios for one in tries], axis=0)
+            picked = np.argmin([one.trial.by_joint for one in tries], axis=0)
             combined = np.array([tries[k].logs[i] for i, k in enumerate(picked)])
             narrow = math.log(SPREADS[0] / spread) / math.log(SPREADS[0] / least)
             progress(max(steps / MOST_STEPS, narrow), "")
@@ -146,7 +138,8 @@ class Search:
 
     def _try(self, logs: Sequence[Array]) -> list[_Try]:
         trials = tried_all([self.set_of(one) for one in logs], self.models, self.bench, BRIEFLY)
-        return [_Try.of(one, trial, self.bench.wishes) for one, trial in zip(logs, trials, strict=True)]
+        scores = [(round(one.worst, 3), float(np.sum(np.square(one.by_joint)))) for one in trials]
+        return [*map(_Try, scores, logs, trials)]
 
     def first(self) -> Array:
         """The logarithms of k_p and k_v (n, 2) by the rule of thumb."""

@@ -101,25 +101,17 @@ class Targets:
             ("damping ratio ≥ {}", self.damping),
         ):
             if values is not None and (values is not self.peak_share or min(values) < 1):
-                parts.append(words.format(_each(values)))
+                shown = values if len(set(values)) > 1 else values[:1]
+                parts.append(words.format(", ".join(map(decimal_text, shown))))
         return "; ".join(parts)
 
 
-def _each(values: Sequence[Fraction]) -> str:
-    """One value if it is the same for all joints."""
-    return ", ".join(map(decimal_text, values if len(set(values)) > 1 else values[:1]))
-
-
 def _exact(numbers: Numbers) -> tuple[Fraction, ...]:
-    if isinstance(numbers, Sequence) and not isinstance(numbers, str):
-        return tuple(_exact_one(number) for number in numbers)
-    return (_exact_one(numbers),)
-
-
-def _exact_one(number: object) -> Fraction:
-    if not isinstance(number, Number):
-        raise TypeError(f"{number!r} is not exact; write it as text, such as '0.8'")
-    return Fraction(number)
+    each = numbers if isinstance(numbers, Sequence) and not isinstance(numbers, str) else (numbers,)
+    for number in each:
+        if not isinstance(number, Number):
+            raise TypeError(f"{number!r} is not exact; write it as text, such as '0.8'")
+    return tuple(Fraction(number) for number in each)
 
 
 def _complaints(option: str, values: Sequence[Fraction], top: Fraction | None, n: int) -> list[Problem]:
@@ -185,9 +177,13 @@ def impossible(limits: Limits) -> list[str]:
                 "motor, a lighter arm or a larger --peak-share"
             )
     if limits.viscous_min is not None and limits.viscous_min <= 0:
+        state = "state it in an arm file that names this URDF, as viscous = … of the joint under [[joints]]"
+        if split(limits.robot)[0].endswith(".toml") or "." not in limits.robot:
+            where = "under [[joints]] where that names a URDF file"
+            state = f"state it in the arm file as viscous = … of the joint, {where}"
         result.append(
             f"λmin(B) is 0, so (19) admits no k_v: {_without_friction(limits)}; measure the friction and "
-            f"{_state_it(limits)}, or give --viscous-min, or give targets, such as --overshoot 5: stability "
+            f"{state}, or give --viscous-min, or give targets, such as --overshoot 5: stability "
             "by LaSalle's theorem needs none"
         )
     return result
@@ -204,12 +200,3 @@ def _without_friction(limits: Limits) -> str:
             told = "is not known" if number.assumed else "is 0 in the file"
             said.setdefault("may be 0 in its range" if number.value > 0 else told, []).append(joint)
     return ", ".join(f"the viscous friction of {', '.join(of)} {what}" for what, of in said.items())
-
-
-def _state_it(limits: Limits) -> str:
-    """How to state friction in an arm file."""
-    if not split(limits.robot)[0].endswith(".toml") and "." in limits.robot:
-        return "state it in an arm file that names this URDF, as viscous = … of the joint under [[joints]]"
-    return (
-        "state it in the arm file as viscous = … of the joint, under [[joints]] where that names a URDF file"
-    )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -120,6 +121,7 @@ class Trial:
     keeps every joint where it is; else what comes later is not known.
     """
 
+    wishes: Wishes
     overshoot: Array
     settled: Array
     share: Array
@@ -134,7 +136,8 @@ class Trial:
     unrest: str = ""
     """What a run as a computer has it shows against the gains."""
 
-    def ratios(self, wishes: Wishes) -> dict[str, Array]:
+    @cached_property
+    def ratios(self) -> dict[str, Array]:
         """What was seen over what was asked, by wish, (n,); 1 where it is just met."""
         seen = {
             "overshoot": self.overshoot,
@@ -143,11 +146,17 @@ class Trial:
             "rest_error": self.rest,
         }
         with np.errstate(over="ignore"):
-            return {name: np.minimum(seen[name] / asked, NEVER) for name, asked in wishes.given.items()}
+            return {name: np.minimum(seen[name] / asked, NEVER) for name, asked in self.wishes.given.items()}
 
-    def worst(self, wishes: Wishes) -> float:
+    @property
+    def by_joint(self) -> Array:
+        """The largest ratio of each joint, (n,)."""
+        return np.asarray(np.max([*self.ratios.values()], axis=0))
+
+    @property
+    def worst(self) -> float:
         """The largest ratio: at most 1 where all is met."""
-        return max(float(np.max(x)) for x in self.ratios(wishes).values())
+        return float(np.max(self.by_joint))
 
 
 def tried(gains: GainSet, models: Sequence[RobotModel], bench: Trials, *, exact: bool = False) -> Trial:
@@ -202,7 +211,7 @@ def tried_all(
     for one, safe, *values in zip(sets, *map(of_each, (kept, *columns)), strict=True):
         rest = np.max([[*map(_degrees_above, rest_errors(one, model))] for model in models], axis=0)
         over, time, torque, end = map(bench.worst, values)
-        result.append(Trial(over, time, torque, end, rest, T, bool(np.all(safe)), steps))
+        result.append(Trial(wishes, over, time, torque, end, rest, T, bool(np.all(safe)), steps))
     return result
 
 
@@ -229,7 +238,8 @@ def as_run(gains: GainSet, models: Sequence[RobotModel], bench: Trials, record: 
         ideal = (trial.overshoot, trial.settled, trial.share, trial.late)
         seen = [np.maximum(*pair) for pair in zip(seen, ideal, strict=True)]
     over, time, torque, end = seen
-    return Trial(over, time, torque, end, trial.rest, trial.T, not unrest, 0, len(chosen), unrest)
+    kept, count = not unrest, len(chosen)
+    return Trial(bench.wishes, over, time, torque, end, trial.rest, trial.T, kept, 0, count, unrest)
 
 
 _KNOWN: dict[str, Any] = {"unknown_payload": Fraction(0), "gravity_error": Fraction(0)}
