@@ -271,7 +271,7 @@ def _joints(plan: Plan, notes: Notes) -> list[int]:
     for k, robot in enumerate(plan.robots):
         for number, variation in enumerate(plan.variations):
             try:
-                n = arm(robot, variation).model.n
+                n = arm(robot, variation)[0].n
             except InputError as error:
                 notes.problems += [_placed(one, notes, k, number) for one in error.problems]
                 n = 0

@@ -59,33 +59,23 @@ STEP = 45.0
 """Degrees, of every joint of an arm that the paper's experiment does not fit."""
 
 
-@dataclass(frozen=True)
-class UncertainArm:
-    """An arm with its uncertainties.
-
-    Args:
-        model: the arm.
-        ranges: what varies.
-        digest: of all its numbers.
-        limits: by its name, as the gate takes them; read when it is first asked.
-    """
-
-    model: RobotModel
-    ranges: tuple[Vary, ...]
-    digest: str
-    limits: dict[str, Limits] = field(default_factory=dict)
-
-
 @lru_cache(maxsize=MOST)
-def arm(robot: str, variation: tuple[str, ...] = ()) -> UncertainArm:
-    """The arm of a name or file, with ranges as ``--vary`` takes them.
+def arm(robot: str, variation: tuple[str, ...] = ()) -> tuple[RobotModel, str]:
+    """The arm of a name or file, with ranges as ``--vary`` takes them, and the digest of all its numbers.
 
     Raises:
         InputError: no such arm, or a range of nothing that it has.
     """
-    ranges = tuple(map(Vary.parsed, variation))
-    model = load(robot, vary=ranges)
-    return UncertainArm(model, ranges, store.exact(model))
+    model = load(robot, vary=tuple(map(Vary.parsed, variation)))
+    return model, store.exact(model)
+
+
+@lru_cache(maxsize=MOST)
+def limits(robot: str, variation: tuple[str, ...]) -> dict[str, Limits]:
+    """Its limits by its name, as the gate takes them."""
+    from lyapcheck.control.limits import limits_of
+
+    return {robot: limits_of(arm(robot, variation)[0])}
 
 
 @dataclass(frozen=True)
@@ -97,7 +87,7 @@ class Question:
         robot: name or file of the arm.
         variation: ranges, as ``--vary`` takes them.
         gains: the gain set.
-        ask: which question: a key of ``asks.OPTIONS``.
+        ask: which question: a key of `OPTIONS`.
         options: what else it was asked with.
     """
 
@@ -111,7 +101,8 @@ class Question:
     @property
     def digest(self) -> str:
         """Of the arm with all its numbers, the gains and the options, whatever the gain set is called."""
-        return digest_of({**self.data, "name": "", "robot": arm(self.robot, self.variation).digest})
+        _, robot = arm(self.robot, self.variation)
+        return digest_of({**self.data, "name": "", "robot": robot})
 
     @property
     def data(self) -> Row:
@@ -189,23 +180,20 @@ MARGIN_DIGITS = 6
 Options = Mapping[str, Any]
 
 
-def _gate(questions: Sequence[Question], known: UncertainArm, options: Options) -> Iterator[Answered]:
+def _gate(questions: Sequence[Question], options: Options) -> Iterator[Answered]:
     """Whether each gain set is accepted, with the least margin as a share of its limit."""
     from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.answers.gate.certificates import running_certificates, whole
     from lyapcheck.answers.gate.judge import judged_sets
     from lyapcheck.control.conditions import UNDECIDED
     from lyapcheck.control.gains import GainFile
-    from lyapcheck.control.limits import arm_limits, varied_limits
     from lyapcheck.control.sampling import loop_of_options
 
-    robot, ranges = questions[0].robot, known.ranges
-    if not known.limits:
-        known.limits[robot] = varied_limits(robot, ranges) if ranges else arm_limits(robot)
+    robot, arms = questions[0].robot, limits(questions[0].robot, questions[0].variation)
     sets = tuple(replace(one.gains, index=k) for k, one in enumerate(questions) if one.gains is not None)
     loop = loop_of_options(dict(text.partition("=")[::2] for text in options["loop"]))
     file = GainFile("plan", robot, sets, loop=loop)
-    results = judged_sets(file, None, options["condition"] or None, arms=known.limits, explained=0)
+    results = judged_sets(file, None, options["condition"] or None, arms=arms, explained=0)
     rows = GateAnswer(results).data()["results"]
     for question, result, data in zip(questions, results, rows, strict=True):
         undecided = [check.reason for check in result.failures if check.verdict == UNDECIDED]
@@ -223,7 +211,7 @@ def _gate(questions: Sequence[Question], known: UncertainArm, options: Options) 
         yield answered(question, result.spoken, data, made, reason, margin=margin)
 
 
-def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answered:
+def _epsilon(question: Question, known: RobotModel, options: Options) -> Answered:
     """The four ε₀, over all ranges where there are some: ``proved`` if one is certified."""
     from lyapcheck.answers.epsilon import FIELDS
     from lyapcheck.answers.epsilon.compute import Options as Asked
@@ -231,8 +219,8 @@ def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answe
     from lyapcheck.output.fields import data
 
     assert question.gains is not None
-    asked = Asked(ranges=bool(known.ranges), weights=False, **options)
-    result = kept_epsilon(question.gains, known.model, asked)
+    asked = Asked(ranges=bool(known.varies), weights=False, **options)
+    result = kept_epsilon(question.gains, known, asked)
     row = data(FIELDS, result)
     found = {"eps0": row["certified"], "falsified": row["falsified"]}
     reason = "" if result.proof else result.reasons.get("certified", "")
@@ -241,14 +229,14 @@ def _epsilon(question: Question, known: UncertainArm, options: Options) -> Answe
     return answered(question, verdict, row, made, reason, **found)
 
 
-def _bounds(question: Question, known: UncertainArm, options: Options) -> Answered:
+def _bounds(question: Question, known: RobotModel, options: Options) -> Answered:
     """The bounds at rest for the arm's dry friction, and the simulated time."""
     from lyapcheck.answers.bounds import certificates, compare, comparison_data
     from lyapcheck.control.sampling import record_of
     from lyapcheck.files.loop import NOTHING
 
-    model = arm(question.robot).model
-    varied = (known.model, known.ranges) if known.ranges else None
+    model, _ = arm(question.robot)
+    varied = (known, known.varies) if known.varies else None
     record = record_of(NOTHING, NOTHING, model.loop)
     assert question.gains is not None
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
@@ -264,7 +252,7 @@ def _said(promise: Any) -> str:
     return VERDICTS[Exit.UNDECIDED] if promise is None else str(promise.says(VERDICTS[Exit.PROVED]))
 
 
-def _simulate(question: Question, known: UncertainArm, options: Options) -> Answered:
+def _simulate(question: Question, known: RobotModel, options: Options) -> Answered:
     """One run, and one at each corner that is tried; the slowest of them counts. Observed, never proved."""
     from lyapcheck.answers.simulate.moved import moved, on_arms
     from lyapcheck.answers.simulate.runs import SetPointRuns
@@ -272,14 +260,14 @@ def _simulate(question: Question, known: UncertainArm, options: Options) -> Answ
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.trial import experiment
 
-    task, arms = task_of(known.model, options), ""
+    task, arms = task_of(known, options), ""
     assert question.gains is not None
     mover = experiment if options["experiment"] else partial(simulate, stop=True)
-    if known.ranges:
-        arms = f"one arm in the ranges and {corners_text(known.model, known.ranges)}"
-    others = corners(known.model, known.ranges) if known.ranges else ()
+    if known.varies:
+        arms = f"one arm in the ranges and {corners_text(known, known.varies)}"
+    others = corners(known, known.varies) if known.varies else ()
     move = partial(mover, target_rad=task.q_d, start_rad=task.q0, velocity_rad=task.w0, T=task.T)
-    runs, unfinished = moved(on_arms([question.gains], known.model, others), move)
+    runs, unfinished = moved(on_arms([question.gains], known, others), move)
     result = SetPointRuns(tuple(runs), tuple(unfinished), arms=arms)
     verdict = OBSERVED if result.exit_code is Exit.PROVED else VERDICTS[result.exit_code]
     # nothing where one joint does not settle
@@ -288,16 +276,16 @@ def _simulate(question: Question, known: UncertainArm, options: Options) -> Answ
     return answered(question, verdict, result.data(), reason="; ".join(result.complaints()), settling=slowest)
 
 
-def _robot(question: Question, known: UncertainArm, options: Options) -> Answered:
+def _robot(question: Question, known: RobotModel, options: Options) -> Answered:
     """Properties 2.1–2.8 and the constants of each arm: the worst verdict counts.
 
     Over a variation a property that is shown at nominal numbers only is undecided.
     """
     from lyapcheck.answers.robot import NOMINAL, build, extent
 
-    report = build(known.model, options["max_boxes"])
+    report = build(known, options["max_boxes"])
     verdict, reason = VERDICTS[report.exit_code], ""
-    nominal = [row.id for row in report.properties if known.ranges and extent(row, known.model) == NOMINAL]
+    nominal = [row.id for row in report.properties if known.varies and extent(row, known) == NOMINAL]
     if verdict == Verdict.PROVED.value and nominal:
         verdict, reason = Verdict.UNDECIDED.value, f"shown at {NOMINAL} only: {', '.join(nominal)}"
     elif report.exit_code in (Exit.UNDECIDED, Exit.INTERNAL):
@@ -318,7 +306,7 @@ OPTIONS: Mapping[str, Options] = {
     "simulate": {"time": 5.0, "experiment": False, "target": (), "start": ()},
 }
 """The questions, with what each may be asked with, and what holds where nothing is said."""
-_ALONE: Mapping[str, Callable[[Question, UncertainArm, Options], Answered]] = {
+_ALONE: Mapping[str, Callable[[Question, RobotModel, Options], Answered]] = {
     "bounds": _bounds,
     "epsilon": _epsilon,
     "robot": _robot,
@@ -329,8 +317,8 @@ _ALONE: Mapping[str, Callable[[Question, UncertainArm, Options], Answered]] = {
 def answers(questions: Sequence[Question], jobs: int) -> list[Answered]:
     """The answers to questions that differ in their gains alone; ``jobs`` processes may share one."""
     first = questions[0]
-    known = arm(first.robot, first.variation)
+    known, _ = arm(first.robot, first.variation)
     options = {**OPTIONS[first.ask], **dict(first.options), "jobs": jobs}
     if first.ask == TOGETHER:
-        return list(_gate(questions, known, options))
+        return list(_gate(questions, options))
     return [_ALONE[first.ask](one, known, options) for one in questions]
