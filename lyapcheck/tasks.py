@@ -191,19 +191,18 @@ def torque(
 
     from lyapcheck.control.gains import one_gain_set
     from lyapcheck.robots import arm_of
-    from lyapcheck.robots.numeric import NumericModel
-    from lyapcheck.simulate.task import gains_for
+    from lyapcheck.search.controlled_arm import ControlledArm
 
     arm = arm_of(model)
-    gains = gains_for(one_gain_set(gain_set), arm.n)
+    controlled = ControlledArm(one_gain_set(gain_set), arm)
     places = [np.asarray(x, dtype=np.float64) for x in (q_rad, velocity_rad, target_rad)]
     for name, x in zip(("q_rad", "velocity_rad", "target_rad"), places, strict=True):
         if x.shape[-1:] != (arm.n,):
             rule = f"has the shape {x.shape}, and its last axis must be the {arm.n} joints"
             raise argument_error(name, "", rule, f"give arrays of the shape (..., {arm.n})")
     at, rates, goals = np.broadcast_arrays(*places)
-    kp, kv, h = np.array(gains.kp), np.array(gains.kv), gains.family.h
-    return np.asarray(kp * h(goals - at) - kv * h(rates) + NumericModel(arm).gravity(at))
+    kp, kv, h = controlled.kp, controlled.kv, controlled.family.h
+    return np.asarray(kp * h(goals - at) - kv * h(rates) + controlled.numeric.gravity(at))
 
 
 def decide(statement: Statement, m: int | None = None, n: int | None = None) -> Decision:

@@ -195,14 +195,14 @@ def _merit(plant: RobotModel, name: str) -> Callable[..., tuple[float, Array]]:
     n = plant.n
     z = ca.SX.sym("z", 2 * n)
     q, x = z[:n], z[n:]
-    square, sign = ca.dot(x, x), -1 if name == "lambda_min" else 1
+    at, square, sign = graph.at_angles(plant, q), ca.dot(x, x), -1 if name == "lambda_min" else 1
     if name in ("lambda_min", "lambda_max"):
-        value = ca.dot(x, graph.mass(plant, q) @ x) / square
+        value = ca.dot(x, graph.matrix(at.mass()) @ x) / square
     elif name == "k_c":
-        turned = graph.coriolis(plant, q, x) @ x
+        turned = graph.matrix(at.coriolis(ca.vertsplit(x))) @ x
         value = ca.dot(turned, turned) / square**2
     else:
-        torque = graph.gravity(plant, q)
+        torque = at.gravity()
         counted = ca.vertcat(*(torque[i] for i in joints_of(name, n)))
         value = ca.dot(counted, counted)
     aim = -sign * value

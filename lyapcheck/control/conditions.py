@@ -120,50 +120,32 @@ class Conditions:
         )
         self._damping = None if limits.viscous_min is None else scaled(limits.viscous_min, n, gamma)
 
-    def check_10(self, gains: GainSet) -> list[Check]:
-        """λmax(K_p) + λmax(K_v) ≤ (‖τmax‖ − k_g)/(√n γ), with k_g = ‖(k_gi)‖.
+    def checks(self, name: str, gains: GainSet) -> list[Check]:
+        """One condition, joint by joint; (10) is about all joints.
 
-        References: (10) of reyes2019family.
+        References: (10), (19) and the tuning rule of Section 4, reyes2019family; for (10i), (6) there and
+        claim ``torque.joint`` of ``proofs/scalar.py``.
         """
-        places = max(map(places_of, (*gains.kp, *gains.kv)))
-        return [self._check("10", None, max(gains.kp) + max(gains.kv), places, self._norm, _NO_TORQUE)]
-
-    def check_10p(self, gains: GainSet) -> list[Check]:
-        """k_pi + k_vi < (τmax_i − k_gi)/(√n γ) for each joint.
-
-        References: the tuning rule of Section 4, reyes2019family.
-        """
-        return self._sums("10p", gains, self._joints)
-
-    def check_10i(self, gains: GainSet) -> list[Check]:
-        """k_pi + k_vi ≤ (τmax_i − k_gi)/γ for each joint, which bounds |τ_i| ≤ γ (k_pi + k_vi) + k_gi.
-
-        References: (6) of reyes2019family; claim ``torque.joint`` of ``proofs/scalar.py``.
-        """
-        return self._sums("10i", gains, self._single)
-
-    def check_19(self, gains: GainSet) -> list[Check]:
-        """k_vi < λmin(B)/(√n γ) for each joint.
-
-        References: (19) of reyes2019family.
-        """
+        if name == "10":
+            places = max(map(places_of, (*gains.kp, *gains.kv)))
+            return [self._check(name, None, max(gains.kp) + max(gains.kv), places, self._norm, _NO_TORQUE)]
+        if name == "19":
+            return [
+                self._check(name, i, kv, places_of(kv), self._damping, _NO_FRICTION)
+                for i, kv in enumerate(gains.kv)
+            ]
+        rows = zip(gains.kp, gains.kv, self._joints if name == "10p" else self._single, strict=True)
         return [
-            self._check("19", i, kv, places_of(kv), self._damping, _NO_FRICTION)
-            for i, kv in enumerate(gains.kv)
+            self._check(name, i, kp + kv, max(places_of(kp), places_of(kv)), threshold, _NO_TORQUE)
+            for i, (kp, kv, threshold) in enumerate(rows)
         ]
 
     def all(self, gains: GainSet, deciding: Sequence[str] = ()) -> tuple[Check, ...]:
         """The checks of the paper's three, and of (10i) where it decides or (10p) fails."""
-        joints = self.check_10p(gains)
+        joints = self.checks("10p", gains)
         fails = any(check.verdict == REJECTED and check.limit is not None for check in joints)
-        single = self.check_10i(gains) if "10i" in deciding or fails else []
-        return (*self.check_10(gains), *joints, *single, *self.check_19(gains))
-
-    def _sums(self, name: str, gains: GainSet, thresholds: Sequence[Threshold | None]) -> list[Check]:
-        return [
-            self._check(name, i, kp + kv, max(places_of(kp), places_of(kv)), thresholds[i], _NO_TORQUE)
-            for i, (kp, kv) in enumerate(zip(gains.kp, gains.kv, strict=True))
-        ]
+        single = self.checks("10i", gains) if "10i" in deciding or fails else []
+        return (*self.checks("10", gains), *joints, *single, *self.checks("19", gains))
 
     def _check(
         self,

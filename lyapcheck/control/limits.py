@@ -84,20 +84,11 @@ class Limits:
         return tuple(text for text in self.assumptions if text.startswith("--vary "))
 
 
-def arm_limits(name: str) -> Limits:
-    """The limits of an arm.
+def arm_limits(name: str, varies: tuple[Vary, ...] = ()) -> Limits:
+    """The limits of an arm; for all values in ranges, if there are some, with what these cost in its notes.
 
     Raises:
-        InputError: no such arm, or a file that describes none.
-    """
-    return model_limits(load(name))
-
-
-def varied_limits(name: str, varies: tuple[Vary, ...]) -> Limits:
-    """The limits of an arm for all values in some ranges, with what these cost in its notes.
-
-    Raises:
-        InputError: no such arm, or a range of nothing that it has.
+        InputError: no such arm, a file that describes none, or a range of nothing that it has.
     """
     return limits_of(load(name, vary=varies))
 

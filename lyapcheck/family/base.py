@@ -200,10 +200,6 @@ class Family(ABC):
         """A ball that contains U over the ball x; by default that of the checker."""
         return self.checked.potential(x)
 
-    def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
-        """The x > 0 at which h, and those at which h', may stop being monotone; none by default."""
-        return (), ()
-
     @abstractmethod
     def constants(self, digits: int = 30) -> FamilyConstants:
         """γ, ρ and L to at least ``digits`` significant digits."""

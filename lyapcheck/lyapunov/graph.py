@@ -8,7 +8,7 @@ References: (11), (12), (15) of ``reyes2019family``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -17,8 +17,9 @@ import casadi as ca
 
 from lyapcheck.family import Family
 from lyapcheck.family.base import Arithmetic, graphs
-from lyapcheck.lyapunov.along import AtState, solve_definite
+from lyapcheck.lyapunov.along import AtState
 from lyapcheck.robots.plant import RobotModel
+from lyapcheck.robots.trig import ArmAtAngles
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def at_symbols(
         kink: put under the root of ‖e‖, for optimisers that cross e = 0.
         moving: ``speed`` and ``acceleration_d`` of a goal that moves.
     """
-    own: Arithmetic = replace(graphs(), lift=lambda x: ca.SX(float(x)), sqrt=lambda x: ca.sqrt(x + kink))
+    own: Arithmetic = replace(graphs(), lift=_lift, sqrt=lambda x: ca.sqrt(x + kink))
     rows, friction = ca.vertsplit, [float(number.value) for number in model.viscous]
     goal: dict[str, Any] = {name: rows(x) for name, x in moving.items()}
     return AtState(model.fixed(), own, forms, rows(q), rows(e), rows(w), rows(kp), rows(kv), friction, **goal)
@@ -100,47 +101,12 @@ def _along(at: AtState, q: Any, e: Any, w: Any, eps0: Any) -> Any:
 
 # --- The model as CasADi expressions.
 
-Parameters = Mapping[str, ca.SX] | None
 
-
-def mass(model: RobotModel, q: ca.SX, parameters: Parameters = None) -> ca.SX:
-    """M(q), (n, n) in kg·m², for a column q of joint angles in rad."""
-    return matrix(model.at(*_circle(model, q), _lift, parameters).mass())
-
-
-def coriolis(model: RobotModel, q: ca.SX, x: ca.SX, parameters: Parameters = None) -> ca.SX:
-    """C(q, x) of the Christoffel symbols, (n, n) in kg·m²/s, for columns q in rad and x in rad/s."""
-    rates = [x[i] for i in range(model.n)]
-    return matrix(model.at(*_circle(model, q), _lift, parameters).coriolis(rates))
-
-
-def gravity(model: RobotModel, q: ca.SX, parameters: Parameters = None) -> ca.SX:
-    """g(q), (n, 1) in N·m."""
-    result: ca.SX = ca.vertcat(*model.at(*_circle(model, q), _lift, parameters).gravity())
-    return result
-
-
-def potential(model: RobotModel, q: ca.SX, parameters: Parameters = None) -> ca.SX:
-    """The potential energy, J."""
-    result: ca.SX = model.at(*_circle(model, q), _lift, parameters).potential()
-    return result
-
-
-def viscous(model: RobotModel) -> ca.DM:
-    """B, (n, n) in N·m·s/rad, at nominal values."""
-    return ca.diag(ca.DM([float(number.value) for number in model.viscous]))
-
-
-def solve(matrix: ca.SX, right: ca.SX) -> ca.SX:
-    """x (n, 1) with matrix · x = right, for a symmetric positive definite matrix (n, n)."""
-    rows = [ca.horzsplit(row) for row in ca.vertsplit(matrix)]
-    result: ca.SX = ca.vertcat(*solve_definite(rows, ca.vertsplit(right)))
-    return result
-
-
-def _circle(model: RobotModel, q: ca.SX) -> tuple[list[ca.SX], list[ca.SX]]:
-    joints = range(model.n)
-    return [ca.sin(q[i]) for i in joints], [ca.cos(q[i]) for i in joints]
+def at_angles(model: RobotModel, q: ca.SX) -> ArmAtAngles:
+    """The arm at a column q of joint angles in rad, at nominal values."""
+    of = graphs()
+    turns = [of.sin(x) for x in ca.vertsplit(q)], [of.cos(x) for x in ca.vertsplit(q)]
+    return model.at(*turns, _lift)
 
 
 def _lift(value: Fraction) -> ca.SX:

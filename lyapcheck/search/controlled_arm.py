@@ -164,9 +164,13 @@ class ControlledArm:
     @cached_property
     def lyapunov(self) -> LyapunovNumeric:
         """V and dV/dt in floating point, with ε₀ = 0."""
+        return self.watched(0.0)
+
+    def watched(self, eps0: float) -> LyapunovNumeric:
+        """The same with another ε₀."""
         from lyapcheck.lyapunov.numeric import LyapunovNumeric
 
-        return LyapunovNumeric(self.model, self.family, list(self.kp), list(self.kv))
+        return LyapunovNumeric(self.model, self.family, list(self.kp), list(self.kv), eps0)
 
     @cached_property
     def fixed(self) -> RobotModel:
@@ -225,14 +229,27 @@ class ControlledArm:
         return mass_proof(self.fixed.mass_terms)
 
     def loop(self, eps0: Fraction, coupling: tuple[Fraction, ...] = ()) -> ClosedLoop:
-        """What a global certificate has to prove at one ε₀, with y = w − εΛh if a diagonal of Λ is given.
+        """What a global certificate has to prove at one ε₀: (11) with V of (13), exact.
+
+        With a diagonal of Λ given V is that of y = w − εΛh.
 
         Raises:
             InputError: the checker does not know the function of the controller.
         """
         if self.family.bounded:
             _ = self.family.checked
-        return closed_loop_of(self.gains, self.ranged, eps0, ranges=self.ranges, coupling=coupling)
+        gains, arm = self.gains, self.ranged
+        return ClosedLoop(
+            arm=Arm(arm.mass_terms, tuple(number.value for number in arm.viscous)),
+            family=gains.family,
+            m=gains.m,
+            kp=tuple(gains.kp),
+            kv=tuple(gains.kv),
+            eps0=eps0,
+            parameters=arm.ranges_of_mass,  # what M does not depend on is no side of the boxes
+            viscous=tuple(number.bounds for number in arm.viscous) if self.ranges else (),
+            coupling=coupling,
+        )
 
     def require_friction(self) -> None:
         """Refuse a bounded h on an arm without viscous friction at each joint: no ε₀ > 0 is certified.
@@ -305,38 +322,6 @@ def _against(
         return None
     angles, x = (tuple(Fraction(repr(float(v))) for v in row) for row in (q[worst], vectors[worst][:, 0]))
     return PostureWitness(angles, tuple(nominal), x)
-
-
-# --- The closed loop of a gain set on an arm as exact data for the checker, and what shows M(q) ≻ 0 there.
-
-
-def closed_loop_of(
-    gains: GainSet,
-    model: RobotModel,
-    eps0: Fraction,
-    *,
-    ranges: bool = False,
-    coupling: tuple[Fraction, ...] = (),
-) -> ClosedLoop:
-    """(11) with V of (13), or of y = w − εΛh where a diagonal of Λ is given, at one ε₀.
-
-    Args:
-        model: the arm; its parameters range where it has some.
-        eps0: ε₀.
-        ranges: whether the friction of joints ranges.
-        coupling: diagonal of Λ.
-    """
-    return ClosedLoop(
-        arm=Arm(model.mass_terms, tuple(number.value for number in model.viscous)),
-        family=gains.family,
-        m=gains.m,
-        kp=tuple(gains.kp),
-        kv=tuple(gains.kv),
-        eps0=eps0,
-        parameters=model.ranges_of_mass,  # what M does not depend on is no side of the boxes
-        viscous=tuple(number.bounds for number in model.viscous) if ranges else (),
-        coupling=coupling,
-    )
 
 
 # --- What shows that M(q) is positive definite: the links of an arm where they are known, else boxes.

@@ -27,11 +27,10 @@ from lyapcheck._types import SEED, Array, Progress, part, silent
 from lyapcheck.check.kinds.decreasing import BoxTree
 from lyapcheck.convex import solved
 from lyapcheck.lyapunov import graph
-from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.search.certified import MAX_BOXES, certify
 from lyapcheck.search.controlled_arm import ControlledArm, DecreaseProof
 from lyapcheck.search.schur import SchurProblem
-from lyapcheck.search.worst_states import Program, States, fast, ranges_of_state
+from lyapcheck.search.worst_states import Program, States, fast, ranges_of_state, symbols_of
 
 SAMPLES = 20_000
 KEPT = 12
@@ -149,16 +148,16 @@ def _rounded(weights: list[Fraction]) -> tuple[Fraction, tuple[Fraction, ...]]:
 
 def resisting_program(controlled: ControlledArm) -> Program:
     """Max over (q, e, v) of 1 − vᵀP(λ)v/vᵀBv; its parameters are λ."""
-    n, B = controlled.n, ca.DM(controlled.viscous)
-    q, e, v, weights = (ca.SX.sym(name, n) for name in ("q", "e", "v", "weights"))
-    gains = ca.DM(controlled.kp), ca.DM(controlled.kv)
-    at = at_symbols(controlled.fixed, q, e, v, *gains, controlled.family.casadi, kink=1e-24)
+    n, at, B = controlled.n, symbols_of(controlled), ca.DM(controlled.viscous)
+    weights, v = ca.SX.sym("weights", n), ca.vertcat(*at.w)
     F = graph.matrix(at.fast(ca.vertsplit(weights)))
     x = B * v - F.T @ v
-    largest = float(controlled.family.constants().L.upper) / 4 * gains[1]
-    compliance = 1 / ca.fmax(gains[0] / weights - largest, SOFTEST)
+    largest = float(controlled.family.constants().L.upper) / 4 * ca.DM(controlled.kv)
+    compliance = 1 / ca.fmax(ca.DM(controlled.kp) / weights - largest, SOFTEST)
     top = ca.bilin(F, v, v) + at.near / 4 * ca.dot(compliance, x * x)
-    return Program(ca.vertcat(q, e, v), top / ca.dot(v, B * v), ranges_of_state(n, 2.0), parameters=weights)
+    return Program(
+        ca.vertcat(*at.q, *at.e, v), top / ca.dot(v, B * v), ranges_of_state(n, 2.0), parameters=weights
+    )
 
 
 class _Proposal:

@@ -12,7 +12,7 @@ References: ``reyes2019family`` (15).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -237,28 +237,11 @@ class Program:
         return np.array(ends).reshape(len(starts), len(self.bound))
 
 
-@dataclass(frozen=True)
-class Expressions:
-    """The state as symbols, and what the programs are made of, all as CasADi expressions."""
-
-    q: Any
-    e: Any
-    w: Any
-    a0: Any
-    a1: Any
-    a2: Any
-    fast: Any
-    """wᵀFw."""
-
-
-def expressions(controlled: ControlledArm) -> Expressions:
-    """a₀, a₁, a₂ of dV/dt and wᵀFw, all that is left of a₁ for fast states, as CasADi expressions."""
-    n, forms = controlled.n, controlled.family.casadi
-    q, e, w = (ca.SX.sym(name, n) for name in "qew")
+def symbols_of(controlled: ControlledArm) -> AtState:
+    """The state as CasADi symbols, of which the programs are made."""
+    q, e, w = (ca.SX.sym(name, controlled.n) for name in "qew")
     gains = ca.DM(controlled.kp), ca.DM(controlled.kv)
-    at = at_symbols(controlled.fixed, q, e, w, *gains, forms, kink=1e-24)
-    a0, a1, a2 = at.coefficients()
-    return Expressions(q, e, w, a0, a1, a2, ca.bilin(graph.matrix(at.fast()), w, w))
+    return at_symbols(controlled.fixed, q, e, w, *gains, controlled.family.casadi, kink=1e-24)
 
 
 class Disagreement(RuntimeError):
@@ -282,21 +265,22 @@ def require_one_rate(controlled: ControlledArm, states: States) -> None:
 
 def fast_states(controlled: ControlledArm, starts: States, level: bool = False) -> States:
     """Where the fast program ends from each start, or the level one, with e held at 0; w has unit length."""
-    x, n, bound = expressions(controlled), controlled.n, ranges_of_state(controlled.n, 2.0)
-    damping = ca.dot(x.w, ca.DM(controlled.fast_damping) * x.w)
+    at, n, bound = symbols_of(controlled), controlled.n, ranges_of_state(controlled.n, 2.0)
+    w = ca.vertcat(*at.w)
+    fastest = ca.bilin(graph.matrix(at.fast()), w, w) / ca.dot(w, ca.DM(controlled.fast_damping) * w)
     if level:
         bound[n : 2 * n], starts = 0.0, States(starts.q, np.zeros_like(starts.e), starts.w)
-    ends = Program(ca.vertcat(x.q, x.e, x.w), x.fast / damping, bound).climb(_stack(starts))
+    ends = Program(ca.vertcat(*at.q, *at.e, w), fastest, bound).climb(_stack(starts))
     q, e, _ = _parts(ends, n)
     return States(q, e, fastest_directions(controlled, q, e)[1])
 
 
 def finite_states(controlled: ControlledArm, starts: States) -> States:
     """Where the finite program ends from each start."""
-    x = expressions(controlled)
-    bound = ranges_of_state(controlled.n, _FASTEST)
+    at = symbols_of(controlled)
+    program = _reciprocal_program(ca.vertcat(*at.q, *at.e, *at.w), at.coefficients(), controlled.n)
     first = quadratic(controlled, starts).reciprocal()
-    return States(*_parts(_reciprocal_program(x, bound).climb(_with(starts, first)), controlled.n))
+    return States(*_parts(program.climb(_with(starts, first)), controlled.n))
 
 
 def slow_states(controlled: ControlledArm, starts: States, radius: float) -> States:
@@ -305,27 +289,26 @@ def slow_states(controlled: ControlledArm, starts: States, radius: float) -> Sta
     A small reach finds the worst direction in which the origin can be left; where h'(0) > 0 all smaller
     multiples of such a state are about as bad.
     """
-    x, n = expressions(controlled), controlled.n
+    at, n = symbols_of(controlled), controlled.n
     d, u = ca.SX.sym("d", n), ca.SX.sym("u", n)
     unit = radius / _LONGEST_ERROR
     lengths = _length(controlled.family.h(starts.e))[:, None]
     e = unit * d
     w = ca.sqrt(ca.sumsqr(controlled.family.casadi(e).h) + 1e-300) * u
-    inner = ca.substitute([x.a0, x.a1, x.a2], [x.e, x.w], [e, w])
-    program = _reciprocal_program(
-        replace(x, e=d, w=u, a0=inner[0], a1=inner[1], a2=inner[2]), ranges_of_state(n, _FASTEST)
-    )
+    inner = ca.substitute(at.coefficients(), [ca.vertcat(*at.e), ca.vertcat(*at.w)], [e, w])
+    program = _reciprocal_program(ca.vertcat(*at.q, d, u), inner, n)
     first = quadratic(controlled, starts).reciprocal()
     result = program.climb(_with(States(starts.q, starts.e / unit, starts.w / lengths), first))
     ends = result[:, n : 2 * n] * unit
     return States(result[:, :n], ends, result[:, 2 * n : 3 * n] * _length(controlled.family.h(ends))[:, None])
 
 
-def _reciprocal_program(x: Expressions, bound: Array) -> Program:
+def _reciprocal_program(variables: Any, coefficients: Sequence[Any], n: int) -> Program:
     """Max y with −a₀y² + a₁y + a₂ >= 0, y = 1/ε₀."""
-    y = ca.SX.sym("y")
-    failing = y * y - (x.a1 / x.a0) * y - x.a2 / x.a0
-    return Program(ca.vertcat(x.q, x.e, x.w, y), y, np.append(bound, 1e6), failing)
+    y, (a0, a1, a2) = ca.SX.sym("y"), coefficients
+    failing = y * y - (a1 / a0) * y - a2 / a0
+    bound = np.append(ranges_of_state(n, _FASTEST), 1e6)
+    return Program(ca.vertcat(variables, y), y, bound, failing)
 
 
 def _with(states: States, first: Array) -> Array:

@@ -17,13 +17,14 @@ from lyapcheck.errors import InputError, argument_error, argument_problem
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.files.loop import VELOCITIES
 from lyapcheck.lyapunov import graph
+from lyapcheck.lyapunov.along import solve_definite
 from lyapcheck.robots.dynamics import Chain
 from lyapcheck.robots.fields import PAYLOAD, Vary
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import varied
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.integrate import MAX_STEPS, Compiled
-from lyapcheck.simulate.results import motor_limits
-from lyapcheck.simulate.task import Gains, Setup
+from lyapcheck.simulate.task import Setup, motor_limits
 
 if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
@@ -116,15 +117,15 @@ class Bench(LoopRecord):
         return model.encoder if self.encoder is None else (self.encoder,) * model.n
 
 
-def period_map(gains: Gains, model: RobotModel, bench: Bench, substeps: int) -> Any:
+def period_map(controlled: ControlledArm, bench: Bench, substeps: int) -> Any:
     """The CasADi function ((q, w, memory), q_d) ↦ (the same one period later, the torque held).
 
     The arm moves by ``substeps`` steps of the classical Runge–Kutta method.
     """
-    n, control, h = model.n, controller(gains, model, bench), bench.T / substeps
+    n, control, h = controlled.n, controller(controlled, bench), bench.T / substeps
     state, goal = ca.MX.sym("state", 2 * n + control.numel_in(2)), ca.MX.sym("q_d", n)
     torque, memory = control(state[:n], state[n : 2 * n], state[2 * n :], goal)
-    x, held, rate = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n), arm_rate(model, bench)
+    x, held, rate = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n), arm_rate(controlled.model, bench)
     k1 = rate(x, held)
     k2 = rate(x + h / 2 * k1, held)
     k3 = rate(x + h / 2 * k2, held)
@@ -134,12 +135,12 @@ def period_map(gains: Gains, model: RobotModel, bench: Bench, substeps: int) -> 
     return ca.Function("period", [state, goal], [ca.vertcat(moved, memory), torque])
 
 
-def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
+def controller(controlled: ControlledArm, bench: Bench) -> Any:
     """The CasADi function (q, w, memory, q_d) ↦ (the torque that the motors hold from now on, new memory).
 
     The memory holds the last reading, past velocities, the low-pass filter's, and torques under way.
     """
-    n, past = model.n, len(bench.filter) - 1
+    n, model, past = controlled.n, controlled.model, len(bench.filter) - 1
     q, w, goal = (ca.SX.sym(name, n) for name in ("q", "w", "q_d"))
     memory = ca.SX.sym("memory", n * (1 + past + (bench.lowpass is not None) + bench.delay))
     last, *rest = ca.vertsplit(memory, n)
@@ -150,7 +151,7 @@ def controller(gains: Gains, model: RobotModel, bench: Bench) -> Any:
         before = rest[past]
         smooth = before + (1 - math.exp(-2 * math.pi * float(bench.lowpass) * bench.T)) * (smooth - before)
         kept = [smooth]
-    known = ca.DM(gains.kp), ca.DM(gains.kv), gains.family.casadi
+    known = ca.DM(controlled.kp), ca.DM(controlled.kv), controlled.family.casadi
     wanted = ca.vertcat(*graph.at_symbols(model, reading, goal - reading, smooth, *known).torque())
     most = ca.DM(motor_limits(model))
     held, *later = [*rest[past + len(kept) :], ca.fmin(ca.fmax(wanted, -most), most)]
@@ -183,10 +184,11 @@ def arm_rate(model: RobotModel, bench: Bench) -> Any:
     x, torque = ca.SX.sym("x", 2 * n), ca.SX.sym("tau", n)
     q, w = x[:n], x[n:]
     dry = ca.DM(dry_friction(arm)) * ca.tanh(w / bench.creep)
-    gravity = bench.pull * graph.gravity(arm, q)
-    drift = graph.coriolis(arm, q, w) @ w + gravity + graph.viscous(arm) @ w
-    acceleration = graph.solve(graph.mass(arm, q), torque - drift - dry)
-    return ca.Function("rate", [x, torque], [ca.densify(ca.vertcat(w, acceleration))])
+    at, viscous = graph.at_angles(arm, q), ca.DM([float(b.value) for b in arm.viscous])
+    gravity = bench.pull * ca.vertcat(*at.gravity())
+    drift = graph.matrix(at.coriolis(ca.vertsplit(w))) @ w + gravity + viscous * w
+    acceleration = solve_definite(at.mass(), ca.vertsplit(torque - drift - dry))
+    return ca.Function("rate", [x, torque], [ca.densify(ca.vertcat(w, *acceleration))])
 
 
 def dry_friction(model: RobotModel) -> list[float]:
@@ -201,7 +203,7 @@ def enough_substeps(model: RobotModel, bench: Bench) -> int:
     for the postures between; the method is stable up to 2.78 of it and is asked for 1.5.
     """
     q = ca.SX.sym("q", model.n)
-    mass = ca.Function("mass", [q], [graph.mass(model, q)])
+    mass = ca.Function("mass", [q], [graph.matrix(graph.at_angles(model, q).mass())])
     friction = np.diag(np.array(dry_friction(model)) / bench.creep + [float(b.value) for b in model.viscous])
     postures = np.random.default_rng(0).uniform(-math.pi, math.pi, size=(64, model.n))
     fastest = max(
@@ -237,7 +239,7 @@ def stiff_periods(setup: Setup, bench: Bench, periods: int, tolerance: float) ->
     arm = arm_rate(setup.model, bench)(x, tau)
     rate = Compiled(ca.Function("rate", [x, tau], [arm]))
     slope = Compiled(ca.Function("slope", [x, tau], [ca.densify(ca.jacobian(arm, x))]))
-    control, goal = controller(setup.gains, setup.model, bench), np.array(task.q_d)
+    control, goal = controller(setup.controlled, bench), np.array(task.q_d)
     states, torques = np.full((periods + 1, 2 * n), np.nan), np.full((periods, n), np.nan)
     states[0] = *task.q0, *task.w0
     memory: Any = memory_at(setup, bench)

@@ -15,9 +15,10 @@ import numpy as np
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.lyapunov import graph
+from lyapcheck.lyapunov.along import solve_definite
 from lyapcheck.lyapunov.graph import at_symbols
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
 from lyapcheck.robots import arm_of
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import (
     beyond_bounds,
     beyond_limits,
@@ -30,11 +31,11 @@ from lyapcheck.simulate.breach import (
 from lyapcheck.simulate.integrate import MAX_STEPS, Compiled, Trajectory, integrate, with_extremes
 from lyapcheck.simulate.results import imbalance, l2_of, motion_of, observe
 from lyapcheck.simulate.run import Breach, Motion, PromiseBroken, Run, SimulationFailed
-from lyapcheck.simulate.task import Gains, Setup, set_up
+from lyapcheck.simulate.task import Setup, set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
-    from lyapcheck.robots import ArmLike, RobotModel
+    from lyapcheck.robots import ArmLike
 
 
 # --- What all simulations by the equations have in common: a graph, its integration, its run.
@@ -159,7 +160,7 @@ class Course(ABC, Generic[Moved]):
         return run
 
 
-def closed_loop(gains: Gains, model: RobotModel, moving: bool = False) -> Loop:
+def closed_loop(controlled: ControlledArm, moving: bool = False) -> Loop:
     """The graph of (11), or of (21) for a goal that moves, uncertain parameters at their nominal values.
 
     M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w, with e = q_d − q and w = q̇ − q̇_d. For a goal at rest D
@@ -169,12 +170,12 @@ def closed_loop(gains: Gains, model: RobotModel, moving: bool = False) -> Loop:
 
     References: (1), (6), (11), (21) of ``reyes2019family``.
     """
-    n = model.n
+    n, model, gains = controlled.n, controlled.model, (ca.DM(controlled.kp), ca.DM(controlled.kv))
     state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("goal", 3 * n if moving else n)
     first, w, other = state[:n], state[n : 2 * n], goal[:n] - state[:n]
     q, e = (other, first) if moving else (first, other)
     of: dict[str, Any] = {"speed": goal[n : 2 * n], "acceleration_d": goal[2 * n :]} if moving else {}
-    at = at_symbols(model, q, e, w, ca.DM(gains.kp), ca.DM(gains.kv), gains.family.casadi, **of)
+    at = at_symbols(model, q, e, w, *gains, controlled.family.casadi, **of)
     torque, velocity = ca.vertcat(*at.torque()), ca.vertcat(*at.velocity)
     change, energy = at.damping(), at.value(0.0)
     if moving:
@@ -248,11 +249,12 @@ class SetPoint(Course[Run]):
     of_extremes = ("indices", "promises")
 
     def __init__(self, setup: Setup, points: int, dry: Sequence[float] = ()) -> None:
-        loop = closed_loop(setup.gains, setup.model)
+        loop = closed_loop(setup.controlled)
         if dry:
             q, w = loop.state[: loop.n], loop.state[loop.n : 2 * loop.n]
-            slowed = graph.solve(graph.mass(setup.model, q), -ca.DM(list(dry)) * ca.tanh(w / CREEP))
-            loop = replace(loop, rate=loop.rate + ca.vertcat(ca.SX.zeros(loop.n), slowed, 0, 0))
+            mass, friction = graph.at_angles(setup.model, q).mass(), -ca.DM(list(dry)) * ca.tanh(w / CREEP)
+            slowed = solve_definite(mass, ca.vertsplit(friction))
+            loop = replace(loop, rate=loop.rate + ca.vertcat(ca.SX.zeros(loop.n), *slowed, 0, 0))
         self._still = np.array(setup.task.q_d)
         super().__init__(setup, loop, [*setup.task.q0, *setup.task.w0], points)
 
@@ -271,7 +273,7 @@ class SetPoint(Course[Run]):
         return Run(
             **fields,
             accuracy=accuracy,
-            promises=observe(t, V, tau, setup.gains, setup.model, noise=noise_of(V)),
+            promises=observe(t, V, tau, setup.controlled, noise=noise_of(V)),
             energy_balance=imbalance(energy + y[:, -2] - energy[0], energy, y[:, -2]),
         )
 
@@ -288,7 +290,5 @@ class SetPoint(Course[Run]):
         e = self.goal(path.t) - q
         columns = [tau, np.sum(tau * tau, axis=1, keepdims=True), e]
         if setup.eps0:
-            gains = setup.gains
-            certificate = LyapunovNumeric(setup.model, gains.family, gains.kp, gains.kv, setup.eps0)
-            columns.append(certificate.rate(q, e, w)[:, None])
+            columns.append(setup.controlled.watched(setup.eps0).rate(q, e, w)[:, None])
         return np.hstack(columns)

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lyapcheck._types import Array, Progress, silent
-from lyapcheck.lyapunov.numeric import LyapunovNumeric, arm_digest
+from lyapcheck.lyapunov.numeric import arm_digest
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import LEAST_ENERGY, V_NOISE
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.integrate import MAX_STEPS
 from lyapcheck.simulate.march import FAILURES, March
-from lyapcheck.simulate.results import LEAST_STEP, bands, motor_limits
-from lyapcheck.simulate.run import Breach
+from lyapcheck.simulate.results import LEAST_STEP, bands
+from lyapcheck.simulate.run import Simulated
 from lyapcheck.simulate.seen import RightSide
-from lyapcheck.simulate.task import Gains, Task, gains_for
+from lyapcheck.simulate.task import Task, motor_limits
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -69,13 +70,6 @@ class Runs:
     """(R, points, n) rad/s, where motions were asked for."""
     V: Array | None = None
     """(R, points) J for the ε₀ given, where motions were asked for."""
-
-    def part(self, start: int, stop: int) -> Runs:
-        """Some of the runs, one after the other."""
-        of_a_run = {
-            one.name: getattr(self, one.name) for one in fields(self) if one.name not in ("t", "engine")
-        }
-        return replace(self, **{name: x[start:stop] for name, x in of_a_run.items() if x is not None})
 
 
 def simulate_many(
@@ -131,7 +125,7 @@ def simulate_many(
     n = models[0].n
     count = max(len(sets), len(models), *(len(np.atleast_2d(x)) for x in (q_d, starts, w0)))
     goals, first, speeds = (np.broadcast_to(np.asarray(x, float), (count, n)) for x in (q_d, starts, w0))
-    gains = [gains_for(one, n) for one in sets] * (count if len(sets) == 1 else 1)
+    gains = [ControlledArm(one, models[0]) for one in sets] * (count if len(sets) == 1 else 1)
     control = [np.array([gain.kp for gain in gains]), np.array([gain.kv for gain in gains])]
     arms = models * (count if len(models) == 1 else 1)
     y0 = np.hstack([first, speeds, np.zeros((count, 2))])
@@ -224,34 +218,21 @@ class Starts:
         return starts, starts - np.copysign(step, starts - np.array(q0))
 
 
-@dataclass(frozen=True, eq=False)
-class Sweep:
-    """The runs of one gain set from random starts."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Sweep(Simulated):
+    """The runs of one gain set from random starts, whose middle is q0 of the task.
 
-    gains: Gains
-    robot: str
-    joints: tuple[str, ...]
-    task: Task
-    """Of which q0 is the middle of the starts."""
+    ``breach`` is what the first run that broke a promise says when it is run alone.
+    """
+
     starts: Starts
     q0: Array
     """(R, n) rad"""
     runs: Runs
-    eps0: float
     risen: NDArray[np.bool_]
     """(R,) whether V rose by more than the run's own error."""
     beyond: NDArray[np.bool_]
     """(R,) whether a torque left its motor's limit."""
-    notes: tuple[str, ...]
-    breach: Breach | None
-    """What the first run that broke a promise says when it is run alone."""
-    without_dry_friction: bool = False
-    """Whether the arm file gives dry friction that the run leaves out."""
-
-    @property
-    def name(self) -> str:
-        """The name of the gain set."""
-        return self.gains.name
 
     @property
     def finished(self) -> int:
@@ -285,24 +266,18 @@ def sweep(
     runs = simulate_many(
         gain_set, model, task.q_d, q0, task.T, w0=rates, eps0=eps0, points=2, on_progress=on_progress
     )
-    gains = gains_for(gain_set, model.n)
-    numeric = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, eps0)
-    first = numeric.V(q0, np.array(task.q_d) - q0, np.array(task.w0))
+    first = ControlledArm(gain_set, model).watched(eps0).V(q0, np.array(task.q_d) - q0, np.array(task.w0))
     limits = np.array(motor_limits(model))
     result = Sweep(
-        gains=gains,
-        robot=model.name,
-        joints=model.joints,
+        gains=gain_set,
+        model=model,
         task=task,
+        eps0=eps0,
         starts=starts,
         q0=q0,
         runs=runs,
-        eps0=eps0,
         risen=runs.V_rise > V_NOISE * np.maximum(first, LEAST_ENERGY),
         beyond=np.any(runs.peak_torque > limits, axis=1),
-        notes=model.assumptions,
-        breach=None,
-        without_dry_friction=model.dry,
     )
     broken = np.flatnonzero((result.risen | result.beyond) & runs.complete)
     if not broken.size:

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.control.limits import kept_bounds
-from lyapcheck.lyapunov.numeric import LyapunovNumeric
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import LEAST_ENERGY
 from lyapcheck.simulate.run import Indices, Promises, Run
-from lyapcheck.simulate.task import PAPER_TASK, Gains, Setup
-
-if TYPE_CHECKING:
-    from lyapcheck.robots import RobotModel
-
+from lyapcheck.simulate.task import PAPER_TASK, Setup, torque_limits
 
 # --- What a run shows about the promises of theory: V falls, the torque stays inside its bounds.
 
 
 def observe(
-    t: Array, V: Array, tau: Array, gains: Gains, model: RobotModel, *, noise: float, saturated: bool = False
+    t: Array, V: Array, tau: Array, controlled: ControlledArm, *, noise: float, saturated: bool = False
 ) -> Promises:
     """The promises beside the samples of a run.
 
@@ -34,8 +30,7 @@ def observe(
         t: (N,) s.
         V: (N,) J.
         tau: (N, n) N·m.
-        gains: the controller.
-        model: the arm.
+        controlled: controller and arm.
         noise: J, how far V may rise by the run's own error.
         saturated: the torque was cut at the motors' limits, so reaching a limit is leaving it.
 
@@ -45,11 +40,12 @@ def observe(
     """
     rises = np.flatnonzero(np.diff(V) > noise)
     norm = float(np.max(np.linalg.norm(tau, axis=1)))
-    known, joints, bound = gains.family.constants().gamma, None, None
+    known, joints, bound = controlled.family.constants().gamma, None, None
     if known is not None:
-        gamma, gravity = known.float_upper, list(map(float, kept_bounds(model)))
-        bound = math.sqrt(model.n) * gamma * (max(gains.kp) + max(gains.kv)) + math.hypot(*gravity)
-        rows = zip(gains.kp, gains.kv, gravity, strict=True)
+        gamma, gravity = known.float_upper, list(map(float, kept_bounds(controlled.model)))
+        kp, kv = controlled.kp.tolist(), controlled.kv.tolist()
+        bound = math.sqrt(controlled.n) * gamma * (max(kp) + max(kv)) + math.hypot(*gravity)
+        rows = zip(kp, kv, gravity, strict=True)
         joints = tuple(gamma * (p + v) + weight for p, v, weight in rows)
     return Promises(
         V_decreases=rises.size == 0,
@@ -62,19 +58,9 @@ def observe(
             None
             if most is None
             else bool(np.all(np.abs(tau[:, i]) < most if saturated else np.abs(tau[:, i]) <= most))
-            for i, most in enumerate(torque_limits(model))
+            for i, most in enumerate(torque_limits(controlled.model))
         ),
     )
-
-
-def torque_limits(model: RobotModel) -> tuple[float | None, ...]:
-    """What each motor can give, N·m."""
-    return tuple(None if limit is None else float(limit.value) for limit in model.torque_limit)
-
-
-def motor_limits(model: RobotModel) -> list[float]:
-    """The same, infinite where the arm has no limit."""
-    return [math.inf if limit is None else limit for limit in torque_limits(model)]
 
 
 # --- Performance indices of a run: L2 norm, settling time, overshoot, peak torque, final error.
@@ -145,13 +131,13 @@ def overshoots(e: Array) -> Array:
 
 
 def energies(
-    gains: Gains, model: RobotModel, eps0: float, q: Array, e: Array, w: Array, speed: Array | None = None
+    controlled: ControlledArm, eps0: float, q: Array, e: Array, w: Array, speed: Array | None = None
 ) -> tuple[Array, Array]:
     """V of (12) or (13) and dV/dt along the motion at the samples, J and W.
 
     The goal moves at ``speed``, or is at rest.
     """
-    numeric = LyapunovNumeric(model, gains.family, gains.kp, gains.kv, eps0)
+    numeric = controlled.watched(eps0)
     V, rate = numeric.V(q, e, w), numeric.rate(q, e, w)
     if speed is not None:
         rate += replace(numeric.at_columns(q, e, w), speed=list(speed.T)).rate_of_moving_goal(eps0)
@@ -171,24 +157,20 @@ def motion_of(
     complete: bool,
     band: float = BAND,
     speed: Array | None = None,
-    notes: tuple[str, ...] = (),
+    settings: tuple[str, ...] = (),
 ) -> dict[str, Any]:
     """The fields of a `Motion` but its accuracy: what can be computed from its samples."""
-    gains, model = setup.gains, setup.model
-    V, dV = energies(gains, model, setup.eps0, q, e, w, speed)
+    V, dV = energies(setup.controlled, setup.eps0, q, e, w, speed)
     return {
-        "gains": gains,
-        "robot": model.name,
-        "joints": model.joints,
+        "gains": setup.controlled.gains,
+        "model": setup.model,
         "kind": kind,
         "task": setup.task,
         "eps0": setup.eps0,
         **{"t": t, "q": q, "e": e, "w": w, "tau": tau, "V": V, "dV": dV, "speed": speed},
         "indices": _indices(t, e, tau, L2, band),
-        "torque_limit": torque_limits(model),
         "complete": complete,
-        "notes": (*notes, *model.assumptions),
-        "without_dry_friction": model.dry and kind != "experiment",
+        "settings": settings,
     }
 
 
@@ -262,6 +244,6 @@ def printed_for(run: Run) -> PrintedIndices | None:
     """The printed numbers of the same gains, arm and task; none for anything the paper did not run."""
     if run.robot != PAPER_ARM or run.task != PAPER_TASK:
         return None
-    family, written = run.gains.family, run.gains.written
     known = {("linear" if x.m is None else "hyperbolic", x.m, x.kp, x.kv): x for x in PRINTED}
-    return known.get((family.name, family.m, *written))
+    kp, kv = (tuple(map(float, row)) for row in (run.gains.kp, run.gains.kv))
+    return known.get((run.gains.family, run.m, kp, kv))

@@ -11,10 +11,12 @@ import numpy as np
 
 from lyapcheck._types import Array
 from lyapcheck.output.digits import NONE, at_least, at_most, shown
-from lyapcheck.simulate.task import Gains, Task
+from lyapcheck.simulate.task import Task, torque_limits
 
 if TYPE_CHECKING:
+    from lyapcheck.control.gains import GainSet
     from lyapcheck.control.sampling import LoopRecord
+    from lyapcheck.robots import RobotModel
 
 LIMIT_CYCLE, FALLS = "limit cycle", "falls"
 Row = tuple[float, ...]
@@ -146,20 +148,59 @@ class Indices:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Motion:
+class Simulated:
+    """A gain set on an arm, at its nominal numbers, that was given a task."""
+
+    gains: GainSet
+    model: RobotModel
+    task: Task
+    eps0: float
+    settings: tuple[str, ...] = ()
+    """How the arm was run, beside what the arm file assumes."""
+    breach: Breach | None = None
+    """The first promise of theory that a run by the equations broke."""
+
+    @property
+    def name(self) -> str:
+        """The name of the gain set."""
+        return self.gains.name
+
+    @property
+    def m(self) -> int | None:
+        """The member of the hyperbolic family; none for another family."""
+        return self.gains.m
+
+    @property
+    def robot(self) -> str:
+        """The name of the arm."""
+        return self.model.name
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Their names."""
+        return self.model.joints
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader must know: settings, then assumptions."""
+        return (*self.settings, *self.model.assumptions)
+
+    @property
+    def without_dry_friction(self) -> bool:
+        """Whether the arm file gives dry friction that the equations leave out."""
+        return self.model.dry
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class Motion(Simulated):
     """One simulated motion of one gain set on one arm.
 
     Signals are sampled at ``t`` (N,) in s: ``q`` (N, n) in rad, ``e`` = q_d − q in rad, ``w`` = q̇ − q̇_d in
     rad/s, ``tau`` in N·m, ``V`` (N,) in J and ``dV`` = dV/dt along the motion in W, both for ``eps0``.
     """
 
-    gains: Gains
-    robot: str
-    joints: tuple[str, ...]
     kind: str
     """``reference`` (the equations), ``experiment`` (the bench) or ``tracking``."""
-    task: Task
-    eps0: float
     t: Array
     q: Array
     e: Array
@@ -174,15 +215,7 @@ class Motion:
     indices: Indices
     accuracy: float
     """The largest change of a position (rad) or rate (rad/s) at a tighter tolerance; NaN if cut short."""
-    torque_limit: tuple[float | None, ...]
-    """N·m, what the motors can give."""
     complete: bool = True
-    notes: tuple[str, ...] = ()
-    """What the reader must know: assumptions and the settings of the bench."""
-    breach: Breach | None = None
-    """The first promise of theory that a run by the equations broke."""
-    without_dry_friction: bool = False
-    """Whether the arm file gives dry friction that the run leaves out."""
 
     def __repr__(self) -> str:
         errors = ", ".join(f"{x:.3g}" for x in self.indices.final_error)
@@ -196,14 +229,14 @@ class Motion:
         return draw_errors(f"{self.name} on {self.robot}", self.t, self.e, self.joints)
 
     @property
-    def name(self) -> str:
-        """The name of the gain set."""
-        return self.gains.name
+    def torque_limit(self) -> tuple[float | None, ...]:
+        """N·m, what the motors can give."""
+        return torque_limits(self.model)
 
     @property
-    def m(self) -> int | None:
-        """The member of the hyperbolic family; none for another family."""
-        return self.gains.family.m
+    def without_dry_friction(self) -> bool:
+        """Whether the arm file gives dry friction that the run leaves out."""
+        return self.model.dry and self.kind != "experiment"
 
     def sample(self, i: int) -> Sample:
         """The state of one sample."""

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lyapcheck.errors import InputError, Problem, argument_error, argument_problem
-from lyapcheck.family import Family, named
+from lyapcheck.errors import InputError, Problem, argument_problem
 from lyapcheck.search.controlled_arm import ControlledArm
 
 if TYPE_CHECKING:
@@ -109,62 +108,26 @@ References: ``reyes2019family``, Section 4.
 """
 
 
-# --- Gains as the simulation uses them: doubles, for angles in radians.
-
-
-@dataclass(frozen=True)
-class Gains:
-    """One controller: τ = K_p h(e) − K_v h(w) + g(q) with e in rad, w in rad/s."""
-
-    name: str
-    family: Family
-    kp: tuple[float, ...]
-    """N·m (per rad where h is linear)."""
-    kv: tuple[float, ...]
-    written: tuple[tuple[float, ...], tuple[float, ...]]
-    """(kp, kv) in the unit of the gain file."""
-
-
-def gains_for(gain_set: GainSet, n: int) -> Gains:
-    """The gains of a set on an arm of ``n`` joints; gains per degree are turned into gains per radian.
-
-    Raises:
-        InputError: the set has another number of joints.
-    """
-    if len(gain_set.kp) != n or len(gain_set.kv) != n:
-        rule = f"has gains for {len(gain_set.kp)} joints, but the arm has {n}"
-        raise argument_error("gains", gain_set.name, rule, "choose the arm the gains were made for")
-    scale = math.degrees(1.0) if gain_set.angle_unit == "deg" else 1.0
-    kp, kv = (tuple(map(float, diagonal)) for diagonal in (gain_set.kp, gain_set.kv))
-    return Gains(
-        name=gain_set.name,
-        family=named(gain_set.family, gain_set.m),
-        kp=tuple(k * scale for k in kp),
-        kv=tuple(k * scale for k in kv),
-        written=(kp, kv),
-    )
-
-
 # --- What a run starts from: a controller, an arm and a task that fit together.
 
 
 @dataclass(frozen=True, eq=False)
 class Setup:
-    """One controller on one arm with one task; ``eps0`` is the ε₀ of the V that is watched.
+    """One controller on one arm with one task; ``eps0`` is the ε₀ of the V that is watched."""
 
-    ``controlled`` is the same controller and arm as exact data.
-    """
-
-    gains: Gains
-    model: RobotModel
+    controlled: ControlledArm
     task: Task
     eps0: float
-    controlled: ControlledArm
+
+    @property
+    def model(self) -> RobotModel:
+        """The arm."""
+        return self.controlled.model
 
     @property
     def title(self) -> str:
         """How messages name the run."""
-        return f"{self.gains.name} on {self.model.name}"
+        return f"{self.controlled.gains.name} on {self.model.name}"
 
 
 def set_up(
@@ -184,5 +147,14 @@ def set_up(
         InputError: a task the arm cannot be given, or gains for another number of joints.
     """
     task = task_for(model.n, q_d, q0, w0, T, eps0=eps0, points=points)
-    gains = gains_for(gain_set, model.n)
-    return Setup(gains, model, task, 0.0 if eps0 is None else float(eps0), ControlledArm(gain_set, model))
+    return Setup(ControlledArm(gain_set, model), task, 0.0 if eps0 is None else float(eps0))
+
+
+def torque_limits(model: RobotModel) -> tuple[float | None, ...]:
+    """What each motor can give, N·m."""
+    return tuple(None if limit is None else float(limit.value) for limit in model.torque_limit)
+
+
+def motor_limits(model: RobotModel) -> list[float]:
+    """The same, infinite where the arm has no limit."""
+    return [math.inf if limit is None else limit for limit in torque_limits(model)]

@@ -14,6 +14,7 @@ import numpy as np
 from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import InputError, Problem, argument_problem
+from lyapcheck.family import Family
 from lyapcheck.robots import arm_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import beyond_bounds, beyond_limits, first_above, rise_of_rate, rise_of_V
@@ -31,7 +32,7 @@ from lyapcheck.simulate.promised import (
 from lyapcheck.simulate.reference import SECONDS, Reference
 from lyapcheck.simulate.results import BAND, imbalance, l2_of, motion_of
 from lyapcheck.simulate.run import Breach, Motion
-from lyapcheck.simulate.task import FASTEST, Gains, Setup, Task, gains_for, task_for
+from lyapcheck.simulate.task import FASTEST, Setup, Task, task_for
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -150,7 +151,7 @@ class Tracking(Course[TrackingRun]):
         band: float,
         points: int,
     ) -> None:
-        gains, controlled = gains_for(gain_set, model.n), ControlledArm(gain_set, model)
+        controlled = ControlledArm(gain_set, model)
         self.reference, self.band, suprema = reference, band, reference.suprema()
         self.form: TrackingForm | None = tracking_form(controlled, suprema.speed)
         first = reference.at(np.zeros(1))[0]
@@ -165,8 +166,9 @@ class Tracking(Course[TrackingRun]):
             torque=torque_bounds(controlled, suprema, task.q0, e0, w0),
             reason=UNBOUNDED if self.form is None else NO_EPS0 if largest is None else "",
         )
-        setup = Setup(gains, model, task, eps0, controlled)
-        super().__init__(setup, closed_loop(gains, model, moving=True), [*e0, *w0], points)
+        super().__init__(
+            Setup(controlled, task, eps0), closed_loop(controlled, moving=True), [*e0, *w0], points
+        )
 
     def goal(self, t: Array) -> Array:
         return self.reference.at(t).reshape(t.size, -1)
@@ -198,7 +200,9 @@ class Tracking(Course[TrackingRun]):
             accuracy=accuracy,
             reference=self.reference,
             goal=goal,
-            bound=None if self.form is None else bound_of(self.form, setup.gains, setup.eps0, e, w),
+            bound=None
+            if self.form is None
+            else bound_of(self.form, setup.controlled.family, setup.eps0, e, w),
             promise=self.promise,
             band=self.band,
             work_balance=imbalance(change - y[:, -2], change, y[:, -2]),
@@ -215,9 +219,9 @@ class Tracking(Course[TrackingRun]):
         return rise_of_rate(setup, run), rise_of_V(run), form, joints, beyond_limits(setup, run)
 
 
-def bound_of(form: TrackingForm, gains: Gains, eps0: float, e: Array, w: Array) -> Array:
+def bound_of(form: TrackingForm, family: Family, eps0: float, e: Array, w: Array) -> Array:
     """−[a b] Θ' [a b]ᵀ at the samples, W."""
-    r, a, b = (np.linalg.norm(x, axis=1) for x in (e, gains.family.h(e), w))
+    r, a, b = (np.linalg.norm(x, axis=1) for x in (e, family.h(e), w))
     return form.promised(eps0, r, a, b)
 
 

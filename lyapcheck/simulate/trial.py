@@ -15,6 +15,7 @@ from lyapcheck._types import Array, Progress, silent
 from lyapcheck.control.gains import one_gain_set
 from lyapcheck.errors import argument_error
 from lyapcheck.robots import arm_of
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.bench import (
     Bench,
     dry_friction,
@@ -27,7 +28,7 @@ from lyapcheck.simulate.breach import noise_of
 from lyapcheck.simulate.integrate import turns
 from lyapcheck.simulate.results import BAND, l2_index, motion_of, observe, overshoots
 from lyapcheck.simulate.run import FALLS, LIMIT_CYCLE, Run, SimulationFailed, Unrest
-from lyapcheck.simulate.task import MOST_POINTS, Gains, Setup, set_up
+from lyapcheck.simulate.task import MOST_POINTS, Setup, set_up
 
 if TYPE_CHECKING:
     from lyapcheck.control.gains import GainSet
@@ -107,7 +108,7 @@ def experiment(
 def _periods(setup: Setup, bench: Bench, periods: int, substeps: int) -> tuple[Array, Array]:
     """All periods in one call of a compiled map."""
     n, task = setup.model.n, setup.task
-    whole = period_map(setup.gains, setup.model, bench, substeps).mapaccum(periods)
+    whole = period_map(setup.controlled, bench, substeps).mapaccum(periods)
     start, goal = np.array([*task.q0, *task.w0, *memory_at(setup, bench)]), np.array(task.q_d)
     states, torques = (np.array(x).T for x in whole(start, np.repeat(goal[:, None], periods, axis=1)))
     return np.vstack((start, states))[:, : 2 * n], torques
@@ -123,20 +124,21 @@ def _run(setup: Setup, bench: Bench, rough: tuple[Array, Array], fine: tuple[Arr
     L2 = l2_index(t, goal - q) if reached > 1 else math.nan
     friction = ", ".join(f"{torque:g}" for torque in dry_friction(setup.model))
     dry = f"dry friction ({friction}) N·m · tanh(w/{bench.creep:g} rad/s): a stuck joint creeps"
-    notes = f"torque held between samples: {bench.text}", dry
-    fields = motion_of(setup, "experiment", t, goal - q, q, w, tau, L2=L2, complete=complete, notes=notes)
+    settings = f"torque held between samples: {bench.text}", dry
+    way = (setup, "experiment", t, goal - q, q, w, tau)
+    fields = motion_of(*way, L2=L2, complete=complete, settings=settings)
     V = fields["V"]
     run = Run(
         **fields,
         accuracy=float(np.max(np.abs(states - rough[0]))) if complete else math.nan,
-        promises=observe(t, V, tau, setup.gains, setup.model, noise=noise_of(V), saturated=True),
+        promises=observe(t, V, tau, setup.controlled, noise=noise_of(V), saturated=True),
         energy_balance=math.nan,
         loop=bench,
     )
     if not complete:
         raise SimulationFailed(f"{setup.title}: the sampled loop runs away at t = {t[-1]:.6g} s", run)
     e = goal - np.vstack((q[:1], turns(t, q, w)))
-    unrest = unrest_of(run, setup.gains, bench.unknown(setup.model, np.vstack((q, goal))))
+    unrest = unrest_of(run, setup.controlled, bench.unknown(setup.model, np.vstack((q, goal))))
     return replace(run, unrest=unrest, indices=replace(run.indices, overshoot=overshoots(e)))
 
 
@@ -157,7 +159,7 @@ LASTS = 0.9
 """A limit cycle keeps at least this share of what it was a fifth of the run before."""
 
 
-def unrest_of(run: Run, gains: Gains, unknown: Array) -> Unrest | None:
+def unrest_of(run: Run, controlled: ControlledArm, unknown: Array) -> Unrest | None:
     """What a run to its end shows against the gains; a load that falls goes before a limit cycle.
 
     A limit cycle: in the last fifth a joint turns back twice, its angle spans more than 0.05° or its torque
@@ -166,20 +168,20 @@ def unrest_of(run: Run, gains: Gains, unknown: Array) -> Unrest | None:
 
     Args:
         run: sampled.
-        gains: of the run.
+        controlled: of the run.
         unknown: (N, n) N·m, what gravity asks on the way and at the goal beyond what the controller knows.
 
     Soundness: floating point, of one run: what is slower than a fifth of it is not seen.
     """
     if not run.complete:
         return None
-    found = [*_falls(run, gains, unknown)] or [*_cycles(run)]
+    found = [*_falls(run, controlled, unknown)] or [*_cycles(run)]
     return replace(max(found)[1], others=len(found) - 1) if found else None
 
 
-def _falls(run: Run, gains: Gains, unknown: Array) -> Iterator[tuple[float, Unrest]]:
-    gamma, loads = gains.family.constants().gamma, np.max(np.abs(unknown), axis=0)
-    for i, (joint, load, kp) in enumerate(zip(run.joints, loads, gains.kp, strict=True)):
+def _falls(run: Run, controlled: ControlledArm, unknown: Array) -> Iterator[tuple[float, Unrest]]:
+    gamma, loads = controlled.family.constants().gamma, np.max(np.abs(unknown), axis=0)
+    for i, (joint, load, kp) in enumerate(zip(run.joints, loads, controlled.kp.tolist(), strict=True)):
         most = math.inf if gamma is None else kp * gamma.float_upper
         end = abs(float(run.e[-1, i]))
         if load > 0 and load >= most and end > BAND:

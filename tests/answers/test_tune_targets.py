@@ -22,7 +22,7 @@ from lyapcheck.answers.tune.targets import limits_with
 from lyapcheck.answers.tune.trial import BY_19, BY_PROOF, Trial, Trials, Wishes, as_run, tried
 from lyapcheck.cli import main as cli
 from lyapcheck.control.gains import Bounds, GainSet, paper_gain_file, read_gain_file
-from lyapcheck.control.limits import varied_limits
+from lyapcheck.control.limits import arm_limits
 from lyapcheck.control.sampling import LoopRecord
 from lyapcheck.errors import InputError
 from lyapcheck.files.loop import NOTHING
@@ -80,7 +80,7 @@ def test_stability_is_proved_over_the_ranges_that_are_asked_for() -> None:
     """Friction that may vanish leaves LaSalle's theorem, where the nominal one gives a V that falls."""
     arm, varies = "reyes-kelly2", (Vary.parsed("viscous=-100%..+0%"),)
     gains = GainSet("set", 1, (Fraction(10), Fraction(5)), (Fraction(2), Fraction(1)))
-    ranges = {arm: varied_limits(arm, varies)}
+    ranges = {arm: arm_limits(arm, varies)}
     assert accepted(gains, BY_PROOF, arm, None, None, NOTHING).deciding == ("10i", "scalar")
     assert accepted(gains, BY_PROOF, arm, None, ranges, NOTHING).deciding == ("10i", "lasalle")
     assert accepted(gains, BY_19, arm, None, ranges, NOTHING).verdict == "rejected"

@@ -36,7 +36,9 @@ def test_numpy_agrees_with_the_polynomials(arm):
 
 def test_casadi_agrees_with_numpy(arm):
     q, x = ca.SX.sym("q", arm.n), ca.SX.sym("x", arm.n)
-    outputs = [graph.mass(arm, q), graph.coriolis(arm, q, x), graph.gravity(arm, q), graph.potential(arm, q)]
+    at = graph.at_angles(arm, q)
+    matrices = graph.matrix(at.mass()), graph.matrix(at.coriolis(ca.vertsplit(x)))
+    outputs = [*matrices, ca.vertcat(*at.gravity()), at.potential()]
     function, fast = ca.Function("model", [q, x], outputs), NumericModel(arm)
     for state, rate in zip(*states(arm.n, 10), strict=True):
         mass, coriolis, gravity, potential = (np.array(value) for value in function(state, rate))

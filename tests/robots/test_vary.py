@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck import robots
-from lyapcheck.control.limits import varied_limits
+from lyapcheck.control.limits import arm_limits
 from lyapcheck.errors import InputError
 from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
@@ -85,7 +85,7 @@ def test_a_payload_of_links_in_an_arm_file_is_carried(masses, tmp_path):
     assert after.parameters["elbow_mass"].bounds == (low, high + 10)
     weight = F("9.81") * F("0.498")
     bare, loaded = (
-        varied_limits(str(file), tuple(map(Vary.parsed, one))) for one in (masses, (*masses, "payload=0..10"))
+        arm_limits(str(file), tuple(map(Vary.parsed, one))) for one in (masses, (*masses, "payload=0..10"))
     )
     assert float(loaded.gravity[0] - bare.gravity[0]) == pytest.approx(float(10 * weight))
 
@@ -102,7 +102,7 @@ def test_a_range_of_one_value_is_that_value(text):
 @pytest.mark.parametrize("texts", [("payload=0..3",), ("mass=-5%..5%",), ("mass=-5%..5%", "payload=0..3")])
 def test_bounds_of_gravity_over_masses_hold_and_are_those_of_the_heaviest(texts):
     varies = tuple(map(Vary.parsed, texts))
-    limits, model = varied_limits(UR5, varies), robots.load(UR5, vary=varies)
+    limits, model = arm_limits(UR5, varies), robots.load(UR5, vary=varies)
     heavy = model.fixed(**{name: number.bounds[1] for name, number in model.parameters.items()})
     q = np.random.default_rng(2).uniform(-np.pi, np.pi, (4000, 6))
     worst = np.abs(NumericModel(heavy).gravity(q)).max(axis=0)

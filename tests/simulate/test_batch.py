@@ -10,11 +10,12 @@ from lyapcheck import robots
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.lyapunov.compiler import OFF, compiler
 from lyapcheck.robots.numeric import NumericModel
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate import many as batch_module
 from lyapcheck.simulate import results as indices
 from lyapcheck.simulate.closed_loop import simulate
 from lyapcheck.simulate.many import Runs, simulate_many
-from lyapcheck.simulate.task import PAPER_TASK, gains_for
+from lyapcheck.simulate.task import PAPER_TASK
 from tests.helpers.shares import but
 
 TABLE2 = (
@@ -40,7 +41,7 @@ def no_compiler(monkeypatch):
 
 def torques(gain_set, model, q, e, w):
     """τ of (6) at states (N, n)."""
-    made = gains_for(gain_set, model.n)
+    made = ControlledArm(gain_set, model)
     return made.family.h(e) * made.kp - made.family.h(w) * made.kv + NumericModel(model).gravity(q)
 
 
@@ -129,7 +130,8 @@ def test_arms_beside_each_other_move_as_each_alone():
     assert not np.array_equal(together.w[0], together.w[1])
     for k, arm in enumerate(arms):
         alone = simulate_many(one, arm, [0.5, -1.0], first[k], 1.0, motions=True)
-        assert_same(replace(together.part(k, k + 1), engine=alone.engine), alone)
+        row = {name: x[k : k + 1] for name, x in vars(together).items() if name not in ("t", "engine")}
+        assert_same(replace(together, **row, engine=alone.engine), alone)
 
 
 @pytest.mark.parametrize("engine", ["default", "numpy"])

@@ -18,7 +18,7 @@ from lyapcheck.simulate.breach import first_breach
 from lyapcheck.simulate.promised import torque_bounds, tracking_form
 from lyapcheck.simulate.reference import MinimumJerk, Sine
 from lyapcheck.simulate.results import energies
-from lyapcheck.simulate.task import gains_for, set_up
+from lyapcheck.simulate.task import set_up
 from lyapcheck.simulate.tracking import Tracking, bound_of, track
 from tests.helpers.shares import one_in
 
@@ -51,7 +51,7 @@ def arm_under_21(gain_set, model, reference, q0, t):
     """q of (1) under the torque of (21), by another integrator, from M, C, g, B as they stand."""
     from scipy.integrate import solve_ivp
 
-    n, arm, held = model.n, NumericModel(model), gains_for(gain_set, model.n)
+    n, arm, held = model.n, NumericModel(model), ControlledArm(gain_set, model)
     h = named(gain_set.family, gain_set.m).h
 
     def rate(time, y):
@@ -143,13 +143,13 @@ def random_states(seed, speed, count=4000):
 @pytest.mark.parametrize("gain_set", TABLE2, ids=lambda g: g.name)
 def test_the_form_bounds_dV_at_states_of_all_sizes(gain_set):
     """For any ε₀, admissible or not; and with a v_d that is too small it is broken."""
-    model, held = robots.load("buap3"), gains_for(gain_set, 3)
-    controlled, (q, e, w, speed) = ControlledArm(gain_set, model), random_states(1, 1000.0)
+    controlled = ControlledArm(gain_set, robots.load("buap3"))
+    q, e, w, speed = random_states(1, 1000.0)
     for eps0 in (0.01, 0.5):
-        _, dV = energies(held, model, eps0, q, e, w, speed)
-        bound = bound_of(tracking_form(controlled, Fraction(1000)), held, eps0, e, w)
+        _, dV = energies(controlled, eps0, q, e, w, speed)
+        bound = bound_of(tracking_form(controlled, Fraction(1000)), controlled.family, eps0, e, w)
         assert np.all(dV <= bound + 1e-9 * np.abs(bound))
-        low = bound_of(tracking_form(controlled, Fraction(0)), held, eps0, e, w)
+        low = bound_of(tracking_form(controlled, Fraction(0)), controlled.family, eps0, e, w)
         assert np.any(dV > low + 1e-6)
 
 
@@ -180,9 +180,10 @@ def test_a_reference_faster_than_it_was_said_to_be_is_caught():
     """The promise of v_d = 0 is planted on states at 1000 rad/s: the form is seen to break."""
     setup = set_up(TABLE2[0], robots.load("buap3"), [0.0] * 3, None, None, T=1.0, eps0=0.01)
     q, e, w, speed = random_states(3, 1000.0, 500)
-    _, dV = energies(setup.gains, setup.model, 0.01, q, e, w, speed)
+    _, dV = energies(setup.controlled, 0.01, q, e, w, speed)
     low, high = (
-        bound_of(tracking_form(setup.controlled, Fraction(v)), setup.gains, 0.01, e, w) for v in (0, 1000)
+        bound_of(tracking_form(setup.controlled, Fraction(v)), setup.controlled.family, 0.01, e, w)
+        for v in (0, 1000)
     )
     run = run_of(T=0.1, points=11)
     none = np.zeros_like(q)

@@ -20,7 +20,7 @@ from lyapcheck.answers.sweep import questions, read_plan, result
 from lyapcheck.answers.sweep.questions import COLUMNS
 from lyapcheck.answers.sweep.result import SweepAnswer, Tally
 from lyapcheck.control.gains import GainFile, GainSet
-from lyapcheck.control.limits import varied_limits
+from lyapcheck.control.limits import arm_limits
 from lyapcheck.family.members import tanh
 from lyapcheck.robots.fields import Vary
 from tests.helpers.command import lyapcheck as command
@@ -258,7 +258,7 @@ def test_over_a_variation_the_gate_answers_as_with_vary(plan, tmp_path):
     command("sweep", plan, "--out", tmp_path / "out")
     rows = rows_of(tmp_path / "out")
     ranges = (Vary.parsed("viscous=-30%..+0%"),)
-    limits = {"reyes-kelly2": varied_limits("reyes-kelly2", ranges)}
+    limits = {"reyes-kelly2": arm_limits("reyes-kelly2", ranges)}
     for row in rows:
         gains = GainSet("one", row["m"], *(tuple(map(Fraction, row[key])) for key in ("kp", "kv")))
         arms = limits if row["variation"] else {}

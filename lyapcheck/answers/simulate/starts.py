@@ -73,7 +73,7 @@ def quantities(result: Sweep) -> list[Quantity]:
 
 FIELDS = (
     Field("name", "name", "gains", align="l"),
-    Field("m", "gains.family.m"),
+    Field("m", "m"),
     Field("robot", "robot"),
     Field("kind", lambda one: "random starts"),
     Field("runs", "starts.count"),
@@ -120,7 +120,7 @@ class RandomStarts(Simulation[Sweep]):
 
     def section(self, one: Sweep) -> Section:
         """A row a quantity; why runs did not reach their end."""
-        member = "" if one.gains.family.m is None else f" (m = {one.gains.family.m})"
+        member = "" if one.m is None else f" (m = {one.m})"
         reasons = dict.fromkeys(reason for reason in one.runs.failure if reason)
         failed = [Bullets(tuple(f"not finished: {reason}" for reason in reasons))] if reasons else []
         return Section(f"{self.mark(one.name)} {one.name}{member}", (*failed, self.by_joint(one)))

@@ -124,7 +124,7 @@ def _bounded(i: int, pid: Pid, limits: Limits) -> tuple[Fraction, Fraction, str]
         return pid.p, pid.d, f"{pid.joint}: no torque limit is known, so that nothing was cut"
     n = limits.n
     gains = GainSet("", 1, (pid.p,) * n, (pid.d,) * n)
-    check = Conditions(limits, named("hyperbolic", 1).gamma).check_10p(gains)[i]
+    check = Conditions(limits, named("hyperbolic", 1).gamma).checks("10p", gains)[i]
     largest = None if check.threshold is None else check.threshold.largest(_PLACES)
     if largest is None:
         return pid.p, pid.d, f"{pid.joint}: gravity takes the whole torque limit, and (10p) leaves no gain"

@@ -14,12 +14,12 @@ import numpy as np
 
 from lyapcheck.answers.gate.friction import rest_errors
 from lyapcheck.errors import InputError, Problem
+from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate import results as indices
 from lyapcheck.simulate.bench import Bench
 from lyapcheck.simulate.many import Runs, simulate_many
-from lyapcheck.simulate.results import motor_limits
 from lyapcheck.simulate.run import Run, SimulationFailed
-from lyapcheck.simulate.task import LONGEST, gains_for
+from lyapcheck.simulate.task import LONGEST, motor_limits
 from lyapcheck.simulate.trial import experiment
 
 if TYPE_CHECKING:
@@ -197,7 +197,7 @@ def tried_all(
     lost = (NEVER * MOST, math.inf, NEVER, NEVER)
     columns = [np.where(done, values, worst) for values, worst in zip(seen, lost, strict=True)]
     edge = min(indices.SETTLING_BAND, math.inf if wishes.overshoot is None else wishes.overshoot / 100)
-    known = [gains_for(one, models[0].n) for one in each]
+    known = [ControlledArm(one, models[0]) for one in each]
     held = known[0].family.potential(indices.bands(goals - starts, edge)) * [gains.kp for gains in known]
     kept = done & (runs.V[:, -1:] < held.min(axis=1, keepdims=True))
 

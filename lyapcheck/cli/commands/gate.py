@@ -70,7 +70,7 @@ def run(
     from lyapcheck._types import part
     from lyapcheck.answers.gate import GateAnswer, gate
     from lyapcheck.control.gains import arm_named_in, read_gain_file
-    from lyapcheck.control.limits import Limits, varied_limits
+    from lyapcheck.control.limits import Limits, arm_limits
     from lyapcheck.robots.choice import named
 
     folder = certificate_folder(certificates)
@@ -85,7 +85,7 @@ def run(
                 name = named(robot, gain_file.robot)
                 if ranges and name is not None and name not in arms:
                     with arm_named_in(gain_file, robot):
-                        arms[name] = varied_limits(name, ranges)
+                        arms[name] = arm_limits(name, ranges)
                 advanced = part(advance, done / len(files), (done + 1) / len(files))
                 results.append(gate(gain_file, robot, condition, strict, arms, advanced, run))
             except InputError as error:

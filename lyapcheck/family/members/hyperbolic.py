@@ -10,10 +10,10 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
-from flint import arb, ctx, fmpq, fmpq_poly
+from flint import ctx, fmpq, fmpq_poly
 
 from lyapcheck.check.expressions.expression import Tree
-from lyapcheck.check.numbers.balls import gamma_value, hyperbolic_constants, peak_of_h, peaks_of_dh
+from lyapcheck.check.numbers.balls import gamma_value, hyperbolic_constants, peak_of_h
 from lyapcheck.check.numbers.polynomials import ball_of
 from lyapcheck.family.base import Arithmetic, Family, FamilyConstants, SymbolicForms, require_member
 
@@ -44,14 +44,6 @@ class Hyperbolic(Family):
         U = sp.log(1 + sp.sinh(symbol) ** (2 * m)) / (2 * m)
         h = sp.diff(U, symbol)  # U = ln(1 + sinh^(2m)x) / (2m), h = dU/dx, h' = d²U/dx²
         return SymbolicForms(*(form.subs(symbol, x) for form in (h, sp.diff(h, symbol), U)))
-
-    def turning_points(self) -> tuple[tuple[arb, ...], tuple[arb, ...]]:
-        """The peak of h and those of h'; tanh has none."""
-        if self._member == 1:
-            return (), ()
-        peaks = (peak_of_h(self._member),), peaks_of_dh(self._member)
-        h, dh = (tuple(u.sqrt().asinh() for u in places) for places in peaks)
-        return h, dh
 
     def constants(self, digits: int = 30) -> FamilyConstants:
         """γ_m, ρ_m, L_m, certified."""
