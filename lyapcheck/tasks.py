@@ -100,7 +100,7 @@ def bounds(
     from lyapcheck.robots import load
 
     file, arm = _on_arm(gain_file, robot)
-    model, varied = (load(arm.address), (arm, arm.varies)) if arm.varies else (arm, None)
+    model, varied = (load(arm.address), arm) if arm.varies else (arm, None)
     task, delta = _task(model, target_deg, start_deg, seconds), math.radians(within_deg)
     record = record_of(NOTHING, file.loop, model.loop)
     asked = partial(compare, motors=file.bounds.torque, varied=varied, record=record)

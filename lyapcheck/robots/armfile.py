@@ -80,9 +80,9 @@ def read_arm(
     top.close()
     if notes.problems or plan is None:
         raise InputError(notes.problems)
-    numbers = {key: number.widened(spread) for key, number in plan.numbers().items()}
+    numbers = {key: number.widened(spread) for key, number in plan.numbers.items()}
     numbers = varied_numbers(numbers, vary)
-    parameters = {key: number for key, number in numbers.items() if number.ranged and key in plan.used()}
+    parameters = {key: number for key, number in numbers.items() if number.ranged and key in plan.used}
     dynamics = plan.build(numbers, tuple(parameters))
     for joint in plan.joints:
         numbers |= joint.numbers()

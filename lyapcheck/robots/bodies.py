@@ -23,31 +23,14 @@ _TENSOR = (("ixx", "ixy", "ixz"), ("ixy", "iyy", "iyz"), ("ixz", "iyz", "izz"))
 MOST_JOINTS = 12
 
 
-@dataclass(frozen=True)
-class BodyEntry:
-    """One link as read; ``inertia`` has the six entries of a tensor, or only ``planar``."""
-
-    axis: tuple[Number, ...]
-    origin: tuple[Number, ...]
-    mass: Number
-    com: tuple[Number, ...]
-    inertia: dict[str, Number]
-
-    def numbers(self, name: str) -> dict[str, Number]:
-        """The numbers of the link under the names that reports use; axes and plain zeros are not listed."""
-        result = {f"{name}_mass": self.mass}
-        for key, vector in (("origin", self.origin), ("com", self.com)):
-            result |= components(f"{name}_{key}", vector)
-        return result | {f"{name}_{key}": entry for key, entry in self.inertia.items()}
-
-
 def components(name: str, vector: Sequence[Number]) -> dict[str, Number]:
     """The components of a vector as ``name_x`` and so on, without those that are exactly zero."""
-    named = {f"{name}_{letter}": x for letter, x in zip("xyz", vector, strict=True)}
+    named = {f"{name}_{letter}": x for letter, x in zip("xyz", vector, strict=False)}
     return {key: x for key, x in named.items() if x.value or x.ranged or x.assumed}
 
 
-def _read_body(fields: ArmFields) -> BodyEntry | None:
+def _read_body(fields: ArmFields, name: str) -> tuple[tuple[Fraction, ...], dict[str, Number]] | None:
+    """The axis of a link, of length 1, and its numbers; an inertia is six entries, or one for all."""
     axis = fields.vector("axis", "")
     length = rational_root(sum((x.value**2 for x in axis or ()), Fraction(0)))
     if axis is not None and (any(x.ranged for x in axis) or not length):
@@ -59,7 +42,9 @@ def _read_body(fields: ArmFields) -> BodyEntry | None:
     inertia = _read_inertia(fields)
     if axis is None or not length or origin is None or com is None or mass is None or inertia is None:
         return None
-    return BodyEntry(tuple(replace(x, value=x.value / length) for x in axis), origin, mass, com, inertia)
+    numbers = {f"{name}_mass": mass, **components(f"{name}_origin", origin), **components(f"{name}_com", com)}
+    numbers |= {f"{name}_{key}": entry for key, entry in inertia.items()}
+    return tuple(x.value / length for x in axis), numbers
 
 
 def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
@@ -102,24 +87,18 @@ def _read_inertia(fields: ArmFields) -> dict[str, Number] | None:
 
 @dataclass(frozen=True)
 class ChainPlan:
-    """A serial chain of links."""
+    """A serial chain of links, and its numbers: ``joint_mass``, ``joint_com_x``, ``gravity_x`` and so on."""
 
     place: ClassVar[str] = "links"
     joints: list[JointEntry]
-    bodies: list[BodyEntry]
-    gravity: tuple[Number, ...]
+    axes: list[tuple[Fraction, ...]]
+    numbers: dict[str, Number]
     torques: None = None
 
-    def numbers(self) -> dict[str, Number]:
-        """Masses, lengths and inertias as ``joint_key``, gravity as ``gravity_x`` and so on."""
-        result = components("gravity", self.gravity)
-        for joint, body in zip(self.joints, self.bodies, strict=True):
-            result |= body.numbers(joint.name) | joint.rotors
-        return result
-
+    @property
     def used(self) -> set[str]:
         """All of them."""
-        return set(self.numbers())
+        return set(self.numbers)
 
     def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> Chain:
         def entry(name: str) -> Any:
@@ -128,9 +107,9 @@ class ChainPlan:
             return numbers[name].value if name in numbers else Fraction(0)
 
         links = []
-        for joint, body in zip(self.joints, self.bodies, strict=True):
-            name, axis = joint.name, tuple(x.value for x in body.axis)
-            if "inertia" in body.inertia:
+        for joint, axis in zip(self.joints, self.axes, strict=True):
+            name = joint.name
+            if f"{name}_inertia" in numbers:
                 own = entry(f"{name}_inertia")
                 inertia = tuple(tuple(_times(own, a * b) for b in axis) for a in axis)
             else:
@@ -152,17 +131,20 @@ def read_chain(
     top: ArmFields, tables: list[ArmFields], gravity: tuple[Number, ...] | None
 ) -> ChainPlan | None:
     """The arm of ``[[links]]``, ``None`` where it cannot be built; problems are noted."""
-    joints, bodies = read_joints(top, "links", tables, MOST_JOINTS), list(map(_read_body, tables))
-    sound = [body for body in bodies if body is not None]
-    axes = [[x.value for x in body.axis] for body in sound]
+    joints = read_joints(top, "links", tables, MOST_JOINTS)
+    bodies = [_read_body(table, joint.name) for table, joint in zip(tables, joints, strict=True)]
+    axes = [body[0] for body in bodies if body is not None]
     pairs = list(product(range(3), repeat=2))
     planar = all(axis[i] * axes[0][k] == axis[k] * axes[0][i] for axis in axes for i, k in pairs)
-    for table, body in zip(tables, bodies, strict=True):
+    numbers = components("gravity", gravity or ())
+    for table, joint, body in zip(tables, joints, bodies, strict=True):
         table.close()
-        if body is not None and "inertia" in body.inertia and not planar:
+        own = {} if body is None else body[1]
+        if f"{joint.name}_inertia" in own and not planar:
             rule = "one number describes turning in a plane only, and the axes of this arm are not parallel"
             table.fail("inertia", rule, "give a table of ixx, iyy, izz and, where not zero, ixy, ixz, iyz")
-    return ChainPlan(joints, sound, gravity) if gravity and len(sound) == len(tables) else None
+        numbers |= own | joint.rotors
+    return ChainPlan(joints, axes, numbers) if gravity and len(axes) == len(tables) else None
 
 
 # --- A check that an arm as described can exist: M positive definite at a spread of states.

@@ -9,9 +9,10 @@ evaluated as code.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 from typing import Any, ClassVar
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx
@@ -92,11 +93,11 @@ def polynomial(terms: Terms, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mp
     """The sum of the terms, in normal form."""
     result = trig.constant(ring, 0)
     for coefficient, factors in terms:
-        product = trig.constant(ring, coefficient)
+        term = trig.constant(ring, coefficient)
         for name, power in factors:
             factor = _angle(name, ring) if is_angle(name) else numbers[name]
-            product = trig.normal_form(product * factor**power)
-        result += product
+            term = trig.normal_form(term * factor**power)
+        result += term
     return result
 
 
@@ -124,7 +125,6 @@ def _angle(name: str, ring: fmpq_mpoly_ctx) -> fmpq_mpoly:
 
 
 _RATE = re.compile(r"w([1-9])")
-Tensor = tuple[tuple[tuple[fmpq_mpoly, ...], ...], ...]
 
 
 @dataclass(frozen=True)
@@ -139,30 +139,15 @@ class PrintedTorques:
     coriolis: Mapping[tuple[int, int, int], Terms]
     gravity: tuple[Terms, ...]
 
-    def symbols(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly], n: int) -> Tensor:
-        """p_ijk with C(q, q̇)_ij = Σ_k p_ijk q̇_k, in normal form."""
-        joints = range(n)
-        return tuple(
-            tuple(
-                tuple(polynomial(self.coriolis.get((i, j, k), ()), ring, numbers) for k in joints)
-                for j in joints
-            )
-            for i in joints
-        )
-
-    def weights(self, ring: fmpq_mpoly_ctx, numbers: Mapping[str, fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
-        return tuple(polynomial(terms, ring, numbers) for terms in self.gravity)
-
 
 def read_torques(fields: ArmFields, n: int, numbers: Collection[str]) -> PrintedTorques:
     """The ``[printed]`` table of an arm with n joints; problems are noted in ``fields``."""
     joints = range(n)
     coriolis: dict[tuple[int, int, int], Terms] = {}
     if any(key.startswith("C") for key in fields.data):
-        for i in joints:
-            for j in joints:
-                for k, terms in _rates(fields, f"C{i + 1}{j + 1}", n, numbers).items():
-                    coriolis[i, j, k] = terms
+        for i, j in product(joints, repeat=2):
+            for k, term in _rates(fields, f"C{i + 1}{j + 1}", n, numbers):
+                coriolis[i, j, k] = (*coriolis.get((i, j, k), ()), term)
     wanted = any(key.startswith("g") for key in fields.data)
     gravity = tuple(read_terms(fields, f"g{i + 1}", n, numbers) for i in joints) if wanted else ()
     if not coriolis and not wanted:
@@ -170,9 +155,8 @@ def read_torques(fields: ArmFields, n: int, numbers: Collection[str]) -> Printed
     return PrintedTorques(coriolis, gravity)
 
 
-def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> dict[int, Terms]:
-    """The terms of one entry of C by the joint whose rate they have."""
-    result: dict[int, Terms] = {}
+def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> Iterator[tuple[int, Term]]:
+    """The terms of one entry of C, each with the joint whose rate it has."""
     for place, term in enumerate(term_list(fields, key)):
         path = (*fields.path, key, place)
         words = (
@@ -184,10 +168,9 @@ def _rates(fields: ArmFields, key: str, n: int, numbers: Collection[str]) -> dic
             fields.notes.fail(path, term, rule, 'write [-0.168, "s2 w2"]')
             continue
         rest = " ".join(word for word in words if not _RATE.fullmatch(word))
-        read: Term | None = read_term(fields, path, [term[0], rest], n, numbers)
+        read = read_term(fields, path, [term[0], rest], n, numbers)
         if read is not None:
-            result[rates[0]] = (*result.get(rates[0], ()), read)
-    return result
+            yield rates[0], read
 
 
 # --- The arm in print.
@@ -200,21 +183,20 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,40}")
 
 @dataclass(frozen=True)
 class PrintedPlan:
-    """M, on and above its diagonal, and the potential in print."""
+    """M, on and above its diagonal, and the potential in print, with the numbers that they name."""
 
     place: ClassVar[str] = "model"
     joints: list[JointEntry]
-    entries: dict[str, Number]
+    numbers: dict[str, Number]
     mass: Mapping[tuple[int, int], Terms]
     potential: Terms
     torques: PrintedTorques | None
 
-    def numbers(self) -> dict[str, Number]:
-        return dict(self.entries, **_rotors(self.joints))
-
+    @property
     def used(self) -> set[str]:
         terms = (term for entry in (*self.mass.values(), self.potential) for term in entry)
-        return {name for _, factors in terms for name, _ in factors} | set(_rotors(self.joints))
+        rotors = {name for joint in self.joints for name in joint.rotors}
+        return {name for _, factors in terms for name, _ in factors} | rotors
 
     def build(self, numbers: Mapping[str, Number], parameters: tuple[str, ...]) -> trig.Polynomials:
         n = len(self.joints)
@@ -228,10 +210,6 @@ class PrintedPlan:
         return trig.Polynomials(mass, polynomial(self.potential, ring, polys), parameters)
 
 
-def _rotors(joints: list[JointEntry]) -> dict[str, Number]:
-    return {name: number for joint in joints for name, number in joint.rotors.items()}
-
-
 def read_model(
     top: ArmFields,
     tables: list[ArmFields],
@@ -241,7 +219,8 @@ def read_model(
 ) -> PrintedPlan:
     """The arm of ``[model]`` and ``[[joints]]``; problems are noted."""
     joints = read_joints(top, "joints", tables, MOST_PRINTED)
-    taken = {name for joint in joints for name in joint.numbers()} | set(_rotors(joints))
+    rotors = {name: number for joint in joints for name, number in joint.rotors.items()}
+    taken = {name for joint in joints for name in joint.numbers()} | set(rotors)
     names, entries = [] if numbers is None else list(numbers.data), dict[str, Number]()
     for name in names:
         assert numbers is not None
@@ -264,4 +243,4 @@ def read_model(
     compared = None if torques is None else read_torques(torques, n, names)
     for table in [*tables, model, *([] if torques is None else [torques])]:
         table.close()
-    return PrintedPlan(joints, entries, mass, potential, compared)
+    return PrintedPlan(joints, entries | rotors, mass, potential, compared)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
@@ -167,48 +167,34 @@ def outside(own: RobotModel, model: RobotModel) -> tuple[str, ...]:
     return tuple(key for key, value, (low, high) in rows if not low <= value <= high)
 
 
-def corners(model: RobotModel, varies: Sequence[Vary]) -> Iterator[tuple[str, RobotModel]]:
+def corners(model: RobotModel) -> tuple[str, tuple[tuple[str, RobotModel], ...]]:
     """The arm at the ends of what varies: each number alone if these are few, else all of a name together.
 
-    Yields:
-        What was changed, and the arm with exact numbers. Between the ends nothing is tried, and where numbers
-        move together not every corner is; ``corners_text`` says how many are.
-    """
-    _, groups = _moved(model, varies)
-    for ends in product((0, 1), repeat=len(groups)):
-        values = {
-            key: model.numbers[key].bounds[end]
-            for group, end in zip(groups, ends, strict=True)
-            for key in group
-        }
-        text = ", ".join(f"{key} = {decimal_text(value)}" for key, value in values.items())
-        yield text, at_values(model, values)
-
-
-def corners_text(model: RobotModel, varies: Sequence[Vary]) -> str:
-    """Say which corners of the ranges ``corners`` yields, and how many corners there are."""
-    count, groups = _moved(model, varies)
-    total, tried = 2**count, 2 ** len(groups)
-    if total <= MOST_CORNERS:
-        return "the corner of the ranges" if total == 1 else f"all {total} corners of the ranges"
-    return f"{tried} of {total} corners of the ranges (numbers of one name move together)"
-
-
-def _moved(model: RobotModel, varies: Sequence[Vary]) -> tuple[int, list[list[str]]]:
-    """How many numbers have a range of more than one value, and which of them move together.
-
-    Each moves alone if these are few, else all of one name; a name of one number goes before that of all.
+    Returns:
+        Which corners of the ranges these are, and for each what was changed and the arm with exact numbers.
+        Between the ends nothing is tried.
     """
     keys: list[str] = []
-    named: dict[str, list[str]] = {}
+    named: dict[str, list[str]] = {}  # a name of one number goes before that of all
     for key, number in model.numbers.items():
         last = key == f"{model.joints[-1]}_mass"
-        meant = [one for one in varies if one.matches(key) or (last and one.name == PAYLOAD)]
+        meant = [one for one in model.varies if one.matches(key) or (last and one.name == PAYLOAD)]
         if meant and number.ranged:
             keys.append(key)
             named.setdefault(next((one for one in meant if one.name == key), meant[0]).name, []).append(key)
-    few = 2 ** len(keys) <= MOST_CORNERS
-    return len(keys), [[key] for key in keys] if few else list(named.values())
+    count, groups = 2 ** len(keys), [[key] for key in keys]
+    said = "the corner of the ranges" if count == 1 else f"all {count} corners of the ranges"
+    if count > MOST_CORNERS:
+        groups = list(named.values())
+        tried = 2 ** len(groups)
+        said = f"{tried} of {count} corners of the ranges (numbers of one name move together)"
+    arms = []
+    for ends in product((0, 1), repeat=len(groups)):
+        pairs = zip(groups, ends, strict=True)
+        values = {key: model.numbers[key].bounds[end] for group, end in pairs for key in group}
+        text = ", ".join(f"{key} = {decimal_text(value)}" for key, value in values.items())
+        arms.append((text, at_values(model, values)))
+    return said, tuple(arms)
 
 
 def at_values(model: RobotModel, values: Mapping[str, Fraction]) -> RobotModel:

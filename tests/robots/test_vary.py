@@ -13,7 +13,7 @@ from lyapcheck.control.limits import arm_limits
 from lyapcheck.errors import InputError
 from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import corners, corners_text, outside
+from lyapcheck.robots.vary import corners, outside
 from tests.helpers.arm_texts import PLANAR
 
 UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
@@ -114,13 +114,13 @@ def test_bounds_of_gravity_over_masses_hold_and_are_those_of_the_heaviest(texts)
 def test_the_corners_are_the_ends_of_all_that_varies():
     varies = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "base_inertia=0.4..0.6")))
     model = robots.load("buap3", vary=varies)
-    result = dict(corners(model, varies))
+    result = dict(corners(model)[1])
     assert len(result) == 16
     assert {float(arm.viscous[0].value) for arm in result.values()} == {0.2842, 0.406}
     assert not any(arm.parameters or arm.viscous[0].ranged for arm in result.values())
     many = tuple(map(Vary.parsed, ("viscous=-30%..+0%", "mass=-10%..+10%")))
-    assert len(list(corners(robots.load("ur5", vary=many), many))) == 4
-    assert len(list(corners(robots.load(UR5, vary=many), many))) == 2  # friction that is 0 stays 0
+    assert len(corners(robots.load("ur5", vary=many))[1]) == 4
+    assert len(corners(robots.load(UR5, vary=many))[1]) == 2  # friction that is 0 stays 0
 
 
 @pytest.mark.parametrize(
@@ -173,8 +173,6 @@ def test_the_arm_of_the_file_is_named_unless_it_is_in_the_ranges(low, width):
 )
 def test_it_is_said_how_many_corners_of_how_many_are_tried(name, texts, said):
     varies = tuple(map(Vary.parsed, texts))
-    model = robots.load(name, vary=varies)
-    text = corners_text(model, varies)
+    text, arms = corners(robots.load(name, vary=varies))
     assert text.startswith(said)
-    count = len(list(corners(model, varies)))
-    assert count == next((int(word) for word in text.split() if word.isdigit()), 1)
+    assert len(arms) == next((int(word) for word in text.split() if word.isdigit()), 1)

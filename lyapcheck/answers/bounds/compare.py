@@ -26,7 +26,7 @@ from lyapcheck.control.sampling import exact_only
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
-from lyapcheck.robots.vary import corners, corners_text
+from lyapcheck.robots.vary import corners
 from lyapcheck.simulate.closed_loop import SetPoint
 from lyapcheck.simulate.task import set_up
 
@@ -36,11 +36,7 @@ if TYPE_CHECKING:
     from lyapcheck.control.sampling import LoopRecord
     from lyapcheck.promise import Promise
     from lyapcheck.robots import RobotModel
-    from lyapcheck.robots.fields import Vary
     from lyapcheck.simulate.task import Task
-
-    Varied = tuple[RobotModel, Sequence[Vary]]
-    """An arm with ranges, and which."""
 
 UNIT = Fraction(1, 10**6)
 """Of angles that are printed, degrees."""
@@ -138,7 +134,7 @@ def compare(
     dry: Sequence[Fraction] | None = None,
     *,
     motors: Sequence[Fraction] | None = None,
-    varied: Varied | None = None,
+    varied: RobotModel | None = None,
     record: LoopRecord | None = None,
     on_progress: Progress | None = None,
 ) -> BoundsComparison:
@@ -151,7 +147,7 @@ def compare(
         delta: δ, rad.
         dry: (n,) bounds of dry friction, N·m; if missing the upper ends of what is known of the arm.
         motors: (n,) torque limits in place of the arm's, N·m.
-        varied: the arm with ranges, and what varies; the bounds are asked over them as well.
+        varied: the arm with ranges; the bounds are asked over them as well.
         record: what the controller does not know of gravity; runs know all of it, at infinite rate.
         on_progress: receives the share done.
 
@@ -162,7 +158,8 @@ def compare(
     if not named(gain_set.family, gain_set.m).bounded:
         rule = f"{gain_set.name} has an unbounded h, of which no error at rest is judged"
         raise argument_error("gains", gain_set.name, rule, "choose gains of a bounded family")
-    whole, arms = (model, [model]) if varied is None else (varied[0], [arm for _, arm in corners(*varied)])
+    whole = model if varied is None else varied
+    tried, arms = ("", (("", model),)) if varied is None else corners(varied)
     known_most = (None if number is None else number.bounds[1] for number in whole.coulomb)
     most = tuple(known_most if dry is None else dry)
     limits = model_limits(whole)
@@ -172,7 +169,7 @@ def compare(
     promise, reason = promised_rest(gain_set, supposed, room, lambda angle: ceil(angle / UNIT) * UNIT)
     errors = promised_errors(promise, model.n)
     runs = []
-    for index, arm in enumerate(arms):
+    for index, (_, arm) in enumerate(arms):
         progress(index / len(arms), "simulation")
         runs.append(_run(gain_set, arm, task, delta, dry, errors))
     times, largest, last = zip(*runs, strict=True)
@@ -187,8 +184,8 @@ def compare(
         simulated_time=None if None in times else max(times),
         simulated_largest=tuple(np.max(largest, axis=0).tolist()),
         simulated_rest=tuple(np.max(last, axis=0).tolist()),
-        varies=() if varied is None else tuple(one.text for one in varied[1]),
-        corners="" if varied is None else corners_text(*varied),
+        varies=() if varied is None else tuple(one.text for one in varied.varies),
+        corners=tried,
         unknown=()
         if record is None or record.knows_gravity
         else holds_checks(gain_set, whole, record, room, None if None in most else supposed),

@@ -28,6 +28,7 @@ from lyapcheck.files.decimals import decimal_text
 from lyapcheck.promise import Promise, promised
 from lyapcheck.robots import Number, RobotModel, trig
 from lyapcheck.robots.dynamics import Chain
+from lyapcheck.robots.printed import Terms, polynomial
 from lyapcheck.verdicts import Grade, Verdict
 
 IDS = tuple(f"2.{k}" for k in range(1, 9))
@@ -167,14 +168,21 @@ def print_questions(model: RobotModel) -> Iterator[PropertyQuestion]:
     # the numbers of the arm as polynomials of its ring
     numbers = {name: trig.constant(model.ring, number.value) for name, number in model.numbers.items()}
     numbers |= dict(zip(model.parameters, model.ring.gens()[2 * model.n :], strict=True))
+    joints = range(model.n)
+
+    def terms(own: Terms) -> Monomials:
+        return _terms(polynomial(own, model.ring, numbers))
+
     if printed.coriolis:
-        symbols = printed.symbols(model.ring, numbers, model.n)
         # each printed term has exactly one rate, so that nothing is left without
-        C = tuple(tuple((*map(_terms, entry), ()) for entry in row) for row in symbols)
+        C = tuple(
+            tuple((*(terms(printed.coriolis.get((i, j, k), ())) for k in joints), ()) for j in joints)
+            for i in joints
+        )
         stated["C torque"] = CoriolisTorque(model.mass_terms, ranges, C)
         stated["C rates"] = RateOfMass(model.mass_terms, ranges, C)
     if printed.gravity:
-        weights = tuple(map(_terms, printed.weights(model.ring, numbers)))
+        weights = tuple(map(terms, printed.gravity))
         stated["g"] = GravityOfPotential(weights, _terms(model.potential), ranges)
     for name, statement in stated.items():
         finding = _named(model, propose(statement))

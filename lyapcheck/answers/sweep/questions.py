@@ -236,7 +236,7 @@ def _bounds(question: Question, known: RobotModel, options: Options) -> Answered
     from lyapcheck.files.loop import NOTHING
 
     model, _ = arm(question.robot)
-    varied = (known, known.varies) if known.varies else None
+    varied = known if known.varies else None
     record = record_of(NOTHING, NOTHING, model.loop)
     assert question.gains is not None
     delta = math.nextafter(math.radians(options["delta"]), 0.0)
@@ -256,16 +256,17 @@ def _simulate(question: Question, known: RobotModel, options: Options) -> Answer
     """One run, and one at each corner that is tried; the slowest of them counts. Observed, never proved."""
     from lyapcheck.answers.simulate.moved import moved, on_arms
     from lyapcheck.answers.simulate.runs import SetPointRuns
-    from lyapcheck.robots.vary import corners, corners_text
+    from lyapcheck.robots.vary import corners
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.trial import experiment
 
     task, arms = task_of(known, options), ""
+    others: tuple[tuple[str, RobotModel], ...] = ()
     assert question.gains is not None
     mover = experiment if options["experiment"] else partial(simulate, stop=True)
     if known.varies:
-        arms = f"one arm in the ranges and {corners_text(known, known.varies)}"
-    others = corners(known, known.varies) if known.varies else ()
+        tried, others = corners(known)
+        arms = f"one arm in the ranges and {tried}"
     move = partial(mover, target_rad=task.q_d, start_rad=task.q0, velocity_rad=task.w0, T=task.T)
     runs, unfinished = moved(on_arms([question.gains], known, others), move)
     result = SetPointRuns(tuple(runs), tuple(unfinished), arms=arms)

@@ -33,7 +33,7 @@ from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import ArmLike, RobotModel
 from lyapcheck.robots.fields import Number, Vary
 from lyapcheck.robots.numeric import NumericModel
-from lyapcheck.robots.vary import at_values, corners, corners_text, outside
+from lyapcheck.robots.vary import at_values, corners, outside
 
 SHARE, DAMPING, FLOOR = 0.98, 0.9, 0.05
 """Of (10i), of the first set; the damping ratio of it, and what k_v alone gives every joint at least."""
@@ -281,8 +281,8 @@ def _arms(model: RobotModel, ranged: RobotModel) -> tuple[tuple[RobotModel, ...]
                 low[key], high[key] = number.bounds if number.ranged else (number.value / 10, number.value)
         arms = [at_values(model, values) for values in (low, high) if values]
         return (model, *arms), "the arm of the file and both ends of its assumed numbers" if arms else ""
-    ends = tuple(arm for _, arm in corners(ranged, ranged.varies))
-    text = corners_text(ranged, ranged.varies)
+    text, tried = corners(ranged)
+    ends = tuple(arm for _, arm in tried)
     if outside(model, ranged):
         return ends, f"{text}; the values of the file lie outside"
     return (model, *ends), f"the nominal arm and {text}"

@@ -74,7 +74,7 @@ def run(
 
     gain_file, name, model = gains_on_arm(file, robot)
     ranges, record = varies(vary), record_of(loop_of(loop), gain_file.loop, model.loop)
-    varied = (load(name, vary=ranges), ranges) if ranges else None
+    varied = load(name, vary=ranges) if ranges else None
     require_joints([gain_file], model)
     wrong = Complaints()
     angle = wrong.reading(_angle, delta) or 0.0

@@ -156,7 +156,7 @@ def run(
     from lyapcheck.answers.simulate.moved import moved, on_arms
     from lyapcheck.answers.simulate.runs import SetPointRuns, breach_certificate
     from lyapcheck.robots import load
-    from lyapcheck.robots.vary import corners, corners_text, outside
+    from lyapcheck.robots.vary import corners, outside
     from lyapcheck.simulate.reference import read_reference
 
     gain_file, name, model = gains_on_arm(file, robot)
@@ -188,11 +188,12 @@ def run(
         task = wrong.reading(request_of, model, path, start, velocity, time, eps0, band, certified)
     wrong.raise_all()
     ranged = load(name, vary=ranges) if ranges else model
+    corner_text, others = corners(ranged) if ranges else ("", ())
     where = ", which lies outside the ranges," if outside(model, ranged) else ""
-    arms = f"the arm of the file{where} and {corners_text(ranged, ranges)}" if ranges else ""
+    arms = f"the arm of the file{where} and {corner_text}" if ranges else ""
     folder = certificate_folder(certificates)
     assert task is not None
-    cases = on_arms(gain_file.gains, model, corners(ranged, ranges) if ranges else ())
+    cases = on_arms(gain_file.gains, model, others)
     move, kind, samples = way_of(task, path, starts, bench, band, not options["keep_going"])
     watched = eps0 if path is not None else eps0 or 0.0
     with progress("simulate") as advance:
