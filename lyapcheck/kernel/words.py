@@ -123,7 +123,8 @@ class _Lines:
 
     def bound(self, statement: BoundEveryN, proof: CoveredTerms) -> str:
         """Each term is at most its bound, and the right side their sum."""
-        whole, merged = merged_terms(statement)
+        terms, merged = terms_in_words(statement)
+        whole = (tuple(sorted(powers.items())) for _, powers in terms)
         covers = dict(zip(whole, proof.covers, strict=True))
         names = [f"P{k}" for k, _ in enumerate(statement.numbers)]
         names = [f"S{k}" for k, _ in enumerate(statement.symmetric)] + names
@@ -135,8 +136,9 @@ class _Lines:
         sizes: list[tuple[Fraction, Tree]] = []
         for k, (c, powers) in enumerate(terms_of(self.words.number(statement.left))):
             place: Counter[str] = Counter()
-            for name, power in powers.items():
-                place[merged(name, self.words)] += power
+            for name, power in powers.items():  # under the name that the certificate has for an unmerged word
+                words = self.words.seen.get(name, ())
+                place[next((str(merged._variable(word)[1]) for word in words), name)] += power
             cover = covers.get(tuple(sorted(place.items())))
             if cover is None:
                 raise NotPrinted("terms that cancel once diagonal matrices change places")
@@ -236,21 +238,6 @@ class _Lines:
             own = identifier(name) if kind == "mat" else f"(fun i j => {identifier(name)} j i)"
             value, atom = f"(apply_ n {own} {value if atom else f'(fun i => {value})'})", True
         return f"dot n {identifier(first)} {value if atom else f'(fun i => {value})'}"
-
-
-def merged_terms(
-    statement: BoundEveryN,
-) -> tuple[list[tuple[tuple[str, int], ...]], Callable[[str, Words], str]]:
-    """The terms of the left side as a certificate counts them, and the name there of an unmerged word."""
-    terms, words = terms_in_words(statement)
-
-    def name(own: str, unmerged: Words) -> str:
-        if own not in unmerged.seen:
-            return own
-        [word] = unmerged.seen[own]
-        return str(words._variable(word)[1])
-
-    return [tuple(sorted(powers.items())) for _, powers in terms], name
 
 
 def _norm(letter: Tree) -> str:

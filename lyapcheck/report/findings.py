@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers.check import ClaimResult
 from lyapcheck.answers.gate import accepting, proved_otherwise
 from lyapcheck.answers.gate.words import Row, advice
 from lyapcheck.certificate import Certificate
@@ -15,6 +15,7 @@ from lyapcheck.check.kinds.all_of import AllOf
 from lyapcheck.check.statement import Statement
 from lyapcheck.claims.decision import decided, judge_afresh
 from lyapcheck.claims.procedures import propose
+from lyapcheck.claims.search_result import SearchResult
 from lyapcheck.claims.statements import Missing
 from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.files.fields import file_stem
@@ -269,40 +270,34 @@ def as_the_gate_judges(
         rows: of the paper's proof.
         gate: what the gate says of each set.
     """
-    asked: dict[Key, tuple[ClaimRow, str, Statement | Missing]] = {}
+    asked: dict[Key, tuple[ClaimRow, str, Statement | Missing, SearchResult]] = {}
+    made: dict[Key, Certificate] = {}
     for row in rows:
         for result in gate:
-            if row.id in CONDITIONS and result.m == row.m is not None:
-                stated = _stated(result, CONDITIONS[row.id])
-                asked[f"{row.id}.{file_stem(result.name)}", row.m] = row, result.name, stated
-    found = {key: propose(stated) for key, (_, _, stated) in asked.items()}
-    made = {}
-    for key, finding in found.items():
-        row, name, stated = asked[key]
-        if finding.proof is not None and isinstance(stated, Statement):
-            about = About(row.id, f"{name}: {row.comment}", row.m, row.n, row.proof)
-            made[key] = Certificate(about, stated, finding.verdict.value, finding.grade.label, finding.proof)
+            if row.id not in CONDITIONS or result.m != row.m or row.m is None:
+                continue
+            key: Key = f"{row.id}.{file_stem(result.name)}", row.m
+            stated = _stated(result, CONDITIONS[row.id])
+            finding = propose(stated)
+            asked[key] = row, result.name, stated, finding
+            if finding.proof is not None and isinstance(stated, Statement):
+                about = About(row.id, f"{result.name}: {row.comment}", row.m, row.n, row.proof)
+                verdict, grade = finding.verdict.value, finding.grade.label
+                made[key] = Certificate(about, stated, verdict, grade, finding.proof)
     judged = judge_afresh(made)
     fresh: dict[tuple[str, int | None], list[ClaimRow]] = {}
-    for key, (row, name, stated) in asked.items():
-        claim = ClaimResult(
-            id=row.id,
-            m=row.m,
-            n=row.n,
-            comment=row.comment,
-            place=row.place,
-            section=row.section,
+    for key, (row, name, stated, finding) in asked.items():
+        one = replace(
+            row,
             kind=type(stated).__name__,
-            uses=row.uses,
             broken=(),
-            decision=decided(found[key], judged.get(key), stated),
+            decision=decided(finding, judged.get(key), stated),
             stated=stated,
             seconds=0.0,
-            stands=row.stands,
+            certificate=_path(key) if key in made else None,
+            digest=made[key].digest if key in made else None,
+            gains=name,
         )
-        certificate = made.get(key)
-        own = (None, None) if certificate is None else (_path(key), certificate.digest)
-        one = ClaimRow.of(claim, row.proof, row.title, *own, name)
         fresh.setdefault((row.id, row.m), []).append(one)
     every: list[ClaimRow] = []
     for row in rows:
