@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR
 from fractions import Fraction
 from functools import lru_cache
 
-from lyapcheck.output.digits import integer_digits, scaled_text
+from lyapcheck.output.digits import scaled_text, significant
 
 TYPE_CHECKING = False  # so that nothing is imported that is not used
 if TYPE_CHECKING:
@@ -109,19 +109,12 @@ def round_down(value: Fraction, places: int) -> Fraction:
 
 def significant_down(value: Fraction, digits: int) -> Fraction:
     """The largest decimal of so many significant digits that is not above a number ≥ 0."""
-    unit = _last_unit(value, digits)
-    return math.floor(value / unit) * unit
+    return Fraction(significant(value, digits, ROUND_FLOOR))
 
 
 def significant_up(value: Fraction, digits: int) -> Fraction:
     """The smallest decimal of so many significant digits that is not below a number ≥ 0."""
-    unit = _last_unit(value, digits)
-    return math.ceil(value / unit) * unit
-
-
-def _last_unit(value: Fraction, digits: int) -> Fraction:
-    """What the last of so many significant digits counts."""
-    return Fraction(10) ** (integer_digits(value) - digits)
+    return Fraction(significant(value, digits, ROUND_CEILING))
 
 
 def decimal_text(value: Fraction | int, places: int | None = None) -> str:

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import decimal
 import math
+from decimal import Decimal
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -111,17 +113,15 @@ def _safe(x: Exact, digits: int, *, upward: bool) -> str:
         return "∞" if value > 0 else "-∞"
     if value == 0:
         return "0"
-    power = integer_digits(abs(value)) - digits
-    scaled = value / Fraction(10) ** power
-    units = math.ceil(scaled) if upward else math.floor(scaled)
-    while units % 10 == 0:
-        units, power = units // 10, power + 1
-    # ``units`` times 10^power, with an exponent only where the number is very large or small
-    last = len(str(abs(units))) - 1
-    if power + last in PLAIN:
-        return scaled_text(units, -power) if power < 0 else str(units * 10**power)
-    text = scaled_text(units, last)
-    return f"{text}e{power + last:+d}"
+    result = significant(value, digits, decimal.ROUND_CEILING if upward else decimal.ROUND_FLOOR)
+    # with an exponent only where the number is very large or small
+    return f"{result:f}" if result.adjusted() in PLAIN else f"{result:e}"
+
+
+def significant(value: Fraction, digits: int, rounding: str) -> Decimal:
+    """The number in so many significant digits, without zeros at its end, rounded as ``decimal`` says."""
+    context = decimal.Context(digits, rounding, decimal.MIN_EMIN, decimal.MAX_EMAX)
+    return context.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(context)
 
 
 def _end(x: Exact, upward: bool) -> Fraction | float:
@@ -156,13 +156,7 @@ def _places(number: Enclosure, digits: int) -> int:
 
 def integer_digits(value: Fraction) -> int:
     """The exponent e with 10^(e-1) <= value < 10^e (1 for zero)."""
-    if value == 0:
-        return 1
-    bits = value.numerator.bit_length() - value.denominator.bit_length()
-    guess = math.floor((bits - 1) * math.log10(2))
-    while Fraction(10) ** guess <= value:
-        guess += 1
-    return guess
+    return significant(value, 1, decimal.ROUND_DOWN).adjusted() + 1
 
 
 def scaled_text(scaled: int, places: int) -> str:

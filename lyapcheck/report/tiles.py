@@ -15,6 +15,8 @@ from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, HoldsCheck, falls, 
 from lyapcheck.answers.running.sampled import SAMPLED, SampledCheck
 from lyapcheck.check.kinds.inertia import PostureWitness
 from lyapcheck.check.kinds.sampled_unstable import GrowingMotion
+from lyapcheck.check.loop.chain import UNIT, Posture, RigidLink
+from lyapcheck.check.numbers.vectors import Algebra, Matrix, Vector
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check, Conditions
 from lyapcheck.control.sampling import time_text
 from lyapcheck.family.base import named
@@ -28,7 +30,6 @@ from lyapcheck.report.model import Motion, Tile, keeps_limits
 if TYPE_CHECKING:
     from lyapcheck._types import Array
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.check.loop.chain import RigidLink
     from lyapcheck.report.model import Report, RunRow
     from lyapcheck.robots import RobotModel
 
@@ -286,7 +287,7 @@ def drawn_motions(model: RobotModel, t: Array, q: Array, frames: int = FRAMES) -
             Motion(tuple(((0.0, 0.0), (float(x), float(y))) for x, y in hands[:, i]), seconds, joint)
             for i, joint in enumerate(model.joints)
         )
-    places = np.array([_places(chain.links, q[k]) for k in picked])
+    places = np.array([_places(chain.links, q[k]) for k in picked], dtype=float)
     up = -np.array([float(x) for x in chain.fall])
     up = up / np.linalg.norm(up) if np.linalg.norm(up) > 0 else np.array([0.0, 1.0, 0.0])
     across = places.reshape(-1, 3) - np.outer(places.reshape(-1, 3) @ up, up)
@@ -298,17 +299,15 @@ def drawn_motions(model: RobotModel, t: Array, q: Array, frames: int = FRAMES) -
     return (Motion(tuple(tuple(frame) for frame in rounded), seconds),)
 
 
-def _places(links: Sequence[RigidLink], q: Array) -> list[Array]:
+def _places(links: Sequence[RigidLink], q: Array) -> list[Vector]:
     """Base, each joint, and the centre of mass of the last link as its end."""
     import numpy as np
 
-    place, turn, result = np.zeros(3), np.eye(3), [np.zeros(3)]
-    for link, angle in zip(links, q, strict=True):
-        axis, origin, own = (np.array(x, dtype=float) for x in (link.axis, link.origin, link.turn))
-        place = place + turn @ origin
-        cross = np.cross(np.eye(3), axis)
-        rotation = np.outer(axis, axis) + np.cos(angle) * (np.eye(3) - np.outer(axis, axis))
-        turn = turn @ own @ (rotation + np.sin(angle) * cross)
+    of = Algebra(float)
+    place: Vector = [0.0] * 3
+    turn: Matrix = UNIT
+    result = [place]
+    for link, own in zip(links, Posture(links, [*np.sin(q)], [*np.cos(q)], of).turns, strict=True):
+        place, turn = of.add(place, of.apply(turn, link.origin)), of.product(turn, own)
         result.append(place)
-    result.append(place + turn @ np.array(links[-1].com, dtype=float))
-    return result
+    return [*result, of.add(place, of.apply(turn, links[-1].com))]
