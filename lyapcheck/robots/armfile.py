@@ -30,10 +30,10 @@ from lyapcheck.files.toml import open_document, require_kind
 from lyapcheck.output.escapes import printable
 from lyapcheck.robots.bodies import ChainPlan, impossible_state, read_chain
 from lyapcheck.robots.choice import Choice
-from lyapcheck.robots.fields import PARTS, PAYLOAD, ArmFields, ArmNotes, Number, Vary, of_joints, read_motor
+from lyapcheck.robots.fields import PARTS, ArmFields, ArmNotes, Number, Vary, of_joints, read_motor
 from lyapcheck.robots.plant import RobotModel
 from lyapcheck.robots.printed import PrintedPlan, read_model
-from lyapcheck.robots.vary import MASSES, MOTOR, require_movable, varied, varied_numbers, with_bodies
+from lyapcheck.robots.vary import MASSES, require_movable, varied, varied_numbers, with_bodies
 
 EXACT = Fraction(0)
 
@@ -97,7 +97,7 @@ def read_arm(
         printed=plan.torques,
         loop=loop,
     )
-    model = varied(model, vary, (*MOTOR, PAYLOAD))
+    model = varied(model, vary, links=False)
     if not tested and (broken := impossible_state(model)):
         repair = "every joint must move some inertia: check masses, inertias, signs and ranges"
         notes.fail((plan.place,), None, broken, repair)

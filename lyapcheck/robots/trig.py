@@ -12,8 +12,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce
 from itertools import product
+from operator import add
 from typing import Any, Protocol, TypeVar
 
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
@@ -85,50 +86,6 @@ def normal_form(poly: fmpq_mpoly) -> fmpq_mpoly:
         if degrees[i] >= 2:
             _, poly = divmod(poly, ring.gen(i) ** 2 + ring.gen(n + i) ** 2 - 1)
     return poly
-
-
-def evaluate_all(polys: Sequence[Terms], values: Sequence[T], lift: Callable[[Fraction], T]) -> list[T]:
-    """The values of several polynomials of one ring in any arithmetic, each monomial computed once.
-
-    Args:
-        polys: their terms.
-        values: one value for each generator of the ring, in order.
-        lift: turns an exact coefficient into a value of that arithmetic.
-
-    Soundness: as good as the arithmetic: with containing ``+``, ``*`` and ``lift`` the results contain the
-    values at every point of ``values``.
-    """
-    known: dict[tuple[int, ...], T] = {}
-
-    def term(powers: tuple[int, ...], coefficient: Fraction) -> T:
-        if not any(powers):
-            return lift(coefficient)
-        value: Any = _monomial(powers, known, values)
-        result: T = value if coefficient == 1 else lift(coefficient) * value
-        return result
-
-    return [total([term(*entry) for entry in poly], lift) for poly in polys]
-
-
-def _monomial(powers: tuple[int, ...], known: dict[tuple[int, ...], T], values: Sequence[Any]) -> T:
-    """The product of the generators, from that of the monomial with one generator fewer."""
-    if powers not in known:
-        last = max(i for i, power in enumerate(powers) if power)
-        rest = (*powers[:last], powers[last] - 1, *powers[last + 1 :])
-        value = values[last]
-        known[powers] = _monomial(rest, known, values) * value if any(rest) else value
-    return known[powers]
-
-
-def total(terms: Sequence[T], lift: Callable[[Fraction], T]) -> T:
-    """The sum of the terms, the lifted 0 when there are none."""
-    if not terms:
-        return lift(Fraction(0))
-    result: Any = terms[0]
-    for term in terms[1:]:
-        result = result + term
-    final: T = result
-    return final
 
 
 def substitute(poly: fmpq_mpoly, values: Mapping[str, Fraction], ring: fmpq_mpoly_ctx) -> fmpq_mpoly:
@@ -286,7 +243,7 @@ class _Evaluated(ArmAtAngles):
         for (i, j, k), symbol in zip(symbols, self._values(symbols.values()), strict=True):
             terms.setdefault((i, j), []).append(symbol * x[k])
         joints = range(self._of.n)
-        return [[total(terms.get((i, j), []), self._lift) for j in joints] for i in joints]
+        return [[self._total(terms.get((i, j), [])) for j in joints] for i in joints]
 
     def gravity(self) -> list[Any]:
         return self._values(self._of.gravity_terms)
@@ -295,4 +252,22 @@ class _Evaluated(ArmAtAngles):
         return self._values([to_terms(self._of.potential)])[0]
 
     def _values(self, polys: Iterable[Terms]) -> list[Any]:
-        return evaluate_all(list(polys), self._point, self._lift)
+        known: dict[tuple[int, ...], Any] = {}
+
+        def monomial(powers: tuple[int, ...]) -> Any:
+            """The product of the generators, from that of the monomial with one generator fewer."""
+            if powers not in known:
+                last = max(i for i, power in enumerate(powers) if power)
+                rest = (*powers[:last], powers[last] - 1, *powers[last + 1 :])
+                known[powers] = monomial(rest) * self._point[last] if any(rest) else self._point[last]
+            return known[powers]
+
+        def term(powers: tuple[int, ...], coefficient: Fraction) -> Any:
+            if not any(powers):
+                return self._lift(coefficient)
+            return monomial(powers) if coefficient == 1 else self._lift(coefficient) * monomial(powers)
+
+        return [self._total([term(*entry) for entry in poly]) for poly in polys]
+
+    def _total(self, terms: Sequence[Any]) -> Any:
+        return reduce(add, terms) if terms else self._lift(Fraction(0))

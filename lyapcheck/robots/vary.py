@@ -31,43 +31,35 @@ def varied_numbers(numbers: Mapping[str, Number], varies: Sequence[Vary]) -> dic
     return result
 
 
-def varied(
-    model: RobotModel, varies: Sequence[Vary], parts: Sequence[str] = (*MOTOR, *MASSES, PAYLOAD)
-) -> RobotModel:
-    """An arm with ranges for friction and limits, and where its links are known for their masses.
+def varied(model: RobotModel, varies: Sequence[Vary], links: bool = True) -> RobotModel:
+    """An arm with ranges for friction and limits, and with a payload where its links are known.
 
     Args:
         model: the arm.
         varies: the ranges.
-        parts: what may be changed here: numbers of joints, ``mass``, ``rotor_inertia``, ``payload``.
+        links: whether masses and rotor inertias of known links get their ranges here, too.
 
     Raises:
         InputError: a range with a friction below 0, or a mass that is not positive.
     """
-    moved: dict[str, Number] = {}
-    changed: dict[str, Any] = {}
-    for part in MOTOR:
-        keys = [f"{joint}_{part}" for joint in model.joints]
-        known = {
-            key: number for key, number in zip(keys, getattr(model, part), strict=True) if number is not None
-        }
-        now = varied_numbers(known, varies) if part in parts else known
-        moved |= {key: number for key, number in now.items() if number is not known[key]}
-        changed[part] = tuple(now.get(key) for key in keys)
-    known = _masses_of(model)
-    masses = varied_numbers(known, varies) if "mass" in parts else dict(known)
+    motors = {
+        f"{joint}_{part}": number
+        for part in MOTOR
+        for joint, number in zip(model.joints, getattr(model, part), strict=True)
+        if number is not None
+    }
+    rotors = (f"{joint}{ROTOR}" for joint in model.joints)
+    bodies = _masses_of(model) | {key: model.numbers[key] for key in rotors if key in model.numbers}
+    known = motors | bodies
+    now, last = varied_numbers(known if links else motors, varies), f"{model.joints[-1]}_mass"
     for vary in varies:
-        if vary.name == PAYLOAD and PAYLOAD in parts and masses:
-            own = masses[last := f"{model.joints[-1]}_mass"]
+        if vary.name == PAYLOAD and last in bodies:
+            own = now.get(last, bodies[last])
             low, high = (end + more for end, more in zip(own.bounds, (vary.low, vary.high), strict=True))
-            masses[last] = replace(own, value=own.value + vary.low, low=low, high=high)
-    keys = [f"{joint}{ROTOR}" for joint in model.joints]
-    own_rotors = {key: model.numbers[key] for key in keys if key in model.numbers}
-    rotors = varied_numbers(own_rotors, varies) if MASSES[0] in parts else {}
-    known |= own_rotors
-    inner = {key: number for key, number in (masses | rotors).items() if number is not known[key]}
+            now[last] = replace(own, value=own.value + vary.low, low=low, high=high)
+    moved = {key: number for key, number in now.items() if number is not known[key]}
     problems = []
-    for key, number in (moved | inner).items():
+    for key, number in moved.items():
         low, said = number.bounds[0], f"{key} from {decimal_text(number.bounds[0])}"
         positive = key.endswith(("mass", "torque_limit"))
         for broken, rule in ((positive and low <= 0, "must be positive"), (low < 0, "must not be negative")):
@@ -75,7 +67,12 @@ def varied(
                 problems.append(Problem("argument", None, OPTION, said, rule, "raise the lower end"))
     if problems:
         raise InputError(problems)
-    return with_bodies(replace(model, numbers=model.numbers | moved, **changed), inner)
+    inner = {key: number for key, number in moved.items() if key in bodies}
+    parts: dict[str, Any] = {
+        part: tuple(now.get(f"{joint}_{part}") for joint in model.joints) for part in MOTOR
+    }
+    outer = {key: number for key, number in moved.items() if key not in bodies}
+    return with_bodies(replace(model, numbers=model.numbers | outer, **parts), inner)
 
 
 def with_bodies(model: RobotModel, numbers: dict[str, Number]) -> RobotModel:

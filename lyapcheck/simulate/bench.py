@@ -105,7 +105,7 @@ class Bench(LoopRecord):
             rule = f"needs the links of the arm, and {model.name} is given by its inertia matrix"
             repair = "leave it out, or give an arm file with links"
             raise argument_error("unknown_payload", decimal_text(load), rule, repair)
-        return varied(model, [Vary(PAYLOAD, load, load)], [PAYLOAD])
+        return varied(model, [Vary(PAYLOAD, load, load)])
 
     def unknown(self, model: RobotModel, q: Array) -> Array:
         """Δg(q), N·m: gravity beyond what the controller knows, (…, n) angles in rad to (…, n)."""
