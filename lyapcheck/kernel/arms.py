@@ -12,13 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from lyapcheck.check.kinds.coriolis import (
-    CoriolisAtRest,
-    CoriolisBelow,
-    MassSymmetric,
-    RateLessTwiceCoriolis,
-    RateOfMass,
-)
+from lyapcheck.check.kinds.coriolis import CoriolisBelow
 from lyapcheck.check.kinds.decreasing import (
     BoxTree,
     Decreasing,
@@ -32,6 +26,7 @@ from lyapcheck.check.loop.schur import MORE_HALVINGS
 from lyapcheck.check.numbers.harmonics import angles_in
 from lyapcheck.check.numbers.polynomials import root_above
 from lyapcheck.check.statement import Proof
+from lyapcheck.kernel.statements import OF_ARM
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.search.sampled import arm_of_terms
@@ -112,24 +107,14 @@ def property_script(statement: OfArm, proof: Proof) -> str:
     """
     if isinstance(statement, MassBelow | CoriolisBelow) and not isinstance(proof, HarmonicSizes):
         raise NotPrinted(f"an upper bound by {proof.rule}")
-    if type(statement) in BY_ENTRIES:
-        return f"apply {BY_ENTRIES[type(statement)]}; computed."
-    if not isinstance(statement, MassAbove):
+    _, theorem = OF_ARM.get(type(statement), ("", ""))
+    if not theorem:
         raise NotPrinted(f"statements of the kind {type(statement).__name__}")
+    if not isinstance(statement, MassAbove):  # what has to compute with the entries of M(q) alone
+        return f"apply {theorem}; computed."
     angles = angles_in(statement.inertia.mass)
     lowest = Fraction(_lowest(statement.mass, angles)).limit_denominator(10**6)
-    return _applied("M_above_by_boxes", _lower(angles, (statement.low + lowest) / 2))
-
-
-BY_ENTRIES: dict[type, str] = {
-    MassBelow: "M_below_by_rows",
-    CoriolisBelow: "C_below_by_squares",
-    MassSymmetric: "M_symmetric_by_entries",
-    CoriolisAtRest: "C_is_0_at_rest",
-    RateOfMass: "M_rate_by_entries",
-    RateLessTwiceCoriolis: "M_rate_less_2C_by_entries",
-}
-"""The theorems that have to compute with the entries of M(q) alone."""
+    return _applied(theorem, _lower(angles, (statement.low + lowest) / 2))
 
 
 def _lower(angles: Sequence[int], alpha: Fraction) -> dict[str, str]:

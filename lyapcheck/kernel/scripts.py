@@ -37,7 +37,7 @@ from lyapcheck.check.statement import Proof, Statement, Witness
 from lyapcheck.kernel.arms import arm_script, by_norms, property_script
 from lyapcheck.kernel.gate import facts, gate_refutation_script, gate_script, sampled_script
 from lyapcheck.kernel.signs import for_small, implication
-from lyapcheck.kernel.statements import proposition
+from lyapcheck.kernel.statements import property_of
 from lyapcheck.kernel.terms import (
     NotPrinted,
     bound,
@@ -50,14 +50,6 @@ from lyapcheck.kernel.terms import (
 )
 from lyapcheck.kernel.words import every_n_script
 
-THEOREMS = {
-    "only_equilibrium": "origin_is_only_equilibrium",
-    "equilibrium_of_tracking": "origin_is_equilibrium_of_tracking",
-    "V_positive_definite": "V_is_positive_definite",
-    "V_bounded_below": "V_is_bounded_below",
-    "V_bounded_above": "V_is_bounded_above",
-    "V_radially_unbounded": "V_is_radially_unbounded",
-}
 X: Tree = ("var", "x")
 
 
@@ -165,8 +157,8 @@ def _disagrees(statement: Agrees, proof: OutsideRounding) -> str:
 
 @proved.register
 def _(statement: Property, proof: Proof) -> str:
-    name, _, _ = proposition(statement).partition(" ")
-    return f"apply {THEOREMS[name]}; lia."
+    _, theorem = property_of(statement)
+    return f"apply {theorem}; lia."
 
 
 @proved.register

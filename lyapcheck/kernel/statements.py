@@ -61,26 +61,27 @@ from lyapcheck.kernel.terms import (
 )
 
 PROPERTIES = {
-    (EQUILIBRIUM, False): "only_equilibrium",
-    (AN_EQUILIBRIUM, False): "only_equilibrium",
-    (AN_EQUILIBRIUM, True): "equilibrium_of_tracking",
-    (POSITIVE, False): "V_positive_definite",
-    (POSITIVE, True): "V_bounded_below",
-    (UNBOUNDED, False): "V_radially_unbounded",
-    (DECRESCENT, False): "V_bounded_above",
-    (DECRESCENT, True): "V_bounded_above",
+    (EQUILIBRIUM, False): ("only_equilibrium", "origin_is_only_equilibrium"),
+    (AN_EQUILIBRIUM, False): ("only_equilibrium", "origin_is_only_equilibrium"),
+    (AN_EQUILIBRIUM, True): ("equilibrium_of_tracking", "origin_is_equilibrium_of_tracking"),
+    (POSITIVE, False): ("V_positive_definite", "V_is_positive_definite"),
+    (POSITIVE, True): ("V_bounded_below", "V_is_bounded_below"),
+    (UNBOUNDED, False): ("V_radially_unbounded", "V_is_radially_unbounded"),
+    (DECRESCENT, False): ("V_bounded_above", "V_is_bounded_above"),
+    (DECRESCENT, True): ("V_bounded_above", "V_is_bounded_above"),
 }
-"""The properties of the loop and of V that the page of definitions has, and whether the goal moves."""
-OF_ARM: dict[type, str] = {
-    MassAbove: "M_above",
-    MassBelow: "M_below",
-    CoriolisBelow: "C_below",
-    MassSymmetric: "M_symmetric",
-    CoriolisAtRest: "C_at_rest",
-    RateOfMass: "M_rate_by_C",
-    RateLessTwiceCoriolis: "M_rate_less_2C",
+"""By properties of the loop and of V, and whether the goal moves: what the page of definitions calls it, and
+the theorem that shows it."""
+OF_ARM: dict[type, tuple[str, str]] = {
+    MassAbove: ("M_above", "M_above_by_boxes"),
+    MassBelow: ("M_below", "M_below_by_rows"),
+    CoriolisBelow: ("C_below", "C_below_by_squares"),
+    MassSymmetric: ("M_symmetric", "M_symmetric_by_entries"),
+    CoriolisAtRest: ("C_at_rest", "C_is_0_at_rest"),
+    RateOfMass: ("M_rate_by_C", "M_rate_by_entries"),
+    RateLessTwiceCoriolis: ("M_rate_less_2C", "M_rate_less_2C_by_entries"),
 }
-"""What the page of definitions calls the properties of one arm."""
+"""The same of the properties of one arm."""
 
 
 def shown(statement: Statement, proof: Proof, verdict: str) -> str:
@@ -192,11 +193,21 @@ def _(statement: NormBound) -> str:
 @proposition.register
 def _(statement: Property) -> str:
     """Of the loop (11) or V of (13), for every ε₀ > 0; the bounds that it follows from are not part of it."""
-    name = PROPERTIES.get((statement.name, statement.argument.system.desired))
-    if name is None:
-        raise NotPrinted(f"the property “{statement.name}”")
+    name, _ = property_of(statement)
     of = member_of if statement.name in (EQUILIBRIUM, AN_EQUILIBRIUM) else member_of_energy
     return f"{name} {of(statement.argument)}"
+
+
+def property_of(statement: Property) -> tuple[str, str]:
+    """What Coq calls a property, and the theorem that shows it.
+
+    Raises:
+        NotPrinted: it calls it nothing.
+    """
+    names = PROPERTIES.get((statement.name, statement.argument.system.desired))
+    if names is None:
+        raise NotPrinted(f"the property “{statement.name}”")
+    return names
 
 
 @proposition.register
@@ -232,14 +243,14 @@ def _(statement: MassAbove | MassBelow | CoriolisBelow) -> str:
     if statement.parameters:
         raise NotPrinted("a bound for an arm with uncertain numbers")
     end = statement.low if isinstance(statement, MassAbove) else statement.high
-    return f"{OF_ARM[type(statement)]} {arm(statement.mass, ())} {exact(end)}"
+    return f"{OF_ARM[type(statement)][0]} {arm(statement.mass, ())} {exact(end)}"
 
 
 @proposition.register
 def _(statement: MassSymmetric | CoriolisAtRest | RateOfMass | RateLessTwiceCoriolis) -> str:
     if not isinstance(statement, MassSymmetric) and statement.printed:
         raise NotPrinted("a printed Coriolis matrix")
-    return f"{OF_ARM[type(statement)]} {any_arm(statement.mass, statement.parameters)}"
+    return f"{OF_ARM[type(statement)][0]} {any_arm(statement.mass, statement.parameters)}"
 
 
 def _of_arm(name: str, statement: Decreasing) -> str:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import shutil
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from lyapcheck._types import SEED, Progress, silent
@@ -173,13 +172,12 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     Raises:
         InputError: the file system refuses.
     """
-    staged = None
     try:
         folder.mkdir(parents=True, exist_ok=True)
         encoded = {name: one if isinstance(one, bytes) else one.encode() for name, one in files.items()}
         fresh = {name: content for name, content in encoded.items() if not holds(folder / name, content)}
-        staged = Path(tempfile.mkdtemp(dir=folder, prefix=".writing-"))
-        with pending(staged):
+        with TemporaryDirectory(dir=folder, prefix=".writing-") as place, pending(place):
+            staged = Path(place)
             for name, content in fresh.items():
                 (staged / name).parent.mkdir(parents=True, exist_ok=True)
                 (staged / name).write_bytes(content)
@@ -189,6 +187,3 @@ def write(files: Mapping[str, str | bytes], folder: Path) -> None:
     except OSError as error:
         repair = "free some space or name another folder"
         raise argument_error("--out", folder, f"cannot be written ({error.strerror})", repair) from error
-    finally:
-        if staged is not None:
-            shutil.rmtree(staged, ignore_errors=True)
