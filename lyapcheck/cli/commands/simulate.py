@@ -191,9 +191,8 @@ def run(
     corner_text, others = corners(ranged) if ranges else ("", ())
     where = ", which lies outside the ranges," if outside(model, ranged) else ""
     arms = f"the arm of the file{where} and {corner_text}" if ranges else ""
-    folder = certificate_folder(certificates)
+    folder, cases = certificate_folder(certificates), on_arms(gain_file.gains, model, others)
     assert task is not None
-    cases = on_arms(gain_file.gains, model, others)
     move, kind, samples = way_of(task, path, starts, bench, band, not options["keep_going"])
     watched = eps0 if path is not None else eps0 or 0.0
     with progress("simulate") as advance:
