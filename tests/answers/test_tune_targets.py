@@ -293,3 +293,15 @@ def test_an_error_at_rest_is_not_met_without_a_known_dry_friction() -> None:
     assert answer.document().title.endswith("is open; error at rest unknown")
     assert "the arm file gives no dry friction of pivot" in str(answer)
     assert answer.records()[0]["rest_error"] is None
+
+
+def test_what_a_computer_allows_is_not_said_to_be_what_19_allows() -> None:
+    """Where the rate leaves less k_v than (19) does, (19) does not keep it from being larger."""
+    model = robots.load("pendulum1")
+    bench = Trials(Wishes(settle=3), (task_for(1, [0.8], None, None, 5.0),))
+    search = Search(bench, [model], limits_with(model), 1, BY_19)
+    top = search.most_kv[0] * search.unit
+    assert search._held(GainSet("at", 1, (search.unit,), (top,))) == ("(19)",)
+    search.most_kv = [search.most_kv[0] // 2]
+    half = search.most_kv[0] * search.unit
+    assert search._held(GainSet("below", 1, (search.unit,), (half,))) == ("",)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from operator import itemgetter
@@ -60,6 +60,7 @@ class _Try(NamedTuple):
     trial: Trial
 
 
+@dataclass(eq=False)
 class Search:
     """The gains of one member of the family, with one way to show stability.
 
@@ -69,30 +70,25 @@ class Search:
         limits: of the arm; torque limits and friction are known.
         m: the member.
         way: ``19`` or ``proof``.
-        record: how a computer runs them; ``None`` at an infinite rate.
+        record: how a computer runs them; without a period at an infinite rate.
     """
 
-    def __init__(
-        self,
-        bench: Trials,
-        models: Sequence[RobotModel],
-        limits: Limits,
-        m: int,
-        way: str,
-        record: LoopRecord | None = None,
-    ) -> None:
-        self.bench, self.models, self.limits, self.m, self.way = bench, models, limits, m, way
-        self.record = record if record is not None and record.period is not None else None
-        n, unit = limits.n, Fraction(1, 10**bench.digits)
-        gamma = named("hyperbolic", m).gamma
-        rows = zip(limits.torque, limits.gravity, strict=True)
-        sums = [scaled((torque or Fraction(0)) - gravity, 1, gamma) for torque, gravity in rows]
-        self.unit = unit
-        self.most_sum = [one.most_units(bench.digits) for one in sums]
+    bench: Trials
+    models: Sequence[RobotModel]
+    limits: Limits
+    m: int
+    way: str
+    record: LoopRecord | None = None
+
+    def __post_init__(self) -> None:
+        limits, digits, gamma = self.limits, self.bench.digits, named("hyperbolic", self.m).gamma
+        self.unit = Fraction(1, 10**digits)
+        self.most_sum = [scaled(room or Fraction(0), 1, gamma).most_units(digits) for room in limits.room]
         self.most_kv = [most - 1 for most in self.most_sum]
-        if way == BY_19 and limits.viscous_min is not None:
-            by_19 = scaled(limits.viscous_min, n, gamma).most_units(bench.digits)
-            self.most_kv = [min(most, by_19) for most in self.most_kv]
+        self.by_19 = 0  # what no k_v is
+        if self.way == BY_19 and limits.viscous_min is not None:
+            self.by_19 = scaled(limits.viscous_min, limits.n, gamma).most_units(digits)
+            self.most_kv = [min(most, self.by_19) for most in self.most_kv]
 
     @property
     def possible(self) -> bool:
@@ -101,10 +97,10 @@ class Search:
 
     def run(self, progress: Progress = silent) -> Candidate:
         """The best set that was tried; where a computer cannot run it, that with less k_v."""
-        if self.record is None:
+        if self.record is None or self.record.period is None:
             return self._best(progress)
         for share in SHARES_OF_DAMPING:
-            most = share * self._lightest / (float(self.record.period or 0) * (1 + self.record.delay))
+            most = share * self._lightest / (float(self.record.period) * (1 + self.record.delay))
             units = np.maximum(most / float(self.unit), 1.0).astype(int).tolist()
             self.most_kv = [min(pair) for pair in zip(self.most_kv, units, strict=True)]
             found = self._best(progress)
@@ -172,9 +168,9 @@ class Search:
     def _held(self, gains: GainSet) -> tuple[str, ...]:
         """Per joint the conditions that keep its gains from being larger."""
         result = []
-        for kp, kv, most, most_kv in zip(gains.kp, gains.kv, self.most_sum, self.most_kv, strict=True):
-            by_19 = self.way == BY_19 and kv == most_kv * self.unit
-            result.append(", ".join(["(10i)"] * (kp + kv == most * self.unit) + ["(19)"] * by_19))
+        for kp, kv, most in zip(gains.kp, gains.kv, self.most_sum, strict=True):
+            rules = (("(10i)", kp + kv == most * self.unit), ("(19)", kv == self.by_19 * self.unit))
+            result.append(", ".join(rule for rule, reached in rules if reached))
         return tuple(result)
 
     @cached_property
