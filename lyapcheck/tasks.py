@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING
 
-from lyapcheck.errors import InputError, argument_error
+from lyapcheck.errors import InputError, argument_error, told_as
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,7 +63,9 @@ def tune_for_targets(
     from lyapcheck.answers.tune.trial import Trials, Wishes
     from lyapcheck.robots import arm_of
 
-    wishes = Wishes(overshoot, settle, peak_share, rest_error)
+    names = ("overshoot", "settle", "peak_share", "rest_error")
+    with told_as({f"--{name.replace('_', '-')}": name for name in names}):
+        wishes = Wishes(overshoot, settle, peak_share, rest_error)
     if not wishes.given:
         raise argument_error("targets", "", "are missing", "give overshoot=5, settle=1.5 or rest_error=2")
     model = arm_of(robot)
@@ -99,6 +100,9 @@ def bounds(
     from lyapcheck.files.loop import NOTHING
     from lyapcheck.robots import load
 
+    if not 0.0 < within_deg <= 180.0:
+        rule = "must be more than 0 and at most 180 degrees"
+        raise argument_error("within_deg", within_deg, rule, "give within_deg=1")
     file, arm = _on_arm(gain_file, robot)
     model, varied = (load(arm.address), arm) if arm.varies else (arm, None)
     task, delta = _task(model, target_deg, start_deg, seconds), math.radians(within_deg)
@@ -152,14 +156,12 @@ def export_controller(
         InputError: the file, the arm or the rate cannot be used.
     """
     from lyapcheck.answers.export import export
-    from lyapcheck.control.sampling import record_of
-    from lyapcheck.files.loop import LoopEntry
+    from lyapcheck.control.sampling import loop_of_options, record_of
 
-    hertz = Fraction(str(rate))
-    if hertz <= 0:
-        raise argument_error("rate", str(rate), "must be above 0", "give Hz, for instance rate=1000")
+    with told_as({"--rate": "rate"}):
+        entry = loop_of_options({"rate": str(rate)})
     file, model = _on_arm(gain_file, robot)
-    loop = record_of(LoopEntry(period=1 / hertz), file.loop, model.loop)
+    loop = record_of(entry, file.loop, model.loop)
     assert loop is not None
     return export(file, model, loop)
 
@@ -257,17 +259,24 @@ def _task(
     model: RobotModel, target: Sequence[float] | None, start: Sequence[float] | None, seconds: float
 ) -> Task:
     """The motion between two postures in degrees."""
-    from lyapcheck.simulate.task import task_for
+    from lyapcheck.simulate.task import FARTHEST, task_for
 
     goal = [45.0] * model.n if target is None else target
     first = None if start is None else [math.radians(x) for x in start]
     try:
         return task_for(model.n, [math.radians(x) for x in goal], first, None, seconds)
     except InputError as error:
-        given = {"target_rad": ("target_deg", goal), "start_rad": ("start_deg", start or ())}
+        given = {
+            "target_rad": ("target_deg", goal),
+            "start_rad": ("start_deg", start or ()),
+            "T": ("seconds", (seconds,)),
+        }
         problems = []
         for one in error.problems:
-            key, values = given.get(one.key, (one.key, None))
-            value = one.value if values is None else ", ".join(f"{x:g}" for x in values)
-            problems.append(replace(one, key=key, value=value))
+            key, values = given[one.key]
+            value, said = ", ".join(f"{x:g}" for x in values), one
+            if one.repair == "give values in rad":
+                rule = f"every value must be finite and at most {math.degrees(FARTHEST):.0f} degrees in size"
+                said = replace(one, rule=rule, repair="give values in degrees")
+            problems.append(replace(said, key=key, value=value))
         raise InputError(problems) from None

@@ -191,6 +191,26 @@ def test_gains_are_judged_over_the_ranges_that_an_arm_was_loaded_with(tmp_path):
         lyapcheck.tune_gains(arm, [1], varies=varies)
 
 
+UNUSABLE = {
+    "rate": lambda file: lyapcheck.export_controller(file, rate="fast"),
+    "within_deg": lambda file: lyapcheck.bounds(file, within_deg=0),
+    "seconds": lambda file: lyapcheck.bounds(file, seconds=-1),
+    "target_deg": lambda file: lyapcheck.bounds(file, target_deg=[1e9]),
+    "overshoot": lambda file: lyapcheck.tune_for_targets("pendulum1", overshoot=-1),
+}
+
+
+@pytest.mark.parametrize("key", UNUSABLE)
+def test_a_task_names_the_parameter_that_it_cannot_use(key, tmp_path):
+    gains = tmp_path / "gains.toml"
+    gains.write_text('robot = "pendulum1"\n' + ONE)
+    with pytest.raises(lyapcheck.InputError) as error:
+        UNUSABLE[key](gains)
+    (problem,) = error.value.problems
+    assert problem.key == key
+    assert " rad" not in problem.rule
+
+
 @pytest.mark.slow
 def test_each_object_of_the_eight_tasks_prints_as_one_short_line(tmp_path):
     gains = tmp_path / "gains.toml"

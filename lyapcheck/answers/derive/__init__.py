@@ -158,4 +158,4 @@ def require_up_to(name: str, value: int, most: int) -> None:
         InputError: it is not.
     """
     if not 1 <= value <= most:
-        raise argument_error(name, value, f"must be from 1 to {most}", f"give {name} = 2")
+        raise argument_error(name, value, f"must be from 1 to {most}", "give 2")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
 from lyapcheck.cli.values import parse_m
+from lyapcheck.errors import told_as
 from lyapcheck.output.answer import FORMATS
 from lyapcheck.verdicts import Exit
 
@@ -37,6 +38,7 @@ def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
     from lyapcheck.answers.derive import MOST_JOINTS, derivation, require_up_to
 
     require_up_to("--n", n, MOST_JOINTS)
-    answer = derivation(parse_m(m), n, robot)
+    with told_as({"m": "--m"}):
+        answer = derivation(parse_m(m), n, robot)
     show(answer, format)
     return Exit.PROVED if answer.agreed else Exit.REFUTED
