@@ -27,7 +27,8 @@ from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Statement
 from lyapcheck.check.verify import verify
 from lyapcheck.control.judgement import judged_statement
-from lyapcheck.promise import GUARDED, Promise, promised, promises_as_seen
+from lyapcheck.promise import Promise, promised
+from tests.helpers.words_of_proof import GUARDED, promises_as_seen
 
 F = Fraction
 SINE, COSINE = (1, 0, 0), (0, 1, 0)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import lyapcheck
-from lyapcheck.promise import GUARDED
+from tests.helpers.words_of_proof import GUARDED
 
 PACKAGE = Path(lyapcheck.__file__).parent
 ROOMS = ("answers", "report")

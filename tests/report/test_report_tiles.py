@@ -13,13 +13,13 @@ import numpy as np
 from lyapcheck import robots
 from lyapcheck.answers.gate.judge import judged_sets
 from lyapcheck.control.gains import read_gain_file
-from lyapcheck.promise import GUARDED, promises_as_seen
 from lyapcheck.report.model import Report
 from lyapcheck.report.page import markup, raw, to_do
 from lyapcheck.report.tiles import drawn_motions, tiles, with_before
 from lyapcheck.robots.numeric import NumericModel
 from tests.helpers import command
 from tests.helpers.arm_texts import ONE_JOINT
+from tests.helpers.words_of_proof import GUARDED, promises_as_seen
 
 RUN = {"robot": "reyes-kelly2", "overshoot": [3.0, 0.0], "settling": [1.2, 0.9], "time": 5.0}
 RUN |= {"complete": True, "start": [0.0, 0.0], "target": [45.0, 45.0]}

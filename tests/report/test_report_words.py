@@ -9,11 +9,10 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from lyapcheck.promise import promises_as_seen
 from lyapcheck.report.build import render
 from lyapcheck.report.document import ReportAnswer
 from tests.helpers.redrawn import other
-from tests.helpers.words_of_proof import said, values, words_of_proof
+from tests.helpers.words_of_proof import promises_as_seen, said, values, words_of_proof
 
 
 @pytest.mark.slow

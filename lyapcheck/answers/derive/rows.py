@@ -67,28 +67,6 @@ def tree(expression: Any) -> Tree:
     return expression.func.__name__, *parts
 
 
-def of_family(member: Member) -> dict[str, Statement]:
-    """By the id of the claim: U' is the h that was derived, and h' of the checker's h is the derived one."""
-    h, dh = Expr(tree(member.h)), Expr(tree(member.dh))
-    return {
-        "14": identity(diff(Expr(("potential", member.m, X.tree)), "x"), h),
-        "8": identity(diff(Expr(("h", member.m, X.tree)), "x"), dh),
-    }
-
-
-def equal_values() -> Statement:
-    """(12), as SymPy has it, equals (13) for every n; Σ k_pi U_i in place of uᵀK_p u/(2m)."""
-    x = matrices()
-    squares = {x.share * x.root.T * x.Kp * x.root: x.kp.T * x.U}
-    return every_n(number(value_12(x).subs(squares)), number(value_13(x)), (LOOP.M,), positive=(LOOP.r,))
-
-
-def rate_of_value() -> Statement:
-    """V of (13) has the sum of the derived terms as its derivative along (11), for every n."""
-    x = matrices()
-    return loops.along(LOOP, number(value_13(x)), reduce(add, map(number, terms_15(x))))
-
-
 def number(expression: Any) -> Expr:
     """A (1, 1) matrix of SymPy in the letters of every n."""
     if isinstance(expression, sp.MatAdd):
@@ -303,22 +281,32 @@ class Agreement:
 
 
 def of_member(member: Member) -> list[Agreement]:
-    """h, h', γ and ρ of one m."""
-    stated, m = of_family(member), member.m
+    """h, h', γ and ρ of one m: U' is the h that was derived, and h' of the checker's h the derived one."""
+    m, h, dh = member.m, Expr(tree(member.h)), Expr(tree(member.dh))
+    slope = identity(diff(Expr(("potential", m, X.tree)), "x"), h)
+    rate = identity(diff(Expr(("h", m, X.tree)), "x"), dh)
     return [
-        agreement(f"h_{m} = U_{m}′ is (6)", "same normal form", True, "14", stated["14"]),
-        agreement(f"h_{m}′ is (8)", "same normal form", True, "8", stated["8"]),
+        agreement(f"h_{m} = U_{m}′ is (6)", "same normal form", True, "14", slope),
+        agreement(f"h_{m}′ is (8)", "same normal form", True, "8", rate),
         largest(member, "gamma", "h", member.h, member.gamma_polynomial),
         largest(member, "rho", "dh", member.dh, member.rho_polynomial),
     ]
 
 
 def of_loop(n: int) -> list[Agreement]:
-    """V and dV/dt: SymPy for n joints, the checker for all n."""
-    found, words = derivation(n), f"same polynomial, n = {n}"
+    """V and dV/dt: SymPy for n joints, the checker for all n.
+
+    (12) equals (13), with Σ k_pi U_i in place of uᵀK_p u/(2m). V of (13) has the sum of the terms of (15) as
+    its derivative along (11).
+    """
+    x, found, words = matrices(), derivation(n), f"same polynomial, n = {n}"
+    squares = {x.share * x.root.T * x.Kp * x.root: x.kp.T * x.U}
+    first, second = number(value_12(x).subs(squares)), number(value_13(x))
+    equal = every_n(first, second, (LOOP.M,), positive=(LOOP.r,))
+    rate = loops.along(LOOP, second, reduce(add, map(number, terms_15(x))))
     return [
-        agreement("V: (12) is (13)", words, found.value_is_one(), "12", equal_values()),
-        agreement("dV/dt: the terms of (15) add up", words, found.sum_is_rate(), "15", rate_of_value()),
+        agreement("V: (12) is (13)", words, found.value_is_one(), "12", equal),
+        agreement("dV/dt: the terms of (15) add up", words, found.sum_is_rate(), "15", rate),
     ]
 
 
