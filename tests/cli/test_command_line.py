@@ -72,7 +72,7 @@ BAD = [
         "gate TABLE2 --condition 11",
         ["--condition = 11: is not one of 10, 10p, 10i, 19, scalar, global, lasalle"],
     ),
-    ("derive --n 0", ["--n = 0: must be from 1 to 7; give --n = 2"]),
+    ("derive --n 0", ["--n = 0: must be from 1 to 7; give 2"]),
     ("robot ur5 --fixed a=x", ["--fixed = a: x is no decimal number"]),
     ("check", ["the following arguments are required: PROOF.py"]),
     ("check published.py --only 7x --only 99", ["id = 7x: no claim has this id", "id = 99: no claim"]),
