@@ -114,7 +114,7 @@ BAD = [
     ("simulate TABLE2 --robot pelican2 --target 10,20", ["gains"]),
     ("simulate TABLE2 --csv none/run.csv", ["--csv = none/run.csv: there is no directory none"]),
     ("simulate TABLE2 --plot TABLE2", ["--plot = TABLE2: cannot be made (File exists)"]),
-    ("simulate TABLE2 --robot pelican2", ["tau_m1: has gains for 3 joints, but the arm has 2"]),
+    ("simulate TABLE2 --robot pelican2", ["tau_m1: has gains for 3 joints, but pelican2 has 2"]),
     ("tune", ["the following arguments are required: ROBOT"]),
     ("tune nobody", ["robot = nobody: is neither"]),
     ("tune buap3 --m 0", ["--m = 0: m must be at least 1"]),
