@@ -124,9 +124,9 @@ class GainFile:
         path: KeyPath = ("gains", gain_set.index, key) if key else ("gains", gain_set.index)
         return self.document.place(path if joint is None else (*path, joint))
 
-    def spot(self, gain_set: GainSet) -> dict[str, Any]:
-        """The place of a gain set as annotations have it."""
-        place = self.place(gain_set)
+    def spot(self, gain_set: GainSet, key: str = "", joint: int | None = None) -> dict[str, Any]:
+        """The place of a gain set, or of one of its gains, as annotations have it."""
+        place = self.place(gain_set, key, joint)
         return {"path": self.path} | ({} if place is None else {"line": place.line, "column": place.column})
 
 

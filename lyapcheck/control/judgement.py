@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.certificate import Certificate
 from lyapcheck.check.covers import require_covered
-from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.refusal import Refused
 from lyapcheck.check.statement import Proof, Statement
 from lyapcheck.check.verify import verify
@@ -20,7 +19,6 @@ from lyapcheck.promise import Promise, promised
 if TYPE_CHECKING:
     from lyapcheck.check.certificate import About
     from lyapcheck.check.certificate import Certificate as Read
-    from lyapcheck.control.gains import GainSet
     from lyapcheck.robots import RobotModel
 
 
@@ -111,7 +109,7 @@ def refutes(statement: Statement, proof: Proof) -> bool:
 
 # --- How far from the goal dry friction may leave a joint: k_p |h(e)| ≤ f, tight to six digits.
 #
-# References: (6), (11) of reyes2019family.
+# References: (6), (7), (11) of reyes2019family.
 
 
 HALVINGS = 26
@@ -158,11 +156,6 @@ def degrees_above(error: Fraction) -> str:
     return f"{decimal_text(significant_up(error * DEGREES, 4))}°" if error else "0°"
 
 
-# --- Bounds of the errors at states of rest, tight to six digits, as the checker accepts them.
-#
-# References: ``reyes2019family`` (7), (11).
-
-
 Room = tuple[Fraction | None, ...]
 """What the motor of each joint can do beyond gravity, N·m; ``None`` where its limit is not known."""
 
@@ -173,16 +166,3 @@ def stalls(load: Fraction, room: Fraction | None) -> bool:
     Soundness: there τmax ≤ |g_i| + |d_i|. So each state of rest is one of (11) if the load is below the room.
     """
     return room is not None and load >= room
-
-
-def resting(gains: GainSet, dry: Sequence[Fraction], room: Room) -> JudgedStatement | None:
-    """Bounds of |e_i| at every state of rest under dry friction, N·m; none where no joint has one."""
-    errors = tuple(
-        None if stalls(f, most) else rest_error(gains.family, gains.m, f / k)
-        for f, k, most in zip(dry, gains.kp, room, strict=True)
-    )
-    if all(x is None for x in errors):
-        return None
-    statement = Resting(gains.family, gains.m, tuple(gains.kp), tuple(dry), errors)
-    judged = judged_statement(statement, [AtBounds()])
-    return judged if judged.shown == "proved" else None

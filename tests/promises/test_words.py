@@ -9,7 +9,7 @@ import pytest
 from lyapcheck.answers.gate.promises import shown_gravity
 from lyapcheck.answers.gate.stability import positive
 from lyapcheck.check.kinds.gate_accepted import GateAccepted
-from lyapcheck.control.judgement import judged_statement, resting
+from lyapcheck.control.judgement import judged_statement
 from lyapcheck.robots import load
 from lyapcheck.robots.fields import Vary
 from lyapcheck.search.certified import certified_epsilon
@@ -167,6 +167,15 @@ def judge_another(monkeypatch, **fields):
     monkeypatch.setattr("lyapcheck.answers.gate.promises.judged_statement", judged)
 
 
+def with_less_friction(monkeypatch, share):
+    """Have bounds at rest judged for a share of the dry friction that was asked about."""
+
+    def judged(asked, proofs):
+        return judged_statement(replace(asked, torque=tuple(share * f for f in asked.torque)), proofs)
+
+    monkeypatch.setattr("lyapcheck.answers.gate.friction.judged_statement", judged)
+
+
 RANGED = ("gate", "passes.toml", "--vary", "payload=0..2")
 
 
@@ -217,10 +226,7 @@ def test_a_proof_about_the_nominal_arm_accepts_nothing_over_ranges(monkeypatch, 
 def test_less_dry_friction_than_the_largest_promises_no_angle(monkeypatch):
     assert "leaves at most" in invoke(*RANGED).stdout
 
-    monkeypatch.setattr(
-        "lyapcheck.answers.gate.friction.judged_resting",
-        lambda gains, friction, room: resting(gains, [f / 2 for f in friction], room),
-    )
+    with_less_friction(monkeypatch, F(1, 2))
     assert "leaves at most" not in invoke(*RANGED).stdout
 
 
@@ -236,12 +242,9 @@ def test_a_proof_about_the_nominal_arm_answers_no_question_about_ranges(monkeypa
 
 
 def test_a_proof_about_less_friction_or_larger_errors_answers_no_question_of_bounds(monkeypatch):
-    def easier(gains, dry, room):
-        return resting(gains, [F(9, 10) * f for f in dry], room)
-
     words = (*BOUNDS, "--friction", "1,0.5")
     assert invoke(*words).exit_code == 0
-    monkeypatch.setattr("lyapcheck.answers.gate.friction.judged_resting", easier)
+    with_less_friction(monkeypatch, F(9, 10))
     done = invoke(*words)
     assert done.exit_code == 3
     assert done.stdout.startswith("? not all errors at rest are proved")

@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from lyapcheck.robots import RobotModel
 
 PROOF = "epsilon"
-_Epsilon = tuple[Fraction, Sequence[Fraction]]
-"""ε₀, and the weights Λ if there are some."""
 BESIDE = ("boxes", "certified_by", "seed")
 
 
@@ -50,30 +48,29 @@ def certificates(result: EpsilonResult) -> dict[str, Certificate]:
     """Certificates by file name: of each ε₀ that is called certified, of the scalar one if it has one."""
     made: dict[str, Certificate] = {}
     arms = "for every arm in its ranges" if result.ranges else "at nominal numbers"
-
-    def add(file: str, kind: str, about: _Epsilon, statement: Statement, verdict: str, proof: Proof) -> None:
-        eps0, coupling = about
-        weights = ", ".join(map(decimal_text, coupling))
-        says = (
-            f"dV/dt < 0 at every state but the origin: {result.name} on {result.model.name}, {arms}, "
-            f"ε₀ = {decimal_text(eps0)}{f', Λ = diag({weights})' if weights else ''}"
-        )
-        own = About(f"{result.name}.{kind}", says, result.m, len(result.gains.kp), PROOF)
-        certificate = Certificate(own, statement, verdict, "enclosure", proof)
-        made[f"{file_stem(result.name)}.{file}.json"] = certificate
-
     weighted = result.weighted
     known = {
         ("certified", "proved"): result.proof,
         ("scalar", "scalar"): result.scalar_proof,
         ("weighted", "weighted"): weighted.proof if weighted and weighted.proof.coupling else None,
     }
-    for (file, kind), proof in known.items():
-        if proof is not None:
-            add(file, kind, (proof.eps0, proof.coupling), proof.statement, "proved", proof.certificate)
+    rows: list[tuple[str, str, Fraction, Sequence[Fraction], str, Statement, Proof]] = [
+        (file, kind, one.eps0, one.coupling, "proved", one.statement, one.certificate)
+        for (file, kind), one in known.items()
+        if one is not None
+    ]
     if result.against is not None:
-        statement, state = result.against
-        add("falsified", "refuted", (statement.eps0, statement.coupling), statement, "refuted", state)
+        stated, state = result.against
+        rows.append(("falsified", "refuted", stated.eps0, stated.coupling, "refuted", stated, state))
+    for file, kind, eps0, coupling, verdict, statement, proof in rows:
+        weights = f", Λ = diag({', '.join(map(decimal_text, coupling))})" if coupling else ""
+        says = (
+            f"dV/dt < 0 at every state but the origin: {result.name} on {result.model.name}, {arms}, "
+            f"ε₀ = {decimal_text(eps0)}{weights}"
+        )
+        about = About(f"{result.name}.{kind}", says, result.m, len(result.gains.kp), PROOF)
+        name = f"{file_stem(result.name)}.{file}.json"
+        made[name] = Certificate(about, statement, verdict, "enclosure", proof)
     return made
 
 

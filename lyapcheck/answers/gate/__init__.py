@@ -139,7 +139,7 @@ def gate(
 def _annotations(result: GateResult) -> Iterator[Annotation]:
     """One case for the set; where it passes, also what dry friction makes of its gains."""
     first = next(iter(result.failures), None)
-    place = result.file.place(result.gains, *(() if first is None else (RULES[first.id].key, first.joint)))
+    spot = result.file.spot(result.gains, *(() if first is None else (RULES[first.id].key, first.joint)))
     level = LEVELS[result.verdict]
     if result.strict and level is Level.UNDECIDED:
         level = Level.FAILED
@@ -147,8 +147,7 @@ def _annotations(result: GateResult) -> Iterator[Annotation]:
     known = [*head, *advices(result), *(() if result.stable is None else remarks(result)[:1])]
 
     def said(level: Level, rule: str, text: str, message: str) -> Annotation:
-        at = (0, 0) if place is None else (place.line, place.column)
-        return Annotation(level, rule, text, result.name, "", message, result.file.path, *at)
+        return Annotation(level, rule, text, result.name, "", message, **spot)
 
     asked = "the gains meet " + ", ".join(f"({name})" for name in result.deciding)
     yield said(level, "gate", asked, "; ".join(known) if level is not Level.PASSED else "")

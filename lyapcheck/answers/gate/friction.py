@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.answers.gate.stability import small
 from lyapcheck.asked import resting as asked_resting
-from lyapcheck.check.kinds.resting import Resting
+from lyapcheck.check.kinds.resting import AtBounds, Resting
 from lyapcheck.check.numbers.harmonics import harmonics, largest
 from lyapcheck.control.judgement import (
     ACCEPTED,
@@ -28,10 +28,10 @@ from lyapcheck.control.judgement import (
     JudgedStatement,
     Room,
     dry_friction,
+    judged_statement,
     rest_error,
     stalls,
 )
-from lyapcheck.control.judgement import resting as judged_resting
 from lyapcheck.control.sampling import exact_only
 from lyapcheck.control.threshold import Threshold, scaled
 from lyapcheck.errors import installed
@@ -158,7 +158,7 @@ def resting(gains: GainSet, model: RobotModel, room: Room) -> Promise | None:
 def promised_rest(
     gains: GainSet, dry: Sequence[Fraction], room: Room, rounded: Callable[[Fraction], Fraction]
 ) -> tuple[Promise | None, str]:
-    """The promise of these bounds as they are printed, or why there is none.
+    """The promise of bounds of |e_i| at every state of rest, as they are printed, or why there is none.
 
     Args:
         gains: of a bounded h that the checker knows.
@@ -166,12 +166,17 @@ def promised_rest(
         room: of each motor.
         rounded: an angle in degrees as it is printed, which is not below it.
     """
-    shown = judged_resting(gains, dry, room)
-    if shown is None:
+    errors = [
+        None if stalls(f, most) else rest_error(gains.family, gains.m, f / k)
+        for f, k, most in zip(dry, gains.kp, room, strict=True)
+    ]
+    if all(e is None for e in errors):
         return None, ""
-    assert isinstance(shown.statement, Resting)
-    errors = [None if e is None else rounded(e * DEGREES) / DEGREES for e in shown.statement.errors]
-    return promised(asked_resting(gains, dry, errors), shown)
+    shown = judged_statement(asked_resting(gains, dry, errors), [AtBounds()])
+    if shown.verdict != ACCEPTED:
+        return None, ""
+    printed = [None if e is None else rounded(e * DEGREES) / DEGREES for e in errors]
+    return promised(asked_resting(gains, dry, printed), shown)
 
 
 def promised_errors(promise: Promise | None, n: int) -> tuple[Fraction | None, ...]:
