@@ -107,6 +107,10 @@ class LoopRecord:
         return " and ".join(parts)
 
 
+UNSAID = LoopRecord()
+"""Where nothing is said of the loop: of infinite rate, with all gravity known."""
+
+
 def exact_only(record: LoopRecord | None) -> str:
     """What an error at rest leaves out where a coarse encoder is stated."""
     return "" if record is None or record.encoder is None else ", with exact readings"

@@ -22,7 +22,7 @@ from lyapcheck.control.judgement import (
     stalls,
 )
 from lyapcheck.control.limits import model_limits
-from lyapcheck.control.sampling import exact_only
+from lyapcheck.control.sampling import UNSAID, exact_only
 from lyapcheck.errors import argument_error
 from lyapcheck.family import named
 from lyapcheck.files.decimals import decimal_text
@@ -173,6 +173,7 @@ def compare(
         progress(index / len(arms), "simulation")
         runs.append(_run(gain_set, arm, task, delta, dry, errors))
     times, largest, last = zip(*runs, strict=True)
+    loop, own = record or UNSAID, None if None in most else supposed
     return BoundsComparison(
         gains=gain_set,
         model=model,
@@ -186,11 +187,9 @@ def compare(
         simulated_rest=tuple(np.max(last, axis=0).tolist()),
         varies=() if varied is None else tuple(one.text for one in varied.varies),
         corners=tried,
-        unknown=()
-        if record is None or record.knows_gravity
-        else holds_checks(gain_set, whole, record, room, None if None in most else supposed),
-        sampled=record is not None and record.period is not None,
-        exact_only=exact_only(record),
+        unknown=() if loop.knows_gravity else holds_checks(gain_set, whole, loop, room, own),
+        sampled=loop.period is not None,
+        exact_only=exact_only(loop),
     )
 
 

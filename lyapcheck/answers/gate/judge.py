@@ -17,7 +17,7 @@ from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check, C
 from lyapcheck.control.gains import CERTIFICATES, DECIDING, KNOWN, RUNNING, GainFile, GainSet, deciding_for
 from lyapcheck.control.judgement import judged_statement
 from lyapcheck.control.limits import Limits, limits_for
-from lyapcheck.control.sampling import LoopRecord, record_of
+from lyapcheck.control.sampling import UNSAID, LoopRecord, record_of
 from lyapcheck.control.threshold import number
 from lyapcheck.errors import InputError, Problem, argument_error
 from lyapcheck.family.base import named
@@ -209,10 +209,10 @@ def judged_sets(
         checks = (*broken, *undamped, *conditions[key].all(gains, names), *certificates)
         if not undamped and (record is not None or set(RUNNING) & set(names)):
             from lyapcheck.answers.running import running_checks
+            from lyapcheck.answers.running.sampled import AsRun
 
-            searched = more or not explained
-            run = running_checks(gains, limits, record, least, names, checks, searched, kept)
-            checks = (*checks, *run)
+            run = AsRun(gains, limits, record or UNSAID, least, kept)
+            checks = (*checks, *running_checks(run, names, checks, more or not explained))
         asked_for = (*names, GRAVITY, DAMPED)
         passes = all(check.verdict == ACCEPTED for check in checks if check.id in asked_for)
         known = grounds(gains, limits, gain_file.bounds, names, checks) if passes else NO_GROUNDS

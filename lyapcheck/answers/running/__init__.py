@@ -10,49 +10,34 @@ from typing import TYPE_CHECKING
 from lyapcheck.answers.running.holds import HOLDS, HoldsCheck, falls, holds_checks, holds_sentences
 from lyapcheck.answers.running.sampled import SAMPLED, AsRun, SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, Check
-from lyapcheck.control.gains import GainSet
-from lyapcheck.control.limits import Limits
 from lyapcheck.control.sampling import LoopRecord
 
 if TYPE_CHECKING:
     from lyapcheck.answers.gate.judge import GateResult
-    from lyapcheck.check.certificate import Certificate
 
 NO_PERIOD = "no period is known: add rate = … under [loop], or --rate"
 INFINITE = "no [loop] gives a rate: judged for an infinite rate, as in (11)"
 
 
 def running_checks(
-    gains: GainSet,
-    limits: Limits,
-    record: LoopRecord | None,
-    viscous_min: Fraction | None = None,
-    deciding: Sequence[str] = (),
-    others: Sequence[Check] = (),
-    searched: bool = True,
-    kept: Sequence[Certificate] = (),
+    run: AsRun, deciding: Sequence[str] = (), others: Sequence[Check] = (), searched: bool = True
 ) -> tuple[Check, ...]:
     """The one place where an arm, gains and a record become statements that are judged.
 
     Args:
-        gains: the controller.
-        limits: of the arm.
-        record: how a computer runs it, and what it does not know.
-        viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
+        run: all three; without a period an infinite rate is meant.
         deciding: conditions that must hold, whether the record speaks of them or not.
         others: the checks of (10i) and (10p), of which one has to pass for `sampled` to count.
         searched: whether to look for a refutation of what is not shown.
-        kept: certificates that are judged before anything is searched.
     """
     checks: list[Check] = []
-    if record is not None and record.period is not None:
+    if run.record.period is not None:
         passed = [[one.verdict == ACCEPTED for one in others if one.id == name] for name in ("10i", "10p")]
-        inside = any(each and all(each) for each in passed)
-        checks.append(AsRun(gains, limits, record, viscous_min, kept).check(inside, searched))
+        checks.append(run.check(any(each and all(each) for each in passed), searched))
     elif SAMPLED in deciding:
         checks.append(Check(SAMPLED, reason=NO_PERIOD))
-    if HOLDS in deciding or (record is not None and not record.knows_gravity):
-        checks += holds_checks(gains, limits.model, record, limits.room)
+    if HOLDS in deciding or not run.record.knows_gravity:
+        checks += holds_checks(run.gains, run.limits.model, run.record, run.limits.room)
     return tuple(checks)
 
 
@@ -66,8 +51,8 @@ def runs_of(result: GateResult) -> tuple[Check, ...]:
     if any(check.id == SAMPLED for check in known):
         return known
     record = replace(SUPPOSED if result.record is None else result.record, period=SUPPOSED.period)
-    viscous_min = result.file.bounds.viscous_min
-    check = running_checks(result.gains, result.limits, record, viscous_min, (), result.checks)[0]
+    run = AsRun(result.gains, result.limits, record, result.file.bounds.viscous_min)
+    check = running_checks(run, (), result.checks)[0]
     return (replace(check, named=False) if isinstance(check, SampledCheck) else check, *known)
 
 

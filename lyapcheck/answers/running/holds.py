@@ -98,7 +98,7 @@ class HoldsCheck(Check):
 def holds_checks(
     gains: GainSet,
     model: RobotModel | None,
-    record: LoopRecord | None,
+    record: LoopRecord,
     room: Room,
     dry: Sequence[Fraction] | None = None,
 ) -> tuple[Check, ...]:
@@ -114,10 +114,10 @@ def holds_checks(
     Soundness: bounds of Δg and of the errors are accepted by ``lyapcheck.check.verify``; a posture at which a
         joint falls refutes that |Δg_i| stays below γ k_pi + f_i.
     """
-    reason = NOTHING if record is None or record.knows_gravity else ""
+    reason = NOTHING if record.knows_gravity else ""
     reason = reason or (NO_ARM if model is None else "")
     reason = reason or ("" if named(gains.family, gains.m).bounded else UNBOUNDED)
-    if reason or model is None or record is None:
+    if reason or model is None:
         return (Check(HOLDS, reason=reason),)
     if record.unknown_payload and not isinstance(model.dynamics, Chain):
         return (Check(HOLDS, reason=NO_LINKS),)

@@ -25,6 +25,7 @@ from lyapcheck.control.conditions import REJECTED, Check
 from lyapcheck.control.judgement import JudgedStatement, judged_statement, shown_by
 from lyapcheck.control.sampling import (
     ONE,
+    UNSAID,
     LoopRecord,
     judged_sampled,
     largest_periods,
@@ -53,7 +54,6 @@ SATURATES = "({}) supposes that no motor saturates: it counts together with (10i
 STEPS = "({}) speaks of exact readings: leave encoder out of the loop, and simulate with it"
 DRY = "(P) speaks of an arm without dry friction"
 UNTRIED = "--within 90 looks for a proof from rest, at exactly this period"
-UNSAID = LoopRecord()
 DIGITS = 9
 """Of the largest period in data."""
 LONGEST = 20
@@ -159,7 +159,7 @@ class AsRun:
     Args:
         gains: the controller.
         limits: of the arm; without its model any serial revolute arm with these bounds of gravity is meant.
-        record: how a computer runs it, with a period.
+        record: how a computer runs it.
         viscous_min: λmin(B) that replaces the arm's, N·m·s/rad.
         kept: certificates that are judged before anything is searched.
     """
@@ -171,7 +171,7 @@ class AsRun:
     kept: Sequence[Certificate] = ()
 
     def check(self, inside: bool, searched: bool = True) -> SampledCheck:
-        """Are these gains stable, run in this way?
+        """Are these gains stable, run in this way, with the period of the record?
 
         Args:
             inside: whether (10i) or (10p) is accepted, so that no motor saturates.
