@@ -126,9 +126,7 @@ def robot_bounds(model: RobotModel) -> RobotBounds:
     """The outside bounds that the scalar forms need; see ``robot_constants``."""
     result = robot_constants(model)
     viscous = [number.value for number in model.viscous]
-    return RobotBounds(
-        result.lambda_max.upper, result.k_c.upper, min(viscous), max(viscous), result.lambda_min.lower
-    )
+    return RobotBounds(result.lambda_max.upper, result.k_c.upper, min(viscous), max(viscous))
 
 
 @lru_cache(maxsize=64)

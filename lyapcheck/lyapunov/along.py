@@ -257,9 +257,18 @@ def function(n: int, name: str) -> Callable[..., list[Any]]:
         name: ``value``: V; ``rate``: a₀, a₁, a₂; ``fast``: F by rows; ``slope``: ∂a₂/∂w;
             ``force``: Mẇ.
     """
-    x = letters(n)
-    outputs = OUTPUTS[name](x)
-    return _compiled(outputs, x)
+    outputs = OUTPUTS[name](letters(n))
+    known = sorted(set().union(*(one.free_symbols for one in outputs)), key=str)
+    parts, results = sp.cse(outputs, symbols=sp.numbered_symbols("t"))
+    write = _Products().doprint
+    lines = [f"{part} = names([{write(value)}])[0]" for part, value in parts]
+    lines += [f"return [{', '.join(map(write, results))}]"]
+    body = "\n    ".join(lines)
+    text = f"def formula(names, {', '.join(map(str, known))}, **_):\n    {body}\n"
+    made: dict[str, Any] = {}
+    exec(text, made)  # of formulas that are derived here # nosec B102
+    result: Callable[..., list[Any]] = made["formula"]
+    return result
 
 
 def letters(n: int, w: Any = None) -> Letters:
@@ -312,20 +321,6 @@ class _Products(StrPrinter):  # type: ignore[misc]
 
     def _print_Rational(self, expr: Any) -> str:
         return repr(float(expr))
-
-
-def _compiled(outputs: Sequence[Any], x: Letters) -> Callable[..., list[Any]]:
-    known = sorted(set().union(*(one.free_symbols for one in outputs)), key=str)
-    parts, results = sp.cse(outputs, symbols=sp.numbered_symbols("t"))
-    write = _Products().doprint
-    lines = [f"{name} = names([{write(value)}])[0]" for name, value in parts]
-    lines += [f"return [{', '.join(map(write, results))}]"]
-    body = "\n    ".join(lines)
-    text = f"def formula(names, {', '.join(map(str, known))}, **_):\n    {body}\n"
-    made: dict[str, Any] = {}
-    exec(text, made)  # of formulas that are derived here # nosec B102
-    result: Callable[..., list[Any]] = made["formula"]
-    return result
 
 
 def values_of(name: str, values: Sequence[Any]) -> dict[str, Any]:

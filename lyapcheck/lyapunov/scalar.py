@@ -47,14 +47,12 @@ class RobotBounds:
         k_c: at least ‖C(q,x)y‖ for all q and unit x, y, kg·m².
         viscous_min: λmin(B), N·m·s/rad.
         viscous_max: λmax(B), N·m·s/rad.
-        lambda_min_M: at most λmin(M(q)) for all q, kg·m².
     """
 
     beta_M: Fraction
     k_c: Fraction
     viscous_min: Fraction
     viscous_max: Fraction
-    lambda_min_M: Fraction | None = None
 
 
 def scalar_form(gains: GainSet, constants: FamilyConstants, bounds: RobotBounds) -> ScalarForm | None:

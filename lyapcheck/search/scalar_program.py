@@ -16,8 +16,6 @@ from lyapcheck.files.decimals import significant_down
 from lyapcheck.search.controlled_arm import ChainProof, DecreaseProof
 
 if TYPE_CHECKING:
-    from lyapcheck.check.kinds.inertia import Bisection, Links, MassAtCorners
-    from lyapcheck.check.loop import ClosedLoop
     from lyapcheck.check.statement import Ends, Proof
     from lyapcheck.control.gains import GainSet
     from lyapcheck.robots.dynamics import Chain
@@ -93,25 +91,11 @@ def norm_epsilon(
     loop = controlled.loop(Fraction(1))
     if viscous is not None:
         loop = replace(loop, viscous=viscous)
-    proof, reason = norm_proof(loop, controlled.inertia_proof)
-    if proof is None:
-        return None, reason
-    accepted = proof.accepted()
-    return accepted, REFUSED if accepted is None else reason
-
-
-def norm_proof(
-    loop: ClosedLoop, inertia: Bisection | Links | MassAtCorners
-) -> tuple[DecreaseProof | None, str]:
-    """A proof that the checker has yet to judge, for a closed loop whose ε₀ is to be found.
-
-    Args:
-        inertia: what shows M(q) ≻ 0.
-    """
     result = scalar_epsilon(loop.tail)
     if result.eps0 is None:
         return None, result.reason
-    return DecreaseProof(replace(loop, eps0=result.eps0), BoxTree("."), inertia), ""
+    accepted = controlled.proof(replace(loop, eps0=result.eps0), BoxTree(".")).accepted()
+    return accepted, REFUSED if accepted is None else ""
 
 
 # --- The same of links whose M(q) is too long to be written out: bounds of ‖M‖ and ‖C‖ along the links.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -18,7 +18,6 @@ from lyapcheck.lyapunov import graph
 from lyapcheck.lyapunov.along import solve_definite
 from lyapcheck.lyapunov.graph import at_symbols
 from lyapcheck.robots import arm_of
-from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import (
     beyond_bounds,
     beyond_limits,
@@ -38,41 +37,34 @@ if TYPE_CHECKING:
     from lyapcheck.robots import ArmLike
 
 
-# --- What all simulations by the equations have in common: a graph, its integration, its run.
-
-
 Moved = TypeVar("Moved", bound=Motion)
 
 
-@dataclass(frozen=True)
-class Loop:
-    """The state y of a run and its rate, with the goal as a parameter: q_d, or q_d, q̇_d and q̈_d.
-
-    y holds q and w, or e and w along a reference, n each, then an energy D or W and S with S' = ‖e‖²: these
-    ride along so that the account of energy and the L2 index are as accurate as the motion itself.
-    """
-
-    n: int
-    state: Any
-    """(2n + 2,) SX."""
-    goal: Any
-    """(n,) or (3n,) SX."""
-    rate: Any
-    """(2n + 2,) SX."""
-    torque: Any
-    """(n,) SX, τ."""
-    energy: Any
-    """SX, what the account of energy is of."""
-
-
 class Course(ABC, Generic[Moved]):
-    """One controller on one arm, and where it is to go.
+    """One controller on one arm, and where it is to go: (11), or (21) for a goal that moves, as a graph.
+
+    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w, with e = q_d − q and w = q̇ − q̇_d, uncertain parameters at
+    their nominal values. The state y holds q and w, or e and w along a reference, n each, then an energy D
+    or W and S with S' = ‖e‖²: these ride along so that the account of energy and the L2 index are as accurate
+    as the motion itself. For a goal at rest D is the energy that damping has taken, D' = wᵀBw + wᵀK_v h(w),
+    and E = ½wᵀMw + Σ k_pi U(e_i), so that E' = −D'. For one that moves W' = q̇ᵀ(τ − B q̇) is the power that
+    reaches the arm, so that its energy ½ q̇ᵀM q̇ + P(q) must change by W: τ of (21) moves the arm (1) as the
+    error system says.
 
     Args:
         setup: controller, arm and task.
-        loop: what moves.
         y0: (2n,) the state at the start, without what rides along.
         points: samples of the run.
+        moving: whether the goal moves.
+
+    Attributes:
+        state: (2n + 2,) SX, y.
+        target: SX, q_d, or q_d, q̇_d and q̈_d.
+        rate: (2n + 2,) SX, ẏ.
+        torque: (n,) SX, τ.
+        energy: SX, what the account of energy is of.
+
+    References: (1), (6), (11), (21) of ``reyes2019family``.
     """
 
     of_extremes: ClassVar[tuple[str, ...]] = ("indices",)
@@ -80,9 +72,23 @@ class Course(ABC, Generic[Moved]):
     easier: ClassVar[float] = 1.0
     """How much less accurate the energy that rides along may be."""
 
-    def __init__(self, setup: Setup, loop: Loop, y0: Sequence[float], points: int) -> None:
-        self.setup, self.loop, self.points = setup, loop, points
-        self.y0 = np.array([*y0, 0.0, 0.0])
+    def __init__(self, setup: Setup, y0: Sequence[float], points: int, moving: bool = False) -> None:
+        self.setup, self.points, self.y0 = setup, points, np.array([*y0, 0.0, 0.0])
+        controlled = setup.controlled
+        self.n = n = controlled.n
+        self.state = state = ca.SX.sym("y", 2 * n + 2)
+        self.target = goal = ca.SX.sym("goal", 3 * n if moving else n)
+        first, w, other = state[:n], state[n : 2 * n], goal[:n] - state[:n]
+        q, e = (other, first) if moving else (first, other)
+        of: dict[str, Any] = {"speed": goal[n : 2 * n], "acceleration_d": goal[2 * n :]} if moving else {}
+        gains = ca.DM(controlled.kp), ca.DM(controlled.kv), controlled.family.casadi
+        at = at_symbols(setup.model, q, e, w, *gains, **of)
+        self.torque, velocity = ca.vertcat(*at.torque()), ca.vertcat(*at.velocity)
+        change, self.energy = at.damping(), at.value(0.0)
+        if moving:
+            change = ca.dot(velocity, self.torque - ca.DM(at.viscous) * velocity)
+            self.energy = ca.bilin(graph.matrix(at.mass), velocity, velocity) / 2 + at.arm.potential()
+        self.rate = ca.vertcat(-w if moving else w, *at.acceleration(), change, ca.dot(e, e))
 
     @abstractmethod
     def goal(self, t: Array) -> Array:
@@ -108,8 +114,7 @@ class Course(ABC, Generic[Moved]):
 
     def signals(self, path: Trajectory) -> tuple[Array, Array]:
         """τ (N, n) in N·m and the energy (N,) in J of a path."""
-        loop = self.loop
-        both = ca.Function("signals", [loop.state, loop.goal], [loop.torque, loop.energy])
+        both = ca.Function("signals", [self.state, self.target], [self.torque, self.energy])
         tau, energy = both.map(path.t.size)(path.y.T, self.goal(path.t).T)
         return np.array(tau).T, np.array(energy)[0]
 
@@ -117,7 +122,7 @@ class Course(ABC, Generic[Moved]):
         self, tolerance: float, max_steps: int = MAX_STEPS, on_time: Callable[[float], None] | None = None
     ) -> Trajectory:
         """The motion at its samples, or as many of them as were reached."""
-        y, goal, right = self.loop.state, self.loop.goal, ca.densify(self.loop.rate)
+        y, goal, right = self.state, self.target, ca.densify(self.rate)
         rate = Compiled(ca.Function("rate", [y, goal], [right]))
         jacobian = Compiled(ca.Function("jacobian", [y, goal], [ca.densify(ca.jacobian(right, y))]))
         weights = np.ones(self.y0.size)
@@ -158,31 +163,6 @@ class Course(ABC, Generic[Moved]):
         if failure is not None:
             raise SimulationFailed(f"{title}: {failure}", run)
         return run
-
-
-def closed_loop(controlled: ControlledArm, moving: bool = False) -> Loop:
-    """The graph of (11), or of (21) for a goal that moves, uncertain parameters at their nominal values.
-
-    M(q) ẇ = K_p h(e) − K_v h(w) − B w − C(q, q̇) w, with e = q_d − q and w = q̇ − q̇_d. For a goal at rest D
-    is the energy that damping has taken, D' = wᵀBw + wᵀK_v h(w), and E = ½wᵀMw + Σ k_pi U(e_i), so that
-    E' = −D'. For one that moves W' = q̇ᵀ(τ − B q̇) is the power that reaches the arm, so that its energy
-    ½ q̇ᵀM q̇ + P(q) must change by W: τ of (21) moves the arm (1) as the error system says.
-
-    References: (1), (6), (11), (21) of ``reyes2019family``.
-    """
-    n, model, gains = controlled.n, controlled.model, (ca.DM(controlled.kp), ca.DM(controlled.kv))
-    state, goal = ca.SX.sym("y", 2 * n + 2), ca.SX.sym("goal", 3 * n if moving else n)
-    first, w, other = state[:n], state[n : 2 * n], goal[:n] - state[:n]
-    q, e = (other, first) if moving else (first, other)
-    of: dict[str, Any] = {"speed": goal[n : 2 * n], "acceleration_d": goal[2 * n :]} if moving else {}
-    at = at_symbols(model, q, e, w, *gains, controlled.family.casadi, **of)
-    torque, velocity = ca.vertcat(*at.torque()), ca.vertcat(*at.velocity)
-    change, energy = at.damping(), at.value(0.0)
-    if moving:
-        change = ca.dot(velocity, torque - ca.DM(at.viscous) * velocity)
-        energy = ca.bilin(graph.matrix(at.mass), velocity, velocity) / 2 + at.arm.potential()
-    rate = ca.vertcat(-w if moving else w, *at.acceleration(), change, ca.dot(e, e))
-    return Loop(n, state, goal, rate, torque, energy)
 
 
 TOLERANCE = 1e-11
@@ -249,14 +229,13 @@ class SetPoint(Course[Run]):
     of_extremes = ("indices", "promises")
 
     def __init__(self, setup: Setup, points: int, dry: Sequence[float] = ()) -> None:
-        loop = closed_loop(setup.controlled)
+        self._still = np.array(setup.task.q_d)
+        super().__init__(setup, [*setup.task.q0, *setup.task.w0], points)
         if dry:
-            q, w = loop.state[: loop.n], loop.state[loop.n : 2 * loop.n]
+            q, w = self.state[: self.n], self.state[self.n : 2 * self.n]
             mass, friction = graph.at_angles(setup.model, q).mass(), -ca.DM(list(dry)) * ca.tanh(w / CREEP)
             slowed = solve_definite(mass, ca.vertsplit(friction))
-            loop = replace(loop, rate=loop.rate + ca.vertcat(ca.SX.zeros(loop.n), *slowed, 0, 0))
-        self._still = np.array(setup.task.q_d)
-        super().__init__(setup, loop, [*setup.task.q0, *setup.task.w0], points)
+            self.rate += ca.vertcat(ca.SX.zeros(self.n), *slowed, 0, 0)
 
     def goal(self, t: Array) -> Array:
         return np.tile(self._still, (t.size, 1))
@@ -265,7 +244,7 @@ class SetPoint(Course[Run]):
         return self._still
 
     def run(self, path: Trajectory, accuracy: float) -> Run:
-        n, setup, t, y = self.loop.n, self.setup, path.t, path.y
+        n, setup, t, y = self.n, self.setup, path.t, path.y
         tau, energy = self.signals(path)
         L2, whole, q = l2_of(y[-1, -1], t[-1]), path.failure is None, y[:, :n]
         fields = motion_of(setup, "reference", t, self.goal(t) - q, q, y[:, n:-2], tau, L2=L2, complete=whole)
@@ -285,7 +264,7 @@ class SetPoint(Course[Run]):
 
     def watched(self, path: Trajectory) -> Array:
         """τ, ‖τ‖² and e; and dV/dt where V is not the energy."""
-        n, setup = self.loop.n, self.setup
+        n, setup = self.n, self.setup
         tau, q, w = self.signals(path)[0], path.y[:, :n], path.y[:, n:-2]
         e = self.goal(path.t) - q
         columns = [tau, np.sum(tau * tau, axis=1, keepdims=True), e]

@@ -52,8 +52,6 @@ class Runs:
     """(R, n) N·m."""
     final_error: Array
     """(R, n) degrees."""
-    energy_balance: Array
-    """(R,) the largest |E(t) + dissipated(t) − E(0)| relative to the largest of these; NaN unless ε₀ = 0."""
     V_rise: Array
     """(R,) J, the most V was above what it had been, looked at four times a step; negative if it fell."""
     complete: NDArray[np.bool_]
@@ -152,7 +150,7 @@ def simulate_many(
             own = np.column_stack([goal, *(x[chosen] for x in control), known])
             settling = bands(goal - begin[:, :n])
             march = March(side, begin, own, settling, T, points, tolerance, max_steps)
-            part = _indices(T, goal, march, energy=not eps0)
+            part = _indices(T, goal, march)
             if motions:
                 y, p = march.path, np.ascontiguousarray(own.T)
                 V = np.stack([side.watched(y[:, k].T, p)[n] for k in range(points)], axis=1)
@@ -168,21 +166,18 @@ def simulate_many(
     return Runs(t=t, complete=status == 0, failure=reasons, engine=engine, **columns)
 
 
-def _indices(T: float, goal: Array, march: March, energy: bool) -> dict[str, Any]:
-    """The numbers of some runs by their name in `Runs`; ``energy``: whether V is the energy."""
+def _indices(T: float, goal: Array, march: March) -> dict[str, Any]:
+    """The numbers of some runs by their name in `Runs`."""
     n, y = goal.shape[1], march.path
-    torque, beyond, settling, rest = np.split(march.found, (n, 2 * n, 3 * n), axis=1)
-    rise, error, stored, lost = rest.T
+    torque, beyond, settling, rise = np.split(march.found, (n, 2 * n, 3 * n), axis=1)
     step = np.abs(goal - y[:, 0, :n])
-    scale = np.maximum(np.maximum(stored, lost), LEAST_ENERGY)
     return {
         "L2": np.degrees(np.sqrt(np.maximum(y[:, -1, -1], 0.0) / T)),
         "settling": settling,
         "overshoot": 100.0 * beyond / np.where(step > LEAST_STEP, step, np.nan),
         "peak_torque": torque,
         "final_error": np.degrees(goal - y[:, -1, :n]),
-        "energy_balance": error / scale if energy else np.full(len(y), np.nan),
-        "V_rise": rise,
+        "V_rise": rise[:, 0],
         "steps": march.steps,
         "status": march.status,
     }

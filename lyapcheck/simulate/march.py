@@ -43,7 +43,7 @@ class March:
 
     Attributes:
         path: (R, points, 2n + 2) the samples, NaN from where a run failed.
-        found: (R, 3n + 4) the largest |τ_i|, N·m, and what `Seen.columns` has; NaN where a run failed.
+        found: (R, 3n + 1) the largest |τ_i|, N·m, and what `Seen.columns` has; NaN where a run failed.
         status: (R,) an index of `FAILURES`.
         steps: (R,) steps tried.
     """
@@ -62,7 +62,7 @@ class March:
         runs, size = y0.shape
         self.side, self.T, self.tolerance, self.max_steps = side, T, tolerance, max_steps
         self.times = T * np.arange(points) / (points - 1)
-        self.path, self.found = np.full((runs, points, size), np.nan), np.full((runs, 3 * side.n + 4), np.nan)
+        self.path, self.found = np.full((runs, points, size), np.nan), np.full((runs, 3 * side.n + 1), np.nan)
         self.path[:, 0] = y0
         self.status: Counts = np.zeros(runs, np.int32)
         self.steps: Counts = np.zeros(runs, np.int32)

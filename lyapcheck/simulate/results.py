@@ -86,32 +86,31 @@ def l2_index(t: Array, e: Array) -> float:
     return l2_of(float(np.trapezoid(np.sum(e * e, axis=1), t)), float(t[-1] - t[0]))
 
 
-def settling_times(t: Array, e: Array, band: float | Array = SETTLING_BAND) -> Array:
-    """Per joint the time after which |e_i| stays within ``band`` times its step; NaN if that is not reached.
+def settling_times(t: Array, e: Array) -> Array:
+    """Per joint the time after which |e_i| stays within 2 % of its step; NaN if that is not reached.
 
     The step is |e_i(0)|; a joint that starts at its goal is measured by the largest step of the others. The
     crossing between two samples is interpolated linearly.
 
     Args:
         t: (N,) times in s.
-        e: (…, N, n) position errors in rad.
-        band: the half-width of the band as a fraction of the step; one, or (…, 1) of them.
+        e: (N, n) position errors in rad.
 
     Returns:
-        (…, n) times in s.
+        (n,) times in s.
     """
-    size, width = np.abs(e), bands(e[..., 0, :], band)
-    outside = size > width[..., None, :]
-    last = t.size - 1 - np.argmax(outside[..., ::-1, :], axis=-2)
+    size, width, joints = np.abs(e), bands(e[0]), np.arange(e.shape[1])
+    outside = size > width
+    last = t.size - 1 - np.argmax(outside[::-1], axis=0)
     before = np.minimum(last, t.size - 2)
-    a, b = (np.take_along_axis(size, (before + k)[..., None, :], axis=-2)[..., 0, :] for k in (0, 1))
+    a, b = size[before, joints], size[before + 1, joints]
     fall = np.where(a > b, a - b, 1.0)
     crossing = t[before] + (a - width) / fall * (t[before + 1] - t[before])
-    settled = np.where(outside.any(axis=-2), np.where(last == t.size - 1, np.nan, crossing), t[0])
-    return np.asarray(np.where(np.isnan(e[..., -1, :]), np.nan, settled))
+    settled = np.where(outside.any(axis=0), np.where(last == t.size - 1, np.nan, crossing), t[0])
+    return np.asarray(np.where(np.isnan(e[-1]), np.nan, settled))
 
 
-def bands(step: Array, band: float | Array = SETTLING_BAND) -> Array:
+def bands(step: Array, band: float = SETTLING_BAND) -> Array:
     """The half-width of the band of each joint, rad, from the steps (…, n) in rad; see `settling_times`."""
     size = np.abs(step)
     return np.asarray(band * np.where(size > LEAST_STEP, size, np.max(size, axis=-1, keepdims=True)))

@@ -32,8 +32,8 @@ Columns = Sequence[Any]
 class RightSide:
     """One arm under one family; states y = (q, w, D, S) and parameters as columns.
 
-    D is the energy that damping has taken, and S = ∫‖e‖². Parameters are q_d, K_p, K_v and B (n each), the
-    uncertain numbers of the arm, and ε₀.
+    D is the energy that damping has taken, whose error counts for the sizes of steps, and S = ∫‖e‖².
+    Parameters are q_d, K_p, K_v and B (n each), the uncertain numbers of the arm, and ε₀.
     """
 
     def __init__(self, model: RobotModel, family: Family) -> None:
@@ -175,24 +175,18 @@ class Seen:
         self.sign = np.sign(error)
         self.outside: Flags = np.abs(error) > bands
         self.beyond, self.settled = np.zeros_like(error), np.zeros_like(error)
-        self.first, self.least = self.last[n].copy(), self.last[n].copy()
-        self.rise = np.full_like(self.first, -np.inf)
-        self.error, self.energy, self.lost = (
-            np.zeros_like(self.first),
-            np.abs(self.first),
-            np.zeros_like(self.first),
-        )
+        self.least = self.last[n].copy()
+        self.rise = np.full_like(self.least, -np.inf)
         self.peaks, self.who = Peaks(side, y, parameters, self.last[:n]), np.arange(y.shape[1])
 
     def columns(self, chosen: Flags) -> Array:
-        """(2n + 4, R) of some runs that are over, without their torques.
+        """(2n + 1, R) of some runs that are over, without their torques.
 
         The largest −sign(e_i(0)) e_i, rad; when each |e_i| came into its band for good, s, NaN where it did
-        not; in J the largest rise of V above what it had been, of |V + D − V(0)|, of |V| and of the energy D.
+        not; the largest rise of V above what it had been, J.
         """
         settled = np.where(self.outside, np.nan, self.settled)
-        rest = (self.beyond, settled, self.rise, self.error, self.energy, self.lost)
-        return np.vstack([x[..., chosen] for x in rest])
+        return np.vstack([x[..., chosen] for x in (self.beyond, settled, self.rise)])
 
     def keep(self, on: Flags) -> None:
         """Let go of the runs that are done."""
@@ -210,12 +204,9 @@ class Seen:
         self.last[:, good] = values[-1]
         self.peaks.look(self.who[good], step, values[:, :-1])
         self._errors(step, good, states)
-        for value, gone in zip(values[1:, -1], states[1:, -2], strict=True):
+        for value in values[1:, -1]:
             self.rise[good] = np.maximum(self.rise[good], value - self.least[good])
             self.least[good] = np.minimum(self.least[good], value)
-            self.error[good] = np.maximum(self.error[good], np.abs(value + gone - self.first[good]))
-            self.energy[good] = np.maximum(self.energy[good], np.abs(value))
-            self.lost[good] = np.maximum(self.lost[good], np.abs(gone))
 
     def _errors(self, step: Step, good: Flags, states: Array) -> None:
         """How far e_i comes beyond 0, and when it comes into its band: e_i turns where w_i is 0."""

@@ -18,7 +18,7 @@ from lyapcheck.family import Family
 from lyapcheck.robots import arm_of
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import beyond_bounds, beyond_limits, first_above, rise_of_rate, rise_of_V
-from lyapcheck.simulate.closed_loop import Course, closed_loop
+from lyapcheck.simulate.closed_loop import Course
 from lyapcheck.simulate.integrate import MAX_STEPS, Trajectory
 from lyapcheck.simulate.promised import (
     NO_EPS0,
@@ -166,19 +166,17 @@ class Tracking(Course[TrackingRun]):
             torque=torque_bounds(controlled, suprema, task.q0, e0, w0),
             reason=UNBOUNDED if self.form is None else NO_EPS0 if largest is None else "",
         )
-        super().__init__(
-            Setup(controlled, task, eps0), closed_loop(controlled, moving=True), [*e0, *w0], points
-        )
+        super().__init__(Setup(controlled, task, eps0), [*e0, *w0], points, moving=True)
 
     def goal(self, t: Array) -> Array:
         return self.reference.at(t).reshape(t.size, -1)
 
     def watched(self, path: Trajectory) -> Array:
         """τ and e."""
-        return np.hstack((self.signals(path)[0], path.y[:, : self.loop.n]))
+        return np.hstack((self.signals(path)[0], path.y[:, : self.n]))
 
     def run(self, path: Trajectory, accuracy: float) -> TrackingRun:
-        n, t, y, setup = self.loop.n, path.t, path.y, self.setup
+        n, t, y, setup = self.n, path.t, path.y, self.setup
         goal, speed, acceleration = np.split(self.goal(t), 3, axis=1)
         tau, energy = self.signals(path)
         e, w, change = y[:, :n], y[:, n:-2], energy - energy[0]

@@ -74,7 +74,6 @@ def test_bounds_handed_to_the_scalar_forms_are_the_outer_ones():
     model = load("reyes-kelly2")
     result, bounds = robot_constants(model), robot_bounds(model)
     assert (bounds.beta_M, bounds.k_c) == (result.lambda_max.upper, result.k_c.upper)
-    assert bounds.lambda_min_M == result.lambda_min.lower
     assert (bounds.viscous_min, bounds.viscous_max) == (F("0.175"), F("2.288"))
 
 

@@ -11,10 +11,10 @@ from lyapcheck.answers.simulate import runs_csv
 from lyapcheck.control.gains import GainSet, paper_gain_file, read_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.search.controlled_arm import ControlledArm
-from lyapcheck.simulate.closed_loop import closed_loop, simulate
+from lyapcheck.simulate.closed_loop import SetPoint, simulate
 from lyapcheck.simulate.integrate import integrate
 from lyapcheck.simulate.run import SimulationFailed
-from lyapcheck.simulate.task import PAPER_TASK
+from lyapcheck.simulate.task import PAPER_TASK, Setup
 from lyapcheck.tasks import simulate_motion
 from tests.helpers.shares import one_in
 
@@ -54,9 +54,9 @@ def test_another_integrator_finds_the_same_motion(gain_set):
 
     model = robots.load("buap3")
     run = paper_run(gain_set)
-    loop = closed_loop(ControlledArm(gain_set, model))
+    loop = SetPoint(Setup(ControlledArm(gain_set, model), PAPER_TASK, 0.0), 2)
     options = {"abstol": 1e-13, "reltol": 1e-11, "max_num_steps": 100_000}
-    problem = {"x": loop.state, "p": loop.goal, "ode": loop.rate}
+    problem = {"x": loop.state, "p": loop.target, "ode": loop.rate}
     cvodes = ca.integrator("cvodes", "cvodes", problem, 0.0, run.t, options)
     states = np.array(cvodes(x0=np.zeros(8), p=np.array(PAPER_TASK.q_d))["xf"]).T
     np.testing.assert_allclose(states[:, :3], run.q, atol=1e-6)
@@ -85,15 +85,15 @@ def test_dV_is_the_derivative_of_V_along_the_motion(eps0):
     model, gain_set = robots.load("buap3"), TABLE2[2]
     run = paper_run(gain_set, eps0)
     held = ControlledArm(gain_set, model)
-    loop = closed_loop(held)
-    q, w, e = loop.state[:3], loop.state[3:6], loop.goal - loop.state[:3]
+    loop = SetPoint(Setup(held, PAPER_TASK, 0.0), 2)
+    q, w, e = loop.state[:3], loop.state[3:6], loop.target - loop.state[:3]
     mass, h, eps = (
         graph.matrix(graph.at_angles(model, q).mass()),
         held.family.casadi(e).h,
         eps0 / (1 + ca.norm_2(e)),
     )
     V = loop.energy - eps * ca.dot(h, mass @ w) + eps**2 * ca.dot(h, mass @ h) / 2
-    both = ca.Function("V", [loop.state, loop.goal], [V, ca.jtimes(V, loop.state, loop.rate)])
+    both = ca.Function("V", [loop.state, loop.target], [V, ca.jtimes(V, loop.state, loop.rate)])
     states = np.hstack((run.q, run.w, np.zeros((run.t.size, 2)))).T
     known_V, known_dV = (np.array(x)[0] for x in both.map(run.t.size)(states, np.array(PAPER_TASK.q_d)))
     np.testing.assert_allclose(run.V, known_V, atol=1e-12)
