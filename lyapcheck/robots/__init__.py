@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -49,7 +50,7 @@ def load(
     name_or_path: str | Path,
     tip: str | None = None,
     spread: Fraction = EXACT,
-    vary: tuple[Vary, ...] = (),
+    vary: Iterable[Vary | str] = (),
 ) -> RobotModel:
     """Load a built-in arm by name, or an arm file.
 
@@ -59,31 +60,33 @@ def load(
         tip: the last link of the arm. Default: the longest run of revolute joints.
         spread: gives numbers without a range the range value·(1 ± spread), 0 ≤ spread < 1. In a URDF file
             these are masses and friction.
-        vary: ranges of some numbers, which replace the ranges in the file.
+        vary: ranges of some numbers, such as ``"payload=0..3"``, which replace the ranges in the file.
 
     Raises:
         InputError: no such arm or file, or the file does not describe an arm (all problems at once).
     """
     name, own = split(str(name_or_path))
     path, choice = arm_file(name), Choice(tip=tip or "").over(own)
+    texts = [vary] if isinstance(vary, str) else vary
+    varies = tuple(one if isinstance(one, Vary) else Vary.parsed(one) for one in texts)
     if name in names():
         if choice:
             rule = f"{name} is built in, and has no links to choose from"
             raise argument_error("robot", choice.of(name), rule, "leave base, tip, fixed and xacro out")
-        result = _builtin(name, spread, vary)
+        result = _builtin(name, spread, varies)
     elif path.suffix.lower() == ".toml" or path.is_dir():
-        result = read_arm(path, spread=spread, vary=vary, choice=choice)
+        result = read_arm(path, spread=spread, vary=varies, choice=choice)
     elif path.suffix or path.exists():
         from lyapcheck.robots.formats import read_robot
 
-        result = with_ranges(read_robot(path, str(path), choice), spread, vary)
+        result = with_ranges(read_robot(path, str(path), choice), spread, varies)
     else:
         known = f"built-in arms: {', '.join(names())}; examples: {', '.join(sorted(_examples()))}"
         guess = nearest(name, [*names(), *_examples()])
         repair = f"{guess} {known}; or give the path of an arm file (.toml, .urdf, .xacro, MJCF)".lstrip()
         raise argument_error("robot", name, "is neither a built-in arm nor a file", repair)
-    require_known(result, vary)
-    return result if result.source else replace(result, source=str(name_or_path), varies=vary)
+    require_known(result, varies)
+    return result if result.source else replace(result, source=str(name_or_path), varies=varies)
 
 
 def arm_file(name_or_path: str | Path) -> Path:

@@ -20,7 +20,19 @@ UR5 = str(Path(__file__).parents[2] / "examples" / "ur5.urdf")
 
 
 def varied(name, *texts):
-    return robots.load(name, vary=tuple(map(Vary.parsed, texts)))
+    return robots.load(name, vary=texts)
+
+
+@pytest.mark.parametrize("vary", ["payload=0..3", ["payload=0..3"], [Vary.parsed("payload=0..3")]])
+def test_ranges_are_given_as_texts_or_as_data(vary):
+    arm = robots.load("ur5", vary=vary)
+    assert arm.ranges == ((F("0.1879"), F("3.1879")),)  # the mass of the last link, with the payload
+    assert arm.varies == (Vary("payload", F(0), F(3)),)
+
+
+def test_a_text_that_is_no_range_is_refused():
+    with pytest.raises(InputError, match=r"NAME=LO\.\.HI"):
+        robots.load("ur5", vary=["payload"])
 
 
 @pytest.mark.parametrize(
