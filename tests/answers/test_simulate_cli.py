@@ -114,3 +114,6 @@ def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path):
     assert "simulated on the arm of the file and all 2 corners of the ranges" in within
     beyond = " ".join(invoke(*words, "viscous=5%..+10%").stdout.split())
     assert "the arm of the file, which lies outside the ranges, and all 2 corners" in beyond
+    alone = " ".join(invoke(*words, "viscous=0.7..0.7").stdout.split())  # a corner that changes nothing
+    assert "and the corner of the ranges" in alone
+    assert "a:" not in alone

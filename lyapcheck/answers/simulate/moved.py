@@ -24,7 +24,7 @@ def on_arms(
     gains: Iterable[GainSet], model: RobotModel, others: Iterable[tuple[str, RobotModel]] = ()
 ) -> list[tuple[GainSet, RobotModel]]:
     """Each gain set on the arm, then on the arm at other values, which its name then says."""
-    named = [("", model), *((f": {what}", arm) for what, arm in others)]
+    named = [("", model), *((f": {what}" if what else "", arm) for what, arm in others)]
     return [(replace(one, name=one.name + what), arm) for one in gains for what, arm in named]
 
 
