@@ -13,7 +13,7 @@ help:
 	@echo "make reference  write docs/reference/ from the code"
 	@echo "make screenshots  pictures of the report in a real browser (needs chromium)"
 	@echo "make test       the fast tests: every command, rule and kind of certificate once at least"
-	@echo "make test-slow  the rest: whole grids, planted faults, 4,000 statements, many examples, built wheel"
+	@echo "make test-slow  the rest: whole grids, planted faults, 2,500 statements, many examples, built wheel"
 	@echo "make test-robots  arms against Pinocchio and MuJoCo; downloads 1 GB; writes reports/robots.md"
 	@echo "make test-mujoco  motions against MuJoCo; downloads 20 MB (extra mujoco)"
 	@echo "make test-sweep   sweeps on a Dask cluster of this machine; downloads 80 MB (extra sweep)"
@@ -45,7 +45,7 @@ test: .venv/.ready
 	$(BIN)/pytest -n 2 --dist loadfile -m "not slow"
 
 test-slow: .venv/.ready
-	$(BIN)/pytest -n 2 -m "slow or hypothesis" --hypothesis-profile thorough
+	$(BIN)/pytest -n 2 --dist worksteal -m "slow or hypothesis" --hypothesis-profile thorough
 
 # Packages that these tests need; writes reports/robots.md.
 test-robots: .venv/.ready

@@ -16,7 +16,7 @@ from tests.helpers.one_process import one_process
 # looked at. No deadlines: how long an example takes says more of the machine than of the code.
 NO_CLOCK = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("fast", NO_CLOCK, max_examples=10)
-settings.register_profile("thorough", NO_CLOCK, max_examples=250)
+settings.register_profile("thorough", NO_CLOCK, max_examples=100)
 settings.register_profile("promises", NO_CLOCK, max_examples=200, derandomize=True)
 settings.load_profile("fast")
 

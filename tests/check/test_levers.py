@@ -56,7 +56,7 @@ def choices(n):
     return joined.from_iterable(combinations(range(n), k) for k in range(n + 1))
 
 
-@pytest.mark.parametrize("seed", one_in(2, range(12)))
+@pytest.mark.parametrize("seed", one_in(4, range(12)))
 def test_no_state_pulls_harder_and_what_one_reaches_is_no_bound(seed):
     links, fall = drawn(seed)
     n, i = len(links), seed // 3 % len(links)
@@ -79,7 +79,7 @@ def test_no_state_pulls_harder_and_what_one_reaches_is_no_bound(seed):
             assert reached < NEAR or outcome(smaller, proof) != "proved"
 
 
-@pytest.mark.parametrize("name", ["panda", "iiwa14", "xarm6", "px100", "px150", "ur5"])
+@pytest.mark.parametrize("name", one_in(4, ["xarm6", "panda", "iiwa14", "px100", "px150", "ur5"]))
 def test_each_arm_that_comes_along_has_its_bounds_shown(name):
     limits = arm_limits(str(EXAMPLES / f"{name}.toml"))
     shown = shown_gravity(limits.model, limits.gravity)

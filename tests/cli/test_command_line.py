@@ -265,21 +265,21 @@ def test_a_reader_that_went_away_is_no_verdict_and_no_traceback(arguments):
     assert (done.returncode, done.stderr) == (CLOSED_PIPE, "")
 
 
-def test_a_terminal_without_the_signs_gets_their_names_and_a_program_the_same_bytes():
+@pytest.mark.parametrize("encoding", one_in(2, ["ascii", "cp1252"]))
+def test_a_terminal_without_the_signs_gets_their_names_and_a_program_the_same_bytes(encoding):
     def table(*words, **environment):
         variables = {**os.environ, **environment}
         command = [SCRIPT, "table", "--m", *words]
         return subprocess.run(command, capture_output=True, env=variables, check=False)
 
     assert "γ = sup h_m, ρ" in table("3").stdout.decode("utf-8")
-    for encoding in ("ascii", "cp1252"):
-        odd = {"PYTHONIOENCODING": encoding, "LC_ALL": "C"}
-        assert b"gamma = sup h_m, rho" in table("3", **odd).stdout
-        assert table("3", "--format", "json", **odd).stdout == table("3", "--format", "json").stdout
-        refused = table("x", **odd)
-        assert refused.returncode == 2
-        assert refused.stderr.isascii()
-        assert b"\\" not in refused.stderr
+    odd = {"PYTHONIOENCODING": encoding, "LC_ALL": "C"}
+    assert b"gamma = sup h_m, rho" in table("3", **odd).stdout
+    assert table("3", "--format", "json", **odd).stdout == table("3", "--format", "json").stdout
+    refused = table("x", **odd)
+    assert refused.returncode == 2
+    assert refused.stderr.isascii()
+    assert b"\\" not in refused.stderr
 
 
 @pytest.mark.parametrize(

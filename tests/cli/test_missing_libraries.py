@@ -107,9 +107,10 @@ def test_a_condition_whose_search_lacks_a_library_is_undecided(alone, folder):
 @pytest.mark.slow
 @pytest.mark.parametrize("library", LIBRARIES)
 def test_no_command_fails_for_want_of_one_library(tmp_path, library):
+    """A third of the commands without each; the tests above have all commands without any."""
     python = environment(tmp_path / "environment", without=(library,))
     folder = _folder(tmp_path)
-    for name, (words, code) in CALLS.items():
+    for name, (words, code) in list(CALLS.items())[LIBRARIES.index(library) % 3 :: 3]:
         done = run(python, name, *words.split(), folder=folder)
         assert done.returncode in (code, 2), (name, done.stderr)
         if done.returncode != code:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import lyapcheck
@@ -151,11 +151,14 @@ def test_it_compiles_without_a_warning_and_keeps_its_bound(
 
 @pytest.mark.parametrize(
     ("right", "wrong"),
-    [
-        ("0x1.5555555555555p-3", "0x1.5555555556555p-3"),
-        ("0x1.0000000000000p-1 *", "0x1.0000000001000p-1 *"),
-        ("KP[i]", "KP[0]"),
-    ],
+    one_in(
+        3,
+        [
+            ("0x1.5555555555555p-3", "0x1.5555555556555p-3"),
+            ("0x1.0000000000000p-1 *", "0x1.0000000001000p-1 *"),
+            ("KP[i]", "KP[0]"),
+        ],
+    ),
 )
 def test_the_test_program_finds_a_fault(right: str, wrong: str, tmp_path: Path) -> None:
     """A coefficient of the sine or of exp off in its fortieth bit, another torque: all are found."""
@@ -170,9 +173,8 @@ def test_a_compiler_that_breaks_the_bound_is_refused(flag: str, tmp_path: Path) 
         built(controller(), tmp_path, flag)
 
 
-@pytest.mark.parametrize("key", one_in(2, ["pelican2", *ARMS]))
+@pytest.mark.parametrize("key", one_in(4, ["pelican2", *ARMS]))
 @given(data=st.data())
-@settings(max_examples=60, deadline=None)
 def test_any_arguments_are_refused_or_within_the_bound(
     compiled: Callable[..., Compiled], key: str, data: st.DataObject
 ) -> None:
@@ -181,7 +183,7 @@ def test_any_arguments_are_refused_or_within_the_bound(
     one.hold(*rows)
 
 
-@pytest.mark.parametrize("m", but([1, 2, 3, 10_000], [*range(1, 10), 100, 10_000]))
+@pytest.mark.parametrize("m", but([2, 10_000], [*range(1, 10), 100, 10_000]))
 def test_the_seams_of_h_for_every_m(m: int, compiled: Callable[..., Compiled]) -> None:
     """Where the branch, the k of the reduction and the flat end change, by single doubles; and far beyond."""
     one = compiled(m=m)
@@ -194,7 +196,7 @@ def test_the_seams_of_h_for_every_m(m: int, compiled: Callable[..., Compiled]) -
             one.hold([0.0], [0.0], [math.copysign(min(x, 4096.0), w)])
 
 
-@pytest.mark.parametrize("key", but(list(ARMS)[:2], ARMS))
+@pytest.mark.parametrize("key", one_in(3, ARMS))
 def test_it_is_the_torque_of_the_simulation_and_of_the_arm(
     compiled: Callable[..., Compiled], key: str
 ) -> None:
@@ -219,7 +221,6 @@ READING = st.tuples(st.floats(-0.4, 0.4), st.booleans())
 
 
 @given(st.lists(READING, min_size=1, max_size=25), st.booleans())
-@settings(max_examples=60, deadline=None)
 def test_steps_by_a_list_of_all_readings(
     compiled: Callable[..., Compiled], moves: list[tuple[float, bool]], wrapped: bool
 ) -> None:
@@ -259,7 +260,6 @@ DOUBLE = st.floats(-1e6, 1e6)
 
 
 @given(st.lists(DOUBLE, min_size=2, max_size=4), st.lists(OPERATION, max_size=12))
-@settings(max_examples=300, deadline=None)
 def test_running_errors_hold_for_any_program(
     values: list[float], operations: list[tuple[str, int, int]]
 ) -> None:
@@ -309,7 +309,7 @@ def gain_file(folder: Path, name: str = "one", more: str = "m = 1", robot: str =
     return path
 
 
-@pytest.mark.parametrize("name", ["a */ int x; /*", "??/", "ε\\", "x" * 300])
+@pytest.mark.parametrize("name", one_in(3, ["a */ int x; /*", "??/", "ε\\", "x" * 300]))
 def test_hostile_names_compile(name: str, tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert invoke("export", str(gain_file(tmp_path, name)), "--out", str(out), "--rate", "1e3").exit_code == 0

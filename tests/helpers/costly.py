@@ -1,5 +1,5 @@
-"""For properties of which one example costs a tenth of a second: a fifth of the examples of the profile."""
+"""For properties of which one example costs a tenth of a second: few of the examples of the profile."""
 
 from hypothesis import settings
 
-costly = settings(max_examples=max(10, settings.default.max_examples // 5))
+costly = settings(max_examples=max(4, settings.default.max_examples // 4))

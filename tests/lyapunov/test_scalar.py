@@ -57,7 +57,7 @@ CASES = [(arm, h) for arm in ("pendulum1", "reyes-kelly2", "buap3") for h in (1,
 
 
 @pytest.mark.parametrize(("arm", "m"), one_in(4, CASES))
-@pytest.mark.parametrize("eps0", [0.01, 0.3, 3.0])
+@pytest.mark.parametrize("eps0", one_in(3, [0.3, 0.01, 3.0]))
 def test_theta_bounds_the_rate_at_random_states(arm, m, eps0):
     bounds, gains, h = sampled_bounds(arm), gains_for(robots.load(arm).n), family.hyperbolic(m)
     form = scalar_form(gains, h.constants(), bounds)

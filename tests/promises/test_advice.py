@@ -40,7 +40,7 @@ def test_the_gate_accepts_what_tune_writes(tmp_path, arm):
     assert invoke("gate", str(out)).exit_code == 0
 
 
-@drawn(4, 60)
+@drawn(2, 30)
 @given(arms(2), st.sampled_from(["0.5", "1"]), st.sampled_from([(), ("--damping", "0.1")]))
 def test_the_gate_accepts_what_tune_writes_for_ranges(arm, share, more):
     with TemporaryDirectory() as name:
@@ -124,7 +124,7 @@ def remarks_hold(path, result, options):
             assert invoke("gate", str(path), *told[1].split(), *options).exit_code == 0, remark
 
 
-@drawn(4, 60)
+@drawn(2, 30)
 @given(arms(2), st.sampled_from(FAMILIES), st.sampled_from([Fraction(101, 100), Fraction(3)]))
 def test_what_the_gate_advises_passes(arm, family, share):
     with TemporaryDirectory() as name:
@@ -171,7 +171,7 @@ def test_tune_names_targets_where_there_is_no_friction(tmp_path):
     assert invoke("gate", str(out)).exit_code == 0
 
 
-@drawn(5, 100)
+@drawn(2, 50)
 @given(arms(1), shares)
 def test_gains_for_ranges_are_gains_for_their_members(arm, at):
     with TemporaryDirectory() as name:

@@ -27,7 +27,7 @@ def more_of_the_file(arm, conditions, keyed, stated):
     return f"{key}[bounds]\ngravity = [{bounds}]\n" if stated and arm.printed else key
 
 
-@drawn(5, 35)
+@drawn(2, 25)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, CONDITIONS, shares, st.booleans(), st.booleans())
 def test_accepted_over_ranges_is_accepted_at_a_member(arm, family, share, conditions, at, keyed, stated):
     """Ranges of files and options, payloads, masses of URDF files, bounds of both files, named conditions."""

@@ -55,7 +55,7 @@ def the_one(*words):
     return one
 
 
-@drawn(4, 60)
+@drawn(2, 30)
 @given(arms().map(with_dry_friction), st.sampled_from(FAMILIES), SHARES, shares)
 def test_no_member_rests_farther_from_its_goal_than_is_promised_over_ranges(arm, family, share, at):
     still = ("--time", "0.5", *angles("--target", arm.n, 30, -20), *angles("--start", arm.n, 30, -20))
@@ -73,7 +73,7 @@ def test_no_member_rests_farther_from_its_goal_than_is_promised_over_ranges(arm,
             assert seen <= wide, "a run let go inside the bound of the member does not rest there"
 
 
-@drawn(4, 60)
+@drawn(2, 30)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, shares)
 def test_no_motor_of_a_member_leaves_its_limit_where_the_gate_accepts_10i_over_ranges(arm, family, share, at):
     motion = "--time", "0.3", *angles("--target", arm.n, 170, -90, 40), *angles("--velocity", arm.n, 200, -90)
@@ -88,7 +88,7 @@ def test_no_motor_of_a_member_leaves_its_limit_where_the_gate_accepts_10i_over_r
     assert by_equations["breach"] is None
 
 
-@drawn(4, 60)
+@drawn(2, 30)
 @given(arms(2), st.sampled_from(FAMILIES), SHARES, shares)
 def test_v_falls_in_motions_of_a_member_for_the_scalar_epsilon_over_ranges(arm, family, share, at):
     motion = "--time", "0.3", *angles("--target", arm.n, 170, -90), *angles("--velocity", arm.n, 2000, -900)
@@ -103,7 +103,7 @@ def test_v_falls_in_motions_of_a_member_for_the_scalar_epsilon_over_ranges(arm, 
 
 
 @pytest.mark.slow
-@drawn(2, 12)
+@drawn(2, 8)
 @given(arms(2), st.sampled_from(FAMILIES), SHARES, shares)
 def test_no_epsilon_promised_over_ranges_is_falsified_at_a_member(arm, family, share, at):
     with TemporaryDirectory() as name:

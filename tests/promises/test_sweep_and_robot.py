@@ -6,6 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,7 +26,7 @@ from tests.promises.draws import (
 SHARES = st.sampled_from([Fraction(1, 2), Fraction(1), Fraction(101, 100)])
 
 
-@drawn(3, 25)
+@drawn(1, 15)
 @given(arms(), st.sampled_from(FAMILIES), SHARES, shares)
 def test_a_sweep_says_what_the_gate_says(arm, family, share, at):
     with TemporaryDirectory() as name:
@@ -45,7 +46,8 @@ def test_a_sweep_says_what_the_gate_says(arm, family, share, at):
             assert result["verdict"] == told[file, len(vary) // 2], (file, vary)
 
 
-@drawn(1, 6)
+@pytest.mark.slow
+@drawn(1, 4)
 @given(arms(2), shares)
 def test_what_robot_proves_over_ranges_holds_at_a_member_and_its_constants_are_nominal(arm, at):
     def exact(x):

@@ -5,7 +5,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lyapcheck.check.kinds.chain import ChainCoriolisBelow, RateBounds
@@ -59,7 +59,6 @@ def charge(Q, s, t, x, z):
 
 
 @given(st.integers(1, 5), st.randoms(use_true_random=False))
-@settings(max_examples=40, deadline=None)
 def test_what_is_reached_is_twice_the_largest_coefficient(n, random):
     """The coefficients of z_i² and of x_i² x_k², read off values at units."""
     rows = [[F(random.randint(1, 99), 7) for _ in range(n)] for _ in range(n - 1)]
@@ -77,7 +76,6 @@ def test_what_is_reached_is_twice_the_largest_coefficient(n, random):
 
 
 @given(st.integers(2, 5), st.integers(0, 10**6))
-@settings(max_examples=60, deadline=None)
 def test_no_slopes_within_the_bounds_exceed_what_they_are_charged(n, seed):
     """zᵀC(q, x)x for slopes ½ ∂M/∂q_j at the border of ± diag(Q_j) that add the most at some x and z."""
     random = np.random.default_rng(seed)

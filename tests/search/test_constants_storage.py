@@ -56,7 +56,7 @@ def test_turning_forms_are_all_that_turns_leave_alone(vectors):
         invariant_form([F(0)] * (len(forms) + 1), vectors)
 
 
-@pytest.mark.parametrize("name", but(["leaning", "pelican2"], ["leaning", "pelican2", "ur5", "panda"]))
+@pytest.mark.parametrize("name", but(["pelican2"], ["leaning", "pelican2", "ur5", "panda"]))
 def test_no_state_lies_outside_and_some_come_close(name, tmp_path):
     arm = arm_of(name, tmp_path)
     names = ["lambda_min", "lambda_max", "k_g", *(f"k_g{i + 1}" for i in range(arm.n))]

@@ -59,7 +59,7 @@ FAMILIES = [(m, "hyperbolic") for m in (1, 3)] + [
 ]
 
 
-@pytest.mark.parametrize(("m", "family"), but([(1, "hyperbolic"), (None, "arctan")], FAMILIES))
+@pytest.mark.parametrize(("m", "family"), but([(None, "arctan")], FAMILIES))
 def test_every_family_moves_as_it_does_alone(m, family):
     model, gain_set = robots.load("reyes-kelly2"), gains(2, m, family, kp=40, kv=12)
     single = simulate(gain_set, model, [0.5, -1.0], [1.0, 1.0], T=2.0, points=201, stop=False)
@@ -105,7 +105,7 @@ def test_both_engines_find_the_same_motions(request):
 
 def test_a_run_does_not_depend_on_its_company(monkeypatch):
     """Other controllers and goals beside it, another place in the batch, smaller batches: equal bits."""
-    model, count = robots.load("reyes-kelly2"), 13
+    model, count = robots.load("reyes-kelly2"), 9
     random = np.random.default_rng(2)
     sets = [
         gains(2, int(m), kp=int(k)) for m, k in zip(random.integers(1, 4, count), range(5, 60), strict=False)

@@ -20,7 +20,7 @@ from tests.statement_fuzz.generators import GENERATORS, TRUE, draw, names
 from tests.statement_fuzz.generators.loops import theorems
 from tests.statement_fuzz.judge import FALSE_REFUSED, decide, judge
 
-FEW, MANY = 40, 800
+FEW, MANY = 40, 500
 PLAIN = ("ForAll", "Constant", "Implies", "Identity", "EveryN", "ForSmall", "Agrees")
 OF_ARMS = (
     *("MassAbove", "MassBelow", "CoriolisBelow", "GravityBelow", "Decreasing"),
