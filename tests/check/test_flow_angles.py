@@ -112,7 +112,6 @@ def test_no_rest_attracts_all_on_a_circle():
     assert "t: have no single rest that attracts all" in result.reason
 
 
-@pytest.mark.slow
 def test_a_minimum_on_the_border_of_the_region_is_no_part_of_it():
     """From x = 2, a minimum of V, a motion goes to 3; dV/dt <= 0 where V <= 1 is not enough."""
     bowl = x**2 * (x - 2) ** 2 + x**2 * (3 - x) / 4
