@@ -111,10 +111,10 @@ def test_every_command_runs(folder: Path, system: str, name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("system", ["windows", "macos"])
 def test_an_interrupt_leaves_nothing_running(folder: Path, system: str) -> None:
-    # SIGINT is ignored below a shell that has started the tests in the background, unless it is set again
     process = subprocess.Popen(
         [sys.executable, "-m", "lyapcheck", "check", "published.py", "--m", "1:400"],
         cwd=folder, env=hidden(folder, system), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        # below a shell that has started the tests in the background it is ignored, unless set again
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509
     )  # fmt: skip
     below: list[psutil.Process] = []
@@ -124,8 +124,7 @@ def test_an_interrupt_leaves_nothing_running(folder: Path, system: str) -> None:
             below = psutil.Process(process.pid).children(recursive=True)
         process.send_signal(signal.SIGINT)
         assert process.wait(60) == 130
-        _, alive = psutil.wait_procs(below, 60)
-        assert not alive
+        assert not psutil.wait_procs(below, 60)[1]
     finally:
         for one in [process, *below]:
             with suppress(psutil.NoSuchProcess):

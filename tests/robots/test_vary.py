@@ -30,11 +30,6 @@ def test_ranges_are_given_as_texts_or_as_data(vary):
     assert arm.varies == (Vary("payload", F(0), F(3)),)
 
 
-def test_a_text_that_is_no_range_is_refused():
-    with pytest.raises(InputError, match=r"NAME=LO\.\.HI"):
-        robots.load("ur5", vary=["payload"])
-
-
 @pytest.mark.parametrize(
     ("text", "name", "low", "high", "relative"),
     [

@@ -127,7 +127,7 @@ class Search:
             picked = np.argmin([one.trial.by_joint for one in tries], axis=0)
             combined = np.array([tries[k].logs[i] for i, k in enumerate(picked)])
             narrow = math.log(SPREADS[0] / spread) / math.log(SPREADS[0] / least)
-            progress(max(steps / MOST_STEPS, narrow), "")
+            progress(min(max(steps / MOST_STEPS, narrow), 1.0), "")  # a round may take more than is left
         gains = self.set_of(best.logs)
         trial = tried(gains, self.models, self.bench, exact=True)
         return Candidate(gains, trial, self.way, self._held(gains), len(tries))
