@@ -24,7 +24,7 @@ F = Fraction
 def pair():
     """The certificates for and against, of one gain set on the two-joint arm."""
     gains = read_gain_file(paper_gain_file("table2_shoulder_elbow")).gains[0]
-    made = certificates(epsilon(gains, load("reyes-kelly2"), starts=6, max_boxes=8_000))
+    made = certificates(epsilon(gains, load("reyes-kelly2"), starts=3, max_boxes=4_000, weights=False))
     return made["tau_m1.certified.json"], made["tau_m1.falsified.json"]
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from lyapcheck import robots
 from lyapcheck.answers.gate.judge import judged_sets
@@ -134,6 +135,7 @@ def test_gains_that_are_accepted_by_torque_alone_are_not_called_stable_by_19(tmp
         assert "(19)" not in stability.text
 
 
+@pytest.mark.slow
 def test_commands_to_do_are_about_the_files_of_the_user(tmp_path):
     name = "<b>&'\" $(x).toml"
     arm = tmp_path / name
