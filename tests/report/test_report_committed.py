@@ -54,6 +54,7 @@ def test_every_part_that_a_drawing_names_is_on_the_page():
     assert named <= set(re.findall(r' id="([^"]*)"', PAGE)), REPAIR
 
 
+@pytest.mark.slow
 def test_everything_has_a_name_for_readers_of_the_screen():
     assert unnamed(PAGE) == [], REPAIR
 

@@ -318,6 +318,7 @@ def linked(folder):
     return statement, proof, proof.along
 
 
+@pytest.mark.slow
 def test_links_show_how_small_the_inertia_is_at_each_corner_and_no_more(tmp_path):
     statement, proof, along = linked(tmp_path)
     assert verify(statement, proof) == PROVED

@@ -107,9 +107,7 @@ def test_a_run_does_not_depend_on_its_company(monkeypatch):
     """Other controllers and goals beside it, another place in the batch, smaller batches: equal bits."""
     model, count = robots.load("reyes-kelly2"), 5
     random = np.random.default_rng(2)
-    sets = [
-        gains(2, int(m), kp=int(k)) for m, k in zip(random.integers(1, 4, count), range(5, 60), strict=False)
-    ]
+    sets = [gains(2, int(m), kp=5 + k) for k, m in enumerate(random.integers(1, 4, count))]
     q_d, first, w0 = (random.uniform(-1, 1, (count, 2)) for _ in range(3))
     together = simulate_many(sets, model, q_d, first, 1.0, w0=w0, motions=True)
     for k in (0, count - 1):
