@@ -25,8 +25,8 @@ WORDS = {"name", "robot", "title", "path", "source", "comment", "place", "sectio
 """Fields with a text that anybody may have chosen, and no word that the program reads again."""
 LISTS = {"joints", "assumptions", "notes", "reasons", "varies", "missing", "remarks"}
 GAINS = {"kp", "kv"}
-LEFT = {"m", "n", "ms", "index", "digits", "schema", "task", "tasks", "bench", "targets", "q", "w", "t"}
-LEFT |= {"state", "joint", "seed", "starts", "spread", "delta", "band", "T", "settling_band"}
+LEFT = {"m", "n", "ms", "index", "digits", "schema", "task", "tasks", "bench", "targets", "wishes", "q", "w"}
+LEFT |= {"t", "state", "joint", "seed", "starts", "spread", "delta", "band", "T", "settling_band"}
 """What is asked, not found; and samples of motions, whose figures are not words."""
 ROWS = {"results", "sets", "claims"}
 MOST_DRAWN = 12

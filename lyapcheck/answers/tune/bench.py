@@ -363,14 +363,14 @@ class BenchTuning(Answer):
     @cached_property
     def _fields(self) -> tuple[Field, ...]:
         """What is said of each joint of a set."""
-        gain, up = partial(decimal_text, places=self.bench.digits), partial(at_most, digits=3)
+        gain = partial(decimal_text, places=self.bench.digits)
         return (
             Field("joint", lambda one: self.model.joints, "joint", align="l", each=True),
             Field("kp", "gains.kp", "k_p", gain, decimal_texts, each=True),
             Field("kv", "gains.kv", "k_v", gain, decimal_texts, each=True),
-            Field("overshoot", "trial.overshoot", "overshoot [%]", up, _sixes, each=True),
+            Field("overshoot", "trial.overshoot", "overshoot [%]", _up, _sixes, each=True),
             Field("settling", "trial.settled", "settling [s]", _seconds, _sixes, each=True),
-            Field("torque_share", "trial.share", "torque / limit", up, _sixes, each=True),
+            Field("torque_share", "trial.share", "torque / limit", _up, _sixes, each=True),
             Field("rest_error", self._rests, "friction error [°]", _degrees, _sixes, each=True),
             Field(
                 "held_by",
@@ -428,8 +428,12 @@ def _times(ratio: float) -> str:
     return at_most(float(ratio), 3) if ratio < FAR else f"> {FAR}"
 
 
+def _up(value: float) -> str:
+    return NONE if math.isnan(value) else at_most(value, 3)
+
+
 def _seconds(value: float) -> str:
-    return "no" if math.isinf(value) else at_most(value, 3)
+    return "no" if math.isinf(value) else _up(value)
 
 
 def _degrees(value: float) -> str:
