@@ -32,7 +32,7 @@ WAYS = ("19", "proof")
 TARGETS = ("overshoot", "settle", "rest_error")
 FOR_LARGEST = ("kv_share", "damping")
 """Options that have a meaning without targets only."""
-FOR_TARGETS = ("start", "goal", "best", "runs", "spread", "seed")
+FOR_TARGETS = ("start", "goal", "best", "runs", "spread", "seed", "quantile", "stability")
 """Options that have a meaning with targets only."""
 
 
@@ -61,10 +61,10 @@ def arguments(parser: Parser) -> None:
         "--spread", float, "With --runs, largest distance of a motion from --start, in degrees. Default: 90."
     )
     parser.add_number("--seed", int, "Seed of the random motions. Default: 0.")
-    about = "With targets, share of the motions that must meet them, joint by joint."
-    parser.add_number("--quantile", float, about, default=1.0)
-    about = "With targets, method of the stability proof."
-    parser.add_choice("--stability", ("both", *WAYS), about, default="both")
+    about = "With targets, share of the motions that must meet them, joint by joint. Default: 1."
+    parser.add_number("--quantile", float, about)
+    about = "With targets, method of the stability proof. Default: both."
+    parser.add_choice("--stability", ("both", *WAYS), about)
     about = "Smallest share of the largest k_v under (19). Default: 1."
     parser.add_argument("--kv-share", metavar="SHARES", help=about)
     parser.add_argument("--damping", metavar="RATIOS", help="Lower bound of each joint's damping ratio.")
@@ -179,7 +179,8 @@ def _trials_of(
     from lyapcheck.answers.tune.trial import Trials, Wishes
     from lyapcheck.simulate.results import LEAST_STEP
 
-    quantile, goals, runs = options["quantile"], options["goal"], options["runs"]
+    goals, runs = options["goal"], options["runs"]
+    quantile = 1.0 if options["quantile"] is None else options["quantile"]
     if not 0 < quantile <= 1:
         raise argument_error("--quantile", quantile, "must be above 0, up to 1", "write --quantile 0.9")
     default = "45,45,90" if robot == PAPERS_ARM else ",".join(["45"] * model.n)
@@ -199,7 +200,7 @@ def _trials_of(
         random = [replace(tasks[0], q0=tuple(a.tolist()), q_d=tuple(b.tolist())) for a, b in pairs]
         tasks = (*(tasks if goals else ()), *random)
     asked = Wishes(**wishes, peak_share=None if shares[0] == 1 else float(shares[0]))
-    ways = WAYS if options["stability"] == "both" else (options["stability"],)
+    ways = WAYS if options["stability"] in (None, "both") else (options["stability"],)
     return Trials(asked, tasks, ways, options["digits"], quantile)
 
 
