@@ -70,7 +70,7 @@ def require_largest(tuning, members, folder):
     but(
         [("reyes-kelly2", 3), ("pendulum1", 2)],
         [
-            *(("buap3", 1), ("buap3", 12), ("buap3-small", 9)),
+            *(("buap3", 1), ("buap3", 12)),
             *(("reyes-kelly2", 3), ("reyes-kelly2", 5), ("pendulum1", 2), ("pendulum1", 12)),
         ],
     ),

@@ -14,7 +14,7 @@ from tests.helpers.shares import one_in
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-BUDGET = 80.0
+BUDGET = 40.0
 """s of computing time for the lines of all commands on all arms, as many as it lasts for."""
 LEAST = 40
 SEED = 20190301
