@@ -42,6 +42,8 @@ class Document:
 def gather(paths: Iterable[str | Path]) -> list[Document]:
     """The files among the paths, and all ``.json`` entries of the directories among them.
 
+    A directory that has none stands for the directories in it, as a report's ``certificates`` does.
+
     Files go by their names without the folder, unless two have the same.
 
     Raises:
@@ -65,10 +67,10 @@ def _documents(path: Path) -> list[Document]:
     if not stat.S_ISDIR(os.stat(path).st_mode):
         content(path)
         return [Document(path.name, path)]
-    names = sorted(name for name in os.listdir(path) if name.endswith(".json"))
-    if not names:
-        raise ValueError("the directory has no certificates (*.json)")
-    return [Document(name, path / name, named=False) for name in names]
+    found = sorted(path.glob("*.json")) or sorted(path.glob("*/*.json"))
+    if not found:
+        raise ValueError("the directory has no certificates (*.json), nor has one in it")
+    return [Document(one.name, one, named=False) for one in found]
 
 
 def content(path: Path) -> bytes:

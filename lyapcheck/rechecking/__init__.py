@@ -250,7 +250,7 @@ HELP = {
     "seconds": "The most computing time, in s, for one certificate; past it, it is undecided.",
     "memory": "The most memory, in MiB, for one certificate; past it, it is undecided.",
 }
-REPAIR = "give files written with --certificates, or their folders; those of a report: certificates/*/"
+REPAIR = "give files written with --certificates, or their folders"
 
 
 def run(

@@ -82,6 +82,7 @@ def rewrite(path, change, seal=True):
 def test_all_of_a_proof_is_accepted_and_undecided_claims_have_no_certificate(folder):
     result = outcome(folder)
     assert recheck(gather([folder])).code == 0
+    assert recheck(gather([folder.parent])).code == 0, "a folder of folders, as a report has it"
     assert set(result) == {"P.json", "a.json", "b.json", "c.json", "d.json", "f.m2.json", "f.m3.json"}
     assert all(one.accepted and not one.given for one in result.values())
     assert [result[name].verdict for name in ("d.json", "f.m2.json", "f.m3.json")] == [

@@ -159,5 +159,5 @@ def _summary(report: Report, robot: str, out: Path, formats: tuple[str, ...]) ->
         ),
         lead=(f"open: {', '.join(written)}",),
         assumed=assumed_line(report.robot, robot) if report.own else "",
-        next=f"{command('recheck', out)}/certificates/*/" if report.certificates else command("explain"),
+        next=f"{command('recheck', out)}/certificates" if report.certificates else command("explain"),
     )
