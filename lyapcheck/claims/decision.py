@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import lyapcheck
 from lyapcheck.certificate import Certificate
@@ -220,7 +220,10 @@ class ContradictionError(Exception):
         )
 
 
-def judge_afresh(certificates: Mapping[Key, Certificate]) -> dict[Key, Judged]:
+Name = TypeVar("Name")
+
+
+def judge_afresh(certificates: Mapping[Name, Certificate]) -> dict[Name, Judged]:
     """What ``python -P -m lyapcheck.check`` says about certificates that use none but each other.
 
     Soundness: a new process reads the files, and trusts nothing of what has happened in this one.

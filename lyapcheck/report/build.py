@@ -18,7 +18,16 @@ from lyapcheck.files.reader import holds
 from lyapcheck.process_tree import pending, temporary_folder
 from lyapcheck.report.document import ReportAnswer
 from lyapcheck.report.findings import as_the_gate_judges, findings, own_findings
-from lyapcheck.report.jobs import Done, GainData, derive_job, done, gains_job, proofs_job
+from lyapcheck.report.jobs import (
+    TURNS,
+    Done,
+    GainData,
+    derive_job,
+    done,
+    gains_job,
+    own_proofs_job,
+    proofs_job,
+)
 from lyapcheck.report.model import Report, Subject, published_notes
 from lyapcheck.report.page import render as page
 from lyapcheck.report.pdf import render as pdf
@@ -54,7 +63,10 @@ def build(subject: Subject, on_progress: Progress | None = None) -> Report:
         with main_unnamed():
             jobs = _submit(subject, notes, workers)
         figures = draw_family(subject.ms) | _drawn(jobs, on_progress or silent)
-    (proofs, by_size), *parts, derived = (job.result().result for job in jobs)
+    (proofs, by_size), *rest = (job.result().result for job in jobs)
+    count = len(subject.sets)
+    parts, derived = rest[:count], rest[count]
+    proofs += [one for found, _ in rest[count + 1 :] for one in found]
     epsilon, runs = tuple(part.epsilon for part in parts), tuple(part.row for part in parts)
     certificates: dict[str, str] = {}
     for made in [*(made for _, made in proofs), *(part.certificates for part in parts)]:
@@ -111,10 +123,17 @@ def _submit(subject: Subject, notes: Notes, workers: ProcessPoolExecutor) -> dic
         labels[workers.submit(done, work, *arguments)] = label
 
     about = (subject.ms, subject.robot, subject.gain_files[0].path)
-    start("claims", proofs_job, *about, notes, subject.own)  # the longest first
+    if subject.own:
+        start("claims", own_proofs_job, *about, notes)
+    else:
+        start("claims", proofs_job, TURNS[0], *about)
     for file, name in subject.sets:
         start(name, gains_job, file.path, name, subject.robot, SEED)
     start("derivation", derive_job, subject.ms, subject.robot)
+    for proofs in (
+        () if subject.own else TURNS[1:]
+    ):  # last, as they take from the store what the first has found
+        start(f"claims of {', '.join(proofs)}", proofs_job, proofs, *about)
     return labels
 
 

@@ -39,6 +39,8 @@ SAMPLED = "sampled.py"
 """The loop on a computer, from printed numbers."""
 OTHERS = {"scalar.py": (), "tracking.py": (), CLASS: (*ARGUMENT, "F.arms", "F.family", *BOUNDS), SAMPLED: ()}
 """Proofs of what the paper concludes, that do not rest on what is refuted, and which of their claims."""
+TURNS = (PROOF,), ("scalar.py",), ("tracking.py", CLASS, SAMPLED)
+"""Proofs that one process decides, one after the other."""
 SIZES = range(1, 7)
 """How many joints the paper's claims of these kinds are asked for; others are for every n, or of an arm."""
 OF_NORMS = ("NormBound", "Implies", "ForSmall")
@@ -123,33 +125,44 @@ def _own_claims(proof: str, ms: Sequence[int], robot: str, gains: GainFile, only
 
 
 def proofs_job(
-    ms: Sequence[int], robot: str, gains: str, notes: Notes, own: bool
+    proofs: Sequence[str], ms: Sequence[int], robot: str, gains: str
 ) -> tuple[list[Claims], tuple[BySize, ...]]:
-    """Every claim, those of the paper first.
-
-    About an arm of one's own: only proofs that say something about it, and nothing about the paper.
+    """The claims of some proofs, of the published one also for other numbers of joints.
 
     One proof after the other: what several of them state is searched for once, and then in the store.
     """
     from lyapcheck.control.gains import read_gain_file
 
-    wanted_of, file = {PROOF: (), **OTHERS}, read_gain_file(gains)
-    if own:
-        chosen = [(proof, notes.own[stem]) for proof in wanted_of if (stem := Path(proof).stem) in notes.own]
-        return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], ()
-    proofs = [_claims(proof, ms, robot, file, only) for proof, only in wanted_of.items()]
-    return proofs, _by_size(proofs[0][0], ms)
+    file, only = read_gain_file(gains), {PROOF: (), **OTHERS}
+    found = [_claims(proof, ms, robot, file, only[proof]) for proof in proofs]
+    return found, _by_size(found[0][0], ms) if PROOF in proofs else ()
+
+
+def own_proofs_job(
+    ms: Sequence[int], robot: str, gains: str, notes: Notes
+) -> tuple[list[Claims], tuple[BySize, ...]]:
+    """The claims about an arm of one's own; none is about the paper."""
+    from lyapcheck.control.gains import read_gain_file
+
+    file = read_gain_file(gains)
+    chosen = [
+        (proof, notes.own[stem]) for proof in (PROOF, *OTHERS) if (stem := Path(proof).stem) in notes.own
+    ]
+    return [_own_claims(proof, ms, robot, file, only) for proof, only in chosen], ()
 
 
 def _by_size(rows: Sequence[ClaimRow], ms: Sequence[int]) -> tuple[BySize, ...]:
     """The claims about norms and between numbers, for each n of ``SIZES``, where the verdicts differ."""
-    from lyapcheck.answers.check.run import run_proof
+    from lyapcheck.answers.check.run import proposed_proof
+    from lyapcheck.claims.decision import judge_afresh
 
     its_own = (row for row in rows if row.stands != "ours" and row.n is not None)
     only = list(dict.fromkeys(row.id for row in its_own if row.kind in OF_NORMS))
+    proposed = {n: proposed_proof(PROOF, ms, n=n, only=only) for n in SIZES}
+    judged = judge_afresh({(n, key): one for n, (made, _) in proposed.items() for key, one in made.items()})
     found: dict[tuple[str, int | None], dict[int, ClaimResult]] = {}
-    for n in SIZES:
-        for row in run_proof(PROOF, ms, n=n, only=only).claims:
+    for n, (made, result) in proposed.items():
+        for row in result({key: judged[n, key] for key in made}).claims:
             found.setdefault((row.id, row.m), {})[n] = row
     return tuple(
         BySize(claim, m, sizes[SIZES[0]].comment, {n: row.decision for n, row in sizes.items()})
