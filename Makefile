@@ -4,6 +4,8 @@ PYTHON ?= python3
 BIN := .venv/bin
 # As commands do: the matrices are small, and threads of BLAS only wait for each other.
 export OPENBLAS_NUM_THREADS ?= 1
+# Commands and tests start many processes; without kept bytecode each would compile every module anew.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: report reference screenshots site test test-slow test-robots test-mujoco test-sweep promises kernel kernel-slow fuzz lint types bench lock clean help
 
