@@ -317,7 +317,7 @@ def export(
     for gains, name in zip(gain_file.gains, c_names([one.name for one in gain_file.gains]), strict=True):
         controller = Controller(gains, arm, limits.torque, loop, name, wrapped, hold)
         try:
-            rounding = tuple(controller.rounding(angle) for angle in ANGLES)
+            rounding = tuple(controller.rounding[angle] for angle in ANGLES)
         except Unbounded as reason:
             rule = f"has no bound of rounding: {reason}"
             raise argument_error("gains", gains.name, rule, "choose numbers of a usual size") from None

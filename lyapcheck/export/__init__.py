@@ -80,11 +80,12 @@ class Controller:
         kp, he, kv, hw, gi = map(program.read, ("kp", "he", "kv", "hw", "gi"))
         return Kernel(program, {"tau[i]": kp * he - kv * hw + gi})
 
-    def rounding(self, largest: int) -> tuple[Fraction, ...]:
-        """Bounds of |computed τ_i − τ_i|, (n,), N·m, rounded up, for |q|, |q_d| ≤ ``largest`` rad, finite w.
+    @cached_property
+    def rounding(self) -> dict[int, tuple[Fraction, ...]]:
+        """By each of ``ANGLES``: bounds of |computed τ_i − τ_i|, (n,), N·m, for |q|, |q_d| ≤ it and finite w.
 
-        Sines and cosines are any numbers of [−1, 1] there: the bound of g is larger than it need be, the
-        more the longer the chain.
+        They are rounded up. Sines and cosines are any numbers of [−1, 1] there: the bound of g is larger than
+        it need be, the more the longer the chain.
 
         Soundness: running errors in balls, outward, over the whole domain, of the steps that are printed.
 
@@ -92,20 +93,23 @@ class Controller:
             Unbounded: there is none.
         """
         with precision(BITS):
-            angle = Rounded(arb(0, 1), angle_error(arb(largest)))
-            gravity = self.gravity.rounded(**dict.fromkeys(self.gravity.reads, angle))
             errors, h = self.saturation.errors(), arb(0, arb(above(self.family.checked.gamma)))
-            totals = []
-            for kp, kv, gi in zip(self.gains.kp, self.gains.kv, gravity, strict=True):
-                parts = {
-                    "kp": Rounded.constant(kp),
-                    "kv": Rounded.constant(kv),
-                    "he": Rounded(h, errors.rounded),
-                    "hw": Rounded(h, errors.exact),
-                    "gi": gi,
-                }
-                totals.append(significant_up(dyadic(self.sum.rounded(**parts)[0].error), DIGITS))
-            return tuple(totals)
+            result = {}
+            for largest in ANGLES:
+                angle = Rounded(arb(0, 1), angle_error(arb(largest)))
+                gravity = self.gravity.rounded(**dict.fromkeys(self.gravity.reads, angle))
+                totals = []
+                for kp, kv, gi in zip(self.gains.kp, self.gains.kv, gravity, strict=True):
+                    parts = {
+                        "kp": Rounded.constant(kp),
+                        "kv": Rounded.constant(kv),
+                        "he": Rounded(h, errors.rounded),
+                        "hw": Rounded(h, errors.exact),
+                        "gi": gi,
+                    }
+                    totals.append(significant_up(dyadic(self.sum.rounded(**parts)[0].error), DIGITS))
+                result[largest] = tuple(totals)
+            return result
 
     def torque(self, q: Sequence[float], w: Sequence[float], goal: Sequence[float]) -> list[arb]:
         """τ in balls, (n,), N·m: the steps of g in balls, and h as the checker has it."""
@@ -149,7 +153,7 @@ class Controller:
             "VECTORS_TEXT": self._vectors(),
             "COUNT_VALUE": str(VECTORS),
             "BOUND_VALUES": ",\n    ".join(
-                f"{{{', '.join(constant(above(x)) for x in self.rounding(largest))}}}" for largest in ANGLES
+                f"{{{', '.join(constant(above(x)) for x in self.rounding[largest])}}}" for largest in ANGLES
             ),
             "NAME": self.name,
         }

@@ -98,7 +98,7 @@ class Compiled:
         rates = [("rate", self.row * taps), ("tau", self.row)]
         ints = [(name, ctypes.c_int) for name in ("started", "missed", "flag")]
         self.State = type("State", (ctypes.Structure,), {"_fields_": [*rows, *rates, *ints]})
-        self.bounds = {angle: one.rounding(angle) for angle in ANGLES}
+        self.bounds = one.rounding
 
     def torque(
         self, q: Sequence[float], w: Sequence[float], goal: Sequence[float]
