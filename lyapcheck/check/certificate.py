@@ -91,12 +91,7 @@ def parse(text: str) -> Any:
         )
     except RecursionError:
         raise Refused("document", "", TOO_DEEP) from None
-    _require_shallow(value)
-    return value
-
-
-def _require_shallow(value: Any) -> None:
-    """Refuse what is nested too deeply for all that follows; level by level, as this must not nest either."""
+    # what is nested too deeply for all that follows; level by level, as this must not nest either
     level: list[Any] = [[value]]
     depth = 0
     while level:
@@ -104,6 +99,7 @@ def _require_shallow(value: Any) -> None:
         whole = (part.values() if isinstance(part, dict) else part for part in level)
         level = [part for inner in whole for part in inner if isinstance(part, (dict, list))]
         depth += 1
+    return value
 
 
 def sealed(data: Any) -> dict[str, Any]:
@@ -201,29 +197,26 @@ def judged(content: bytes, full: bool = False) -> Judgement:
             verdict=certificate.verdict,
             uses=dict(sorted(certificate.uses.items())),
         )
-        return _shown(result, certificate, data, judge(certificate).grade, full)
+        grade = judge(certificate).grade
+        statement, proof, verdict = certificate.statement, certificate.proof, certificate.verdict
+        decided = decided_by(statement, proof, verdict, data["statement"])
+        shows = tuple((digest_of(part), said, where) for part, said, where in decided)
+        return replace(
+            result,
+            grade=grade,
+            statement=shortened(statement.decided_text(proof), full),
+            statement_digest=shows[0][0],
+            shows=shows,
+            theorems=statement.theorems if verdict == "proved" else (),
+            granted=statement.granted,
+            rules=tuple(sorted(set(_rules(certificate)))),
+        )
     except (UnicodeDecodeError, JSONDecodeError) as error:
         return replace(result.refused(f"is not JSON in UTF-8 ({error})"), unreadable=True)
     except Refused as refusal:
         return result.refused(str(refusal))
     except Exception as error:
         return result.refused(f"cannot be judged ({type(error).__name__}: {error})")
-
-
-def _shown(result: Judgement, certificate: Certificate, data: Any, grade: str, full: bool) -> Judgement:
-    statement, verdict = certificate.statement, certificate.verdict
-    decided = decided_by(statement, certificate.proof, verdict, data["statement"])
-    shows = tuple((digest_of(part), said, where) for part, said, where in decided)
-    return replace(
-        result,
-        grade=grade,
-        statement=shortened(statement.decided_text(certificate.proof), full),
-        statement_digest=shows[0][0],
-        shows=shows,
-        theorems=statement.theorems if verdict == "proved" else (),
-        granted=statement.granted,
-        rules=tuple(sorted(set(_rules(certificate)))),
-    )
 
 
 def decided_by(

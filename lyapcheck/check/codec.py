@@ -72,7 +72,13 @@ def _read(hint: Any, data: Any, where: str) -> Any:
     if reader is not None:
         return reader(hint, data, where)
     if is_dataclass(hint):
-        return _one_class(hint, data, where)
+        cls: Any = hint
+        base = next((base for base in TAGS if issubclass(cls, base)), None)
+        if base is None:
+            return _dataclass(cls, data, where)
+        result = _tagged(base, data, where)
+        require(isinstance(result, cls), where, data[TAGS[base]], f"must be {name_of(cls)}")
+        return result
     require(type(data) is hint, where, data, f"must be of type {hint.__name__}")
     if hint is str:
         require(is_text(data), where, data, "is not plain Unicode text in NFC")
@@ -136,16 +142,6 @@ def _tagged(base: type, data: Any, where: str) -> Any:
     if cls is None:
         raise Refused(f"{where}.{key}", data[key], f"is not a {key} that the checker knows")
     return _dataclass(cls, {name: value for name, value in data.items() if name != key}, where)
-
-
-def _one_class(cls: Any, data: Any, where: str) -> Any:
-    """An object of one data class; if its kind has a name, it must bear that one."""
-    base = next((base for base in TAGS if issubclass(cls, base)), None)
-    if base is None:
-        return _dataclass(cls, data, where)
-    result = _tagged(base, data, where)
-    require(isinstance(result, cls), where, data[TAGS[base]], f"must be {name_of(cls)}")
-    return result
 
 
 @cache

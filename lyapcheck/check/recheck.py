@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import stat
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -53,7 +53,14 @@ def gather(paths: Iterable[str | Path]) -> list[Document]:
     problems: list[tuple[str, str]] = []
     for path in map(Path, paths):
         try:
-            result += _documents(path)
+            if stat.S_ISDIR(os.stat(path).st_mode):
+                found = sorted(path.glob("*.json")) or sorted(path.glob("*/*.json"))
+                if not found:
+                    raise ValueError("the directory has no certificates (*.json), nor has one in it")
+                result += [Document(one.name, one, named=False) for one in found]
+            else:
+                content(path)
+                result.append(Document(path.name, path))
         except (OSError, ValueError) as error:
             problems.append((str(path), words(error)))
     if problems:
@@ -61,16 +68,6 @@ def gather(paths: Iterable[str | Path]) -> list[Document]:
     times = Counter(one.path.name for one in result)
     shown = (one.path.name if times[one.path.name] == 1 else str(one.path) for one in result)
     return [Document(plain(name), one.path, one.named) for name, one in zip(shown, result, strict=True)]
-
-
-def _documents(path: Path) -> list[Document]:
-    if not stat.S_ISDIR(os.stat(path).st_mode):
-        content(path)
-        return [Document(path.name, path)]
-    found = sorted(path.glob("*.json")) or sorted(path.glob("*/*.json"))
-    if not found:
-        raise ValueError("the directory has no certificates (*.json), nor has one in it")
-    return [Document(one.name, one, named=False) for one in found]
 
 
 def content(path: Path) -> bytes:
@@ -189,7 +186,14 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
     digest is over the digests it uses.
     """
     with Guard(limits or Limits()) as guard:
-        own = [_own(document, guard, full) for document in documents]
+        own = []
+        for document in documents:
+            try:
+                finding = guard.judge(content(document.path), full)
+            except (OSError, ValueError) as error:
+                finding = replace(Judgement().refused(words(error)), unreadable=True)
+            status = "undecided" if finding.spent else "refused" if finding.reason else "accepted"
+            own.append(Checked(document, finding, status, finding.reason, finding.grade))
         problems = [
             (str(d.document.path), d.reason) for d in own if d.finding.unreadable and d.document.named
         ]
@@ -204,15 +208,6 @@ def recheck(documents: Iterable[Document], limits: Limits | None = None, full: b
             for one in own
         )
         return summed(result, settled, guard.limited)
-
-
-def _own(document: Document, guard: Guard, full: bool) -> Checked:
-    try:
-        finding = guard.judge(content(document.path), full)
-    except (OSError, ValueError) as error:
-        finding = replace(Judgement().refused(words(error)), unreadable=True)
-    status = "undecided" if finding.spent else "refused" if finding.reason else "accepted"
-    return Checked(document, finding, status, finding.reason, finding.grade)
 
 
 def _settle(one: Checked, known: dict[str, Checked], settled: dict[str, Checked]) -> None:
@@ -283,7 +278,7 @@ def summed(checked: tuple[Checked, ...], settled: dict[str, Checked], limited: t
         granted[one.file] = tuple(dict.fromkeys(line for its in below for line in its.granted))
         rules[one.file] = tuple(sorted({rule for its in below for rule in its.rules}))
     files = {name: tuple(theorems[name]) for name in sorted(theorems)}
-    return Outcome(checked, _alarms(checked), files, references, granted, rules, limited)
+    return Outcome(checked, tuple(_alarms(checked)), files, references, granted, rules, limited)
 
 
 def _rests_on(one: Checked, settled: dict[str, Checked]) -> list[Checked]:
@@ -298,20 +293,19 @@ def _rests_on(one: Checked, settled: dict[str, Checked]) -> list[Checked]:
     return list(result.values())
 
 
-def _alarms(checked: tuple[Checked, ...]) -> tuple[Alarm, ...]:
+def _alarms(checked: tuple[Checked, ...]) -> Iterator[Alarm]:
     """Statements that are both proved and refuted, whatever became of what the certificates rest on."""
+    # of each statement in which part it is, the verdict, and where
     said: dict[str, list[tuple[str, str, Checked]]] = {}
     for one in checked:
         for digest, verdict, where in one.finding.shows:
             said.setdefault(digest, []).append((where, verdict, one))
-    return tuple(_alarm(digest, of) for digest, of in said.items() if len({v for _, v, _ in of}) > 1)
-
-
-def _alarm(digest: str, said: list[tuple[str, str, Checked]]) -> Alarm:
-    """What to say of one statement; ``said`` is in which part, the verdict, and where."""
-    named: dict[str, dict[str, None]] = {"proved": {}, "refuted": {}}
-    for where, verdict, one in said:
-        named[verdict][f"{one.file} ({where})" if where else one.file] = None
-    where, _, first = min(said, key=lambda entry: entry[0])
-    of = f"{where} of: " if where else ""
-    return Alarm(digest, of + first.finding.statement, tuple(named["proved"]), tuple(named["refuted"]))
+    for digest, places in said.items():
+        if len({verdict for _, verdict, _ in places}) == 1:
+            continue
+        named: dict[str, dict[str, None]] = {"proved": {}, "refuted": {}}
+        for where, verdict, one in places:
+            named[verdict][f"{one.file} ({where})" if where else one.file] = None
+        where, _, first = min(places, key=lambda entry: entry[0])
+        of = f"{where} of: " if where else ""
+        yield Alarm(digest, of + first.finding.statement, tuple(named["proved"]), tuple(named["refuted"]))

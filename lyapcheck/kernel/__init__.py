@@ -28,7 +28,7 @@ from lyapcheck.files.reader import holds
 from lyapcheck.kernel.statements import shown
 from lyapcheck.kernel.terms import NotPrinted
 
-PACKAGES = "coq libcoq-interval"
+INSTALL = "apt-get install --no-install-recommends coq libcoq-interval"
 QUIET = "-ambiguous-paths,-notation-overridden"
 LIBRARY = "Lyapcheck"
 NAME = re.compile(r"[A-Za-z_][\w'.]*")
@@ -74,7 +74,21 @@ class Coq:
         self.program, self.folder, self.seconds = require_coq(), folder, seconds
         self.library, self.printed = folder / "library", folder / "printed"
         self.printed.mkdir(parents=True, exist_ok=True)
-        self._compile_library()
+        self.library.mkdir(parents=True, exist_ok=True)
+        fresh = True
+        for name in sources():
+            text = (shipped("formal") / name).read_bytes()
+            path = self.library / name
+            same = holds(path, text) and path.with_suffix(".vo").exists()
+            fresh = fresh and same  # what comes later rests on what comes before
+            if fresh:
+                continue
+            path.write_bytes(text)
+            try:
+                self._compile(path)
+            except CoqRefused as refusal:
+                rule = f"cannot compile {name} of its library: {refusal}"
+                raise argument_error("--kernel", "", rule, INSTALL) from None
 
     def accept(self, name: str, text: str, *options: str, limited: bool = True) -> str:
         """Write a file and have it compiled, with options of ``coqc``; what Coq prints.
@@ -98,27 +112,9 @@ class Coq:
         except Spent:
             raise CoqUndecided(f"coqc takes more than {seconds} s of computing time") from None
         if done.returncode != 0:
-            raise CoqRefused(_first_error(done.stderr))
+            _, _, first = done.stderr.partition("Error:")
+            raise CoqRefused(" ".join((first or done.stderr).split())[:300] or "it ends without a word")
         return done.stdout
-
-    def _compile_library(self) -> None:
-        self.library.mkdir(parents=True, exist_ok=True)
-        fresh = True
-        for name in sources():
-            text = (shipped("formal") / name).read_bytes()
-            path = self.library / name
-            same = holds(path, text) and path.with_suffix(".vo").exists()
-            fresh = fresh and same  # what comes later rests on what comes before
-            if fresh:
-                continue
-            path.write_bytes(text)
-            try:
-                self._compile(path)
-            except CoqRefused as refusal:
-                rule = f"cannot compile {name} of its library: {refusal}"
-                raise argument_error(
-                    "--kernel", "", rule, f"apt-get install --no-install-recommends {PACKAGES}"
-                ) from None
 
 
 def require_coq() -> str:
@@ -130,7 +126,7 @@ def require_coq() -> str:
     program = shutil.which("coqc")
     if program is None:
         rule = "needs Coq and CoqInterval, and there is no coqc on the path"
-        raise argument_error("--kernel", "", rule, f"apt-get install --no-install-recommends {PACKAGES}")
+        raise argument_error("--kernel", "", rule, INSTALL)
     return program
 
 
@@ -171,12 +167,6 @@ def golden(name: str) -> frozenset[str]:
     """The axioms of a golden list, ``real`` or ``float``; the second has those of the first as well."""
     own = frozenset((shipped("formal") / f"axioms.{name}").read_text(encoding="utf-8").split())
     return own if name == "real" else own | golden("real")
-
-
-def _first_error(text: str) -> str:
-    """Coq's first error in one line."""
-    _, _, said = text.partition("Error:")
-    return " ".join((said or text).split())[:300] or "it ends without a word"
 
 
 # --- Accepted certificates before the kernel, and what becomes of each.
@@ -228,15 +218,11 @@ def judged(outcome: Outcome, folder: Path, seconds: int, progress: Callable[[str
         modules = {
             k: _module(outcome.checked[k]) for k, one in result.items() if one.accepted and one.axioms == name
         }
-        within = _within(modules, coq, name)
-        for k in modules:
-            said = f"its axioms go beyond the golden list {name}"
-            if k not in within:
-                result[k] = (
-                    replace(result[k], axioms="float")
-                    if name == "real"
-                    else Kernel(result[k].file, False, said)
-                )
+        for k in modules.keys() - _within(modules, coq, name):
+            if name == "real":
+                result[k] = replace(result[k], axioms="float")
+            else:
+                result[k] = Kernel(result[k].file, False, "its axioms go beyond the golden list float")
     return list(result.values())
 
 

@@ -70,6 +70,8 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
     count, n = len(loop.angles), loop.n
     errors = loop.start[count : count + n]
     signs = "; ".join(f"({j}%nat, {_signs(loop, j)})" for j in loop.one_sided)
+    tree = proof.rate.tree
+    texts = (f'"{tree[k : k + LITERAL]}"' for k in range(0, len(tree), LITERAL))
     parts |= {
         "Lq": exact(
             Fraction(1) if loop.m == 1 else Fraction(math.ceil(loop.member.L * 10**4 + Fraction(1, 4)), 10**4)
@@ -80,7 +82,7 @@ def arm_script(statement: Decreasing, proof: Proof) -> str:
         "hI": _range("h", loop.m),
         "dhI": _range("dh", loop.m),
         "more": f"{MORE_HALVINGS}%nat",
-        "tree": _text(proof.rate.tree),
+        "tree": f"({' ++ '.join(texts)})%string",
     }
     return _applied("certified_by_boxes", parts)
 
@@ -180,8 +182,3 @@ def _sides(sides: Sequence[Side]) -> str:
 
 def _double(value: float) -> str:
     return f"({value.hex()})%float"
-
-
-def _text(tree: str) -> str:
-    pieces = [f'"{tree[k : k + LITERAL]}"' for k in range(0, len(tree), LITERAL)]
-    return f"({' ++ '.join(pieces)})%string"

@@ -100,7 +100,11 @@ def gate_proposition(statement: GateAccepted) -> str:
     Raises:
         NotPrinted: there is no such theorem.
     """
-    return f"gate_accepts {_gated(statement)} {_asked(statement)}"
+    gated = _gated(statement)
+    if "10" in statement.conditions:
+        raise NotPrinted("condition (10), which is about norms")
+    asked = " ".join(str(name in statement.conditions).lower() for name in ASKED)
+    return f"gate_accepts {gated} (Asked {asked})"
 
 
 def gate_refuted(statement: GateAccepted, proof: Proof) -> str:
@@ -182,12 +186,6 @@ def _m(statement: GateAccepted | SampledStable, most: float = math.inf) -> int:
     if statement.family not in ("hyperbolic", "tanh") or m is None or m > most:
         raise NotPrinted(f"the function {statement.family}{f' with m = {m}' if m else ''}")
     return m
-
-
-def _asked(statement: GateAccepted) -> str:
-    if "10" in statement.conditions:
-        raise NotPrinted("condition (10), which is about norms")
-    return f"(Asked {' '.join(str(name in statement.conditions).lower() for name in ASKED)})"
 
 
 def _gated(statement: GateAccepted) -> str:

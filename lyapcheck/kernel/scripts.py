@@ -237,18 +237,14 @@ def secant(m: int, c: Fraction) -> str:
 
 
 def _refuted(statement: Statement, proof: Proof) -> str:
-    """That a statement does not hold."""
+    """That a statement does not hold, as it fails at the point of a witness."""
     if isinstance(statement, Constant):
         return "intros H. fails H."
     if isinstance(statement, Agrees) and isinstance(proof, OutsideRounding):
         return _disagrees(statement, proof)
     if not isinstance(proof, Witness):
         raise NotPrinted(f"a refutation by {type(proof).__name__}")
-    return _fails_at(statement, dict(proof.point))
-
-
-def _fails_at(statement: Statement, point: dict[str, Fraction]) -> str:
-    """The statement at the point of a witness."""
+    point = dict(proof.point)
     if isinstance(statement, NormBound):
         values = exact_list(point[f"x{i + 1}"] for i in range(statement.n))
         return f"intros H. specialize (H (entries {values})). fails H."

@@ -97,7 +97,27 @@ class _Identity:
 
     def __init__(self, variables: Sequence[Variable], hypotheses: Sequence[Relation], signs: Signs) -> None:
         self.signs, self.hypotheses = signs, hypotheses
-        self.plain, self.shifted, self.known, roots = _generators(variables, signs)
+        known = {variable.name: variable for variable in variables}
+        # the generators without and with the shift, then what Coq has to know of roots
+        self.plain, self.shifted, self.known = list[str](), list[str](), ""
+        roots = []
+        for name in signs.algebra.names:
+            low = known[name].low
+            self.plain.append(identifier(name))
+            self.shifted.append(f"({identifier(name)} - {rational(low)})" if low else identifier(name))
+        for (name, argument), _ in sorted(signs.algebra.uses.items(), key=lambda item: item[1]):
+            if name != "sqrt" or not argument.isdigit():
+                raise NotPrinted(f"an identity of signs with {name}")
+            k = len(self.plain)
+            low = Fraction(int(Enclosure.from_arb(signs.algebra.constants()[k]).lower * 16), 16)
+            self.plain.append(f"(sqrt {argument})")
+            self.shifted.append(f"(sqrt {argument} - {rational(low)})")
+            self.known += (
+                f"assert (Q{k} : sqrt {argument} * sqrt {argument} = {argument}) by (apply sqrt_sqrt; lra). "
+                f"assert (R{k} : 0 < sqrt {argument}) by (apply sqrt_lt_R0; lra). "
+                f"assert (S{k} : 0 <= sqrt {argument} - {rational(low)}) by interval. "
+            )
+            roots.append(f"Q{k}")
         self.root = roots[0] if roots else "I"
 
     def gap(self, relation: Relation) -> tuple[str, str]:
@@ -121,8 +141,14 @@ class _Identity:
             )
         return "".join(lines)
 
-    def _sides(self, goal: fmpq_mpoly, proof: SignIdentity) -> tuple[str, str]:
-        """The lift, and the sum that its product with the goal is."""
+    def concluded(self, conclusion: Relation, goal: fmpq_mpoly, proof: SignIdentity) -> str:
+        """A relation of which the goal has the sign of the gap."""
+        gap, bottom = self.gap(conclusion)
+        sign = "<" if conclusion.strict else "<="
+        return f"enough (0 {sign} {gap}) by lra. {self.shown(goal, proof, conclusion.strict, bottom)}"
+
+    def shown(self, goal: fmpq_mpoly, proof: SignIdentity, strict: bool, bottom: str = "1") -> str:
+        """That a number, ``bottom`` times which is the goal, is not negative: lift · goal is a sum."""
         signs = self.signs
         lift = signs.ring.from_dict({signs.exponents(proof.lift): fmpq(1)})
         remainder, terms = goal * lift, []
@@ -133,47 +159,11 @@ class _Identity:
             remainder -= over * top
             terms.append(f"({_text(over, self.shifted)}) * ({_text(top, self.shifted)})")
         terms += [f"({_text(remainder, self.shifted)})"] if remainder != 0 else []
-        return _text(lift, self.shifted), " + ".join(terms) or "0"
-
-    def concluded(self, conclusion: Relation, goal: fmpq_mpoly, proof: SignIdentity) -> str:
-        """A relation of which the goal has the sign of the gap."""
-        gap, bottom = self.gap(conclusion)
-        sign = "<" if conclusion.strict else "<="
-        return f"enough (0 {sign} {gap}) by lra. {self.shown(goal, proof, conclusion.strict, bottom)}"
-
-    def shown(self, goal: fmpq_mpoly, proof: SignIdentity, strict: bool, bottom: str = "1") -> str:
-        """That a number, ``bottom`` times which is the goal, is not negative."""
-        lift, total = self._sides(goal, proof)
         theorem, last = ("gap_positive", "positive") if strict else ("gap_nonnegative", "nonneg")
+        given = f"({_text(goal, self.shifted)}) ({_text(lift, self.shifted)}) ({' + '.join(terms) or '0'})"
         return (
-            f"apply ({theorem} _ ({bottom}) ({_text(goal, self.shifted)}) ({lift}) ({total})); "
-            f"[quotients {self.root}|positive|positive|field|{last}]."
+            f"apply ({theorem} _ ({bottom}) {given}); [quotients {self.root}|positive|positive|field|{last}]."
         )
-
-
-def _generators(variables: Sequence[Variable], signs: Signs) -> tuple[list[str], list[str], str, list[str]]:
-    """The generators, without and with the shift, and what Coq has to know of roots."""
-    known = {variable.name: variable for variable in variables}
-    plain, shifted = [], []
-    for name in signs.algebra.names:
-        low = known[name].low
-        plain.append(identifier(name))
-        shifted.append(f"({identifier(name)} - {rational(low)})" if low else identifier(name))
-    lines, roots = [], []
-    for (name, argument), _ in sorted(signs.algebra.uses.items(), key=lambda item: item[1]):
-        if name != "sqrt" or not argument.isdigit():
-            raise NotPrinted(f"an identity of signs with {name}")
-        k = len(plain)
-        low = Fraction(int(Enclosure.from_arb(signs.algebra.constants()[k]).lower * 16), 16)
-        plain.append(f"(sqrt {argument})")
-        shifted.append(f"(sqrt {argument} - {rational(low)})")
-        lines.append(
-            f"assert (Q{k} : sqrt {argument} * sqrt {argument} = {argument}) by (apply sqrt_sqrt; lra). "
-            f"assert (R{k} : 0 < sqrt {argument}) by (apply sqrt_lt_R0; lra). "
-            f"assert (S{k} : 0 <= sqrt {argument} - {rational(low)}) by interval. "
-        )
-        roots.append(f"Q{k}")
-    return plain, shifted, "".join(lines), roots
 
 
 def _text(polynomial: fmpq_mpoly, generators: Sequence[str]) -> str:

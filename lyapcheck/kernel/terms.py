@@ -33,7 +33,6 @@ FUNCTIONS |= {name: name for name in ("sqrt", "exp", "sin", "cos", "tan", "asin"
 FUNCTIONS |= {name: name for name in ("sinh", "cosh", "tanh")}
 FAMILY = {"h": "h", "dh": "dh", "potential": "U"} | {name: name for name in CONSTANTS}
 INFIX = {"add": " + ", "mul": " * ", "div": " / "}
-SIGNS = {"<=": "<=", "<": "<"}
 
 
 def identifier(name: str) -> str:
@@ -113,7 +112,7 @@ def entry(tree: Tree, place: str) -> str:
 
 def relation(one: Relation) -> str:
     """A proposition."""
-    return f"{expression(one.left)} {SIGNS[one.operator]} {expression(one.right)}"
+    return f"{expression(one.left)} {one.operator} {expression(one.right)}"
 
 
 def bound(variable: Variable) -> list[str]:
@@ -217,7 +216,10 @@ def every_n(statement: EveryN | BoundEveryN) -> str:
         f"({' '.join(map(identifier, names[kind]))} : {sort})" for kind, sort in SORTS.items() if names[kind]
     ]
     given = [f"0 < {identifier(name)}" for name in identity.positive]
-    given += [_symmetric(identifier(name)) for name in identity.symmetric]
+    given += [
+        f"forall i j, (i < n)%nat -> (j < n)%nat -> {name} i j = {name} j i"
+        for name in map(identifier, identity.symmetric)
+    ]
     sides = f"{expression(statement.left)} = {expression(statement.right)}"
     if isinstance(statement, BoundEveryN):
         given += [f"0 <= {identifier(name)}" for name in sorted(statement.numbers)]
@@ -226,10 +228,6 @@ def every_n(statement: EveryN | BoundEveryN) -> str:
         sides = f"{expression(statement.left)} <= {expression(statement.right)}"
     body = " -> ".join([*(f"({one})" for one in given), f"({sides})"])
     return f"forall (n : nat) {' '.join(over)}, {body}"
-
-
-def _symmetric(name: str) -> str:
-    return f"forall i j, (i < n)%nat -> (j < n)%nat -> {name} i j = {name} j i"
 
 
 def _norms(known: tuple[Tree, ...], size: Tree) -> str:
@@ -283,10 +281,12 @@ def member_of(argument: Argument) -> int:
         raise NotPrinted("a loop without a function of q̃ and one of q̇")
     if not _same(("dot", TEST, system.torque), ("dot", TEST, _torque(system))):
         raise NotPrinted("a torque that is neither (6) nor (21)")
-    first, second = (_member(f.member.value if f.member else ()) for f in system.functions)
-    if first != second:
+    values = [f.member.value if f.member else () for f in system.functions]
+    if any(len(value) != 3 or value[0] != "h" or value[2] != X for value in values):
+        raise NotPrinted("a function that is not of the family h_m")
+    if values[0] != values[1]:
         raise NotPrinted("two functions that differ")
-    return first
+    return int(values[0][1])
 
 
 def member_of_energy(argument: Argument) -> int:
@@ -313,13 +313,6 @@ def on_one_arm(statement: StableArm) -> Decreasing:
     (_, kp), (_, kv) = statement.gains
     ends: tuple[tuple[Fraction, Fraction], ...] = tuple((b, b) for b in statement.arm.viscous)
     return Decreasing(statement.arm.mass, ends, (), "hyperbolic", m, kp, kv, numbers["eps0"], ())
-
-
-def _member(value: Tree) -> int:
-    """The m of h_m."""
-    if len(value) == 3 and value[0] == "h" and value[2] == X:
-        return int(value[1])
-    raise NotPrinted("a function that is not of the family h_m")
 
 
 def _torque(system: System) -> Tree:

@@ -202,7 +202,8 @@ class _Lines:
             _, first = word[0]
             _, last = word[-1]
             factors = "; ".join(map(self.factor, word[1:-1]))
-            own = [by_matrix.get(_letter(letter), "0") for letter in word[1:-1]]
+            letters_of_word = (("mat" if kind == "transposed" else kind, name) for kind, name in word[1:-1])
+            own = [by_matrix.get(letter, "0") for letter in letters_of_word]
             places = f"{self.vectors.index(first)} [{factors}] {self.vectors.index(last)} [{'; '.join(own)}]"
             inner = "".join(f"{size} * (" for size in own) + "1" + ")" * len(own)
             bounds.append(f"norm n {identifier(first)} * ({inner} * norm n {identifier(last)})")
@@ -242,11 +243,6 @@ class _Lines:
 
 def _norm(letter: Tree) -> str:
     return identifier(letter[1]) if letter[0] == "var" else f"norm n {identifier(letter[1])}"
-
-
-def _letter(letter: tuple[str, str]) -> Tree:
-    kind, name = letter
-    return ("mat" if kind == "transposed" else kind, name)
 
 
 def _product(trees: list[Tree]) -> Tree:

@@ -56,19 +56,16 @@ def modules(rules: Iterable[tuple[str, str]]) -> list[str]:
 @cache
 def _imported(module: str) -> frozenset[str]:
     """The modules of the checker that one imports, wherever in its source, and the packages it is in."""
-    names = set(_before(module))
+    names, package = set(), module
+    while package != PACKAGE:
+        package = package.rpartition(".")[0]
+        names.add(package)
     for node in ast.walk(ast.parse(source(module).read_bytes())):
         if isinstance(node, ast.ImportFrom):
             names |= {f"{node.module}", *(f"{node.module}.{part.name}" for part in node.names)}
     if FUNCTIONS in names:
         names |= {f"{FUNCTIONS}.{file.stem}" for file in source(FUNCTIONS).parent.glob("*.py")}
     return frozenset(name for name in names if f"{name}.".startswith(f"{PACKAGE}.") and source(name).exists())
-
-
-def _before(module: str) -> Iterator[str]:
-    while module != PACKAGE:
-        module = module.rpartition(".")[0]
-        yield module
 
 
 def source(module: str) -> Path:
@@ -101,7 +98,9 @@ def text(outcome: Outcome, trusted: bool = False) -> str:
         lines += [f"{files}: taken for granted:", *(f"  {sentence}" for sentence in granted)]
     lines += ["every verdict takes for granted:", *(f"  {sentence}" for sentence in GENERAL)]
     lines += [f"the system keeps no limit on {name} here" for name in unlimited(outcome)]
-    lines += [*_alarms(outcome), _tally(outcome)]
+    n = _counts(outcome)
+    accepted = f"{n['accepted']} accepted ({n['proved']} proved, {n['refuted']} refuted)"
+    lines += [*_alarms(outcome), f"{accepted}, {n['refused']} refused, {n['undecided']} undecided"]
     return "\n".join(lines) + "\n"
 
 
@@ -198,10 +197,6 @@ def _sums(outcome: Outcome) -> list[tuple[str, tuple[tuple[str, str], ...]]]:
     return [(verdict, tuple(sorted(rules))) for verdict, rules in sorted(result.items())]
 
 
-def _names(rules: tuple[tuple[str, str], ...]) -> list[str]:
-    return [name for name, _ in rules]
-
-
 def unlimited(outcome: Outcome) -> list[str]:
     """What the system keeps no limit on here."""
     return [name for name in ("seconds", "memory") if name not in outcome.limited]
@@ -209,12 +204,6 @@ def unlimited(outcome: Outcome) -> list[str]:
 
 def _counts(outcome: Outcome) -> Counter[str]:
     return Counter((*(one.status for one in outcome.checked), *(one.verdict for one in outcome.checked)))
-
-
-def _tally(outcome: Outcome) -> str:
-    n = _counts(outcome)
-    accepted = f"{n['accepted']} accepted ({n['proved']} proved, {n['refuted']} refuted)"
-    return f"{accepted}, {n['refused']} refused, {n['undecided']} undecided"
 
 
 def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
@@ -229,7 +218,7 @@ def _row(one: Checked, outcome: Outcome) -> dict[str, Any]:
         "verdict": one.verdict or None,
         "grade": one.grade if one.accepted else None,
         "granted": list(outcome.granted.get(one.file, ())),
-        "rules": _names(outcome.rules.get(one.file, ())),
+        "rules": [name for name, _ in outcome.rules.get(one.file, ())],
         "id": result.label if read else None,
         "m": result.m,
         "n": result.n,

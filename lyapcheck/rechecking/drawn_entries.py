@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import islice
-from math import isqrt, prod
+from math import isqrt
 from random import Random
 
 from flint import arb, ctx, fmpq_mat
@@ -59,16 +59,13 @@ def solved(entries: Entries, given: Iterable[tuple[str, str, Tree]], point: Poin
         Unsupported: b leaves the rational numbers.
     """
     for matrix, vector, equals in given:
-        a = fmpq_mat([[_at(tree, point) for tree in row] for row in entries.matrix(("mat", matrix))])
+        rows = entries.matrix(("mat", matrix))
+        a = fmpq_mat([[rational(point[name]) for _, name in row] for row in rows])
         b = fmpq_mat([[exact(tree, point)] for tree in entries.vector(equals)])
         result = a.solve(b).entries()
         for (_, name), value in zip(entries.vector(("vec", vector)), result, strict=True):
             point = point | {name: fraction(value)}
     return point
-
-
-def _at(entry: Tree, point: Point) -> object:
-    return rational(point[entry[1]])
 
 
 def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | None:
@@ -101,11 +98,11 @@ class DrawnBounds:
 
     def squared(self, letters: Iterable[Tree], point: Mapping[str, Fraction]) -> Fraction:
         """The square of a product of norms, from above."""
-        return prod((self._square(letter, point) for letter in letters), start=Fraction(1))
-
-    def _square(self, letter: Tree, point: Mapping[str, Fraction]) -> Fraction:
-        squares = [point[entry] ** 2 for entry in self.entries.names(letter)]
-        return max(squares) if letter[0] == "diag" else sum(squares, Fraction(0))
+        result = Fraction(1)
+        for letter in letters:
+            squares = [point[entry] ** 2 for entry in self.entries.names(letter)]
+            result *= max(squares) if letter[0] == "diag" else sum(squares, Fraction(0))
+        return result
 
     def upright(self, point: Point) -> Point:
         """The point with matrices in lower bounds, as diag(k) in xᵀdiag(k)x >= …, made positive definite."""
@@ -125,11 +122,9 @@ class DrawnBounds:
             square = self.squared(letters, point)
             if upper is not None and square > upper * upper:
                 share = upper / _root_above(square)
-                point = self._scaled(letters[0], share, point)
+                names = dict.fromkeys(self.entries.names(letters[0]))
+                point = point | {entry: share * point[entry] for entry in names}
         return point
-
-    def _scaled(self, letter: Tree, share: Fraction, point: Point) -> Point:
-        return point | {entry: share * point[entry] for entry in dict.fromkeys(self.entries.names(letter))}
 
     def widened(self, names: set[str], point: Point) -> Point:
         """The point with the numbers ``names``, that only bounds speak of, put where the bounds hold.

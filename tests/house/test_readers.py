@@ -19,7 +19,7 @@ OURS = {
     ("export/__init__.py", "texts"): "source of the package",
     ("cli/commands/init.py", "run"): "the first files of the package",
     ("lyapunov/compiler.py", "library"): "what the compiler has just written to a folder of ours",
-    ("kernel/__init__.py", "_compile_library"): "the library of the package",
+    ("kernel/__init__.py", "__init__"): "the library of the package",
     ("kernel/__init__.py", "sources"): "the library of the package",
     ("kernel/__init__.py", "golden"): "the library of the package",
     ("kernel/__init__.py", "_record"): "a record of the package",

@@ -120,8 +120,12 @@ class _Evaluation:
         known = self.known.get(id(tree))
         if known is None:
             kind, rest = tree[0], tree[1:]
+            if kind == "num":
+                return self.algebra.number(_fraction(rest[0]))
+            if kind == "var":
+                return self.values[rest[0]]
             if kind in LEAVES:
-                return _leaf(kind, rest, self.values, self.algebra)
+                return self.algebra.pi() if kind == "pi" else self.algebra.constant(kind, rest[0])
             known = self.known[id(tree)] = tree, self._worked_out(kind, rest)
         return known[1]
 
@@ -133,36 +137,25 @@ class _Evaluation:
             if not isinstance(exponent, int) or exponent < 0:
                 raise Unsupported(f"exponent {exponent!r} is not a natural number")
             return power(base, exponent) if exponent else self.algebra.power_zero(base)
-        return _combine(kind, [self.of(part) for part in rest], self.algebra)
+        parts = [self.of(part) for part in rest]
+        if kind == "neg":
+            return -parts[0]
+        if kind == "div":
+            return parts[0] / parts[1]
+        if kind in ("add", "mul"):
+            result = parts[0]
+            for part in parts[1:]:
+                result = result + part if kind == "add" else result * part
+            return result
+        if kind in FUNCTIONS:
+            return self.algebra.function(kind, parts[0])
+        raise Unsupported(f"unknown operation {kind!r}")
 
 
 @lru_cache(maxsize=1 << 14)
 def _fraction(text: str) -> Fraction:
     """Kept, as reading a number takes longer than reckoning with it."""
     return Fraction(*map(int, text.split("/"))) if "/" in text else Fraction(text)
-
-
-def _leaf(kind: str, rest: Tree, values: Mapping[str, Any], algebra: Algebra) -> Any:
-    if kind == "num":
-        return algebra.number(_fraction(rest[0]))
-    if kind == "var":
-        return values[rest[0]]
-    return algebra.pi() if kind == "pi" else algebra.constant(kind, rest[0])
-
-
-def _combine(kind: str, parts: list[Any], algebra: Algebra) -> Any:
-    if kind == "neg":
-        return -parts[0]
-    if kind == "div":
-        return parts[0] / parts[1]
-    if kind in ("add", "mul"):
-        result = parts[0]
-        for part in parts[1:]:
-            result = result + part if kind == "add" else result * part
-        return result
-    if kind in FUNCTIONS:
-        return algebra.function(kind, parts[0])
-    raise Unsupported(f"unknown operation {kind!r}")
 
 
 def family_formula(kind: str, m: int, argument: Tree) -> Tree:

@@ -113,9 +113,15 @@ class RationalAlgebra(Algebra):
         if name == "exp":
             return self._exponential(value)
         if name in HYPERBOLIC:
-            return self._hyperbolic(name, self._exponential(value))
+            grow, half = self._exponential(value), self.number(Fraction(1, 2))
+            fall = self.number(Fraction(1)) / grow
+            sinh, cosh = (grow - fall) * half, (grow + fall) * half
+            return {"sinh": sinh, "cosh": cosh, "tanh": sinh / cosh}[name]
         if name in ("sin", "cos"):
-            return self._circular(name, value)
+            sin = self._generator("sin", str(value))
+            cos = self._generator("cos", str(value))
+            self.squares[self.uses["cos", str(value)]] = self.one - sin.top * sin.top
+            return sin if name == "sin" else cos
         return self._root(value) if name == "sqrt" else self._opaque(name, value)
 
     def _exponential(self, value: Ratio) -> Ratio:
@@ -130,18 +136,6 @@ class RationalAlgebra(Algebra):
             power = Ratio(base.top ** abs(int(coefficient.p)), self.one)
             result = result * power if coefficient > 0 else result / power
         return result
-
-    def _hyperbolic(self, name: str, grow: Ratio) -> Ratio:
-        fall = self.number(Fraction(1)) / grow
-        half = self.number(Fraction(1, 2))
-        sinh, cosh = (grow - fall) * half, (grow + fall) * half
-        return {"sinh": sinh, "cosh": cosh, "tanh": sinh / cosh}[name]
-
-    def _circular(self, name: str, value: Ratio) -> Ratio:
-        sin = self._generator("sin", str(value))
-        cos = self._generator("cos", str(value))
-        self.squares[self.uses["cos", str(value)]] = self.one - sin.top * sin.top
-        return sin if name == "sin" else cos
 
     def _root(self, value: Ratio) -> Ratio:
         """√(top/bottom) = √(top·bottom)/bottom for a positive number below; its square is known."""

@@ -208,16 +208,14 @@ def bounds_at(statement: BoundEveryN, n: int) -> Iterator[Equation]:
     entries = Entries(n, statement.symmetric, dict(statement.rates))
     for known, size in statement.norms:
         yield ZERO, size
-        for squares in product(*(_squares(entries, letter) for letter in known)):
-            yield ("mul", ("num", "1"), *squares), ("pow", size, 2)
+        each: list[list[Tree]] = []
+        for letter in known:
+            squares: list[Tree] = [("pow", ("var", name), 2) for name in entries.names(letter)]
+            each.append(squares if letter[0] == "diag" else [("add", *squares)])
+        for chosen in product(*each):
+            yield ("mul", ("num", "1"), *chosen), ("pow", size, 2)
     for number, size in statement.least:
         yield size, entries.number(number)
-
-
-def _squares(entries: Entries, letter: Tree) -> list[Tree]:
-    """Squares that are, all of them, at most what the square of a norm is at most."""
-    squares: list[Tree] = [("pow", ("var", name), 2) for name in entries.names(letter)]
-    return squares if letter[0] == "diag" else [("add", *squares)]
 
 
 def names_at(statement: BoundEveryN, n: int, pairs: list[Equation]) -> set[str]:

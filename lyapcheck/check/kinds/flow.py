@@ -104,7 +104,13 @@ class Flow(Total):
             *self.parts,
         ):
             require_expressions((tree,), both)
-            _require_smooth(tree, self.names)
+            for node in nodes(tree):
+                sine = node[0] in CIRCULAR and node[1][0] == "var" and node[1][1] in self.names
+                says = "is not a polynomial in its variables, and in sin and cos of one state each"
+                require(sine or node[0] in POLYNOMIAL, "expression", node[0], says)
+            ratio, _ = normal_form(tree)
+            constant = ratio.bottom.is_constant()
+            require(constant, "expression", "", "is not a polynomial in its variables")
         turning = self.conclusion == "everywhere" and self.angles
         require(not turning, "angles", ", ".join(self.angles), "have no single rest that attracts all")
 
@@ -242,16 +248,6 @@ def known_of_sine(name: str) -> tuple[Relation, ...]:
 def _chord(name: str) -> Tree:
     """2(1 − cos θ), the square of a chord."""
     return ("mul", ("num", "2"), ("add", ONE, ("neg", ("cos", ("var", name)))))
-
-
-def _require_smooth(tree: Tree, names: tuple[str, ...]) -> None:
-    """Refuse what is no polynomial of variables, and of sines and cosines of states."""
-    for node in nodes(tree):
-        sine = node[0] in CIRCULAR and node[1][0] == "var" and node[1][1] in names
-        says = "is not a polynomial in its variables, and in sin and cos of one state each"
-        require(sine or node[0] in POLYNOMIAL, "expression", node[0], says)
-    ratio, _ = normal_form(tree)
-    require(ratio.bottom.is_constant(), "expression", "", "is not a polynomial in its variables")
 
 
 def _without_circular(tree: Tree) -> Tree:

@@ -38,7 +38,12 @@ class Entries:
             x, y = self.vector(rest[0]), self.vector(rest[1])
             return _sum([("mul", a, b) for a, b in zip(x, y, strict=True)])
         if kind == "rate":
-            return self._rate(self.number(rest[0]))
+            inner = self.number(rest[0])
+            names = sorted(variables(inner))
+            for name in names:
+                if name not in self.moving:
+                    raise Unsupported(f"no derivative is given for {name}")
+            return _sum([("mul", derivative(inner, name), self.moving[name]) for name in names])
         return tuple(self.number(part) if isinstance(part, tuple) else part for part in tree)
 
     def differentiated(self, tree: Tree) -> list[Tree]:
@@ -105,14 +110,6 @@ class Entries:
                 rows = self.matrix(value)
                 result |= {self._name(name, i, j): rows[i][j] for i in self.joints for j in self.joints}
         return result
-
-    def _rate(self, tree: Tree) -> Tree:
-        """The chain rule over the variables of an expression."""
-        names = sorted(variables(tree))
-        for name in names:
-            if name not in self.moving:
-                raise Unsupported(f"no derivative is given for {name}")
-        return _sum([("mul", derivative(tree, name), self.moving[name]) for name in names])
 
 
 def exact(tree: Tree, point: Mapping[str, Fraction]) -> fmpq:

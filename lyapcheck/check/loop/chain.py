@@ -131,19 +131,18 @@ class Posture:
     @cached_property
     def bodies(self) -> list[Body]:
         """Of each joint all that it moves, in its frame."""
+        of = self.of
         result: list[Body] = []
         for k in reversed(range(self.n)):
-            own = own_body(self.of, self.links[k])
-            result.insert(0, own if not result else self._with(own, k + 1, result[0]))
+            own = own_body(of, self.links[k])
+            if result:
+                body, turn, p = result[0], self.turns[k + 1], self.links[k + 1].origin
+                moment, place = of.apply(turn, body.moment), of.scaled(body.mass, p)
+                shift = of.sum(of.outer(moment, p), of.outer(p, moment), of.outer(p, place))
+                second = of.sum(own.second, of.congruent(turn, body.second), shift)
+                own = Body(of.plus(own.mass, body.mass), of.add(own.moment, moment, place), second)
+            result.insert(0, own)
         return result
-
-    def _with(self, own: Body, k: int, body: Body) -> Body:
-        of, p = self.of, self.links[k].origin
-        moment = of.apply(self.turns[k], body.moment)
-        place = of.scaled(body.mass, p)
-        shift = of.sum(of.outer(moment, p), of.outer(p, moment), of.outer(p, place))
-        second = of.sum(own.second, of.congruent(self.turns[k], body.second), shift)
-        return Body(of.plus(own.mass, body.mass), of.add(own.moment, moment, place), second)
 
     def momentum(self, m: int) -> Wrench:
         """J X_mᵀ: what moves with joint m at unit rate."""

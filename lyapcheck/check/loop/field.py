@@ -166,7 +166,10 @@ def leaves(start: Box, tree: str) -> Iterator[Box]:
         if mark == ".":
             yield box
         else:
-            left, right = halves(box, _side(mark, len(box)))
+            side = ord(mark) - ord("0")
+            if not 0 <= side < len(box):
+                raise BrokenTree(f"{mark!r} is not a side of the box")
+            left, right = halves(box, side)
             stack += (right, left)
     if stack:
         raise BrokenTree("the text ends before its tree does")
@@ -178,13 +181,6 @@ def halves(box: Box, side: int) -> tuple[Box, Box]:
     middle = 0.5 * (low + high)
     before, after = box[:side], box[side + 1 :]
     return (*before, (low, middle), *after), (*before, (middle, high), *after)
-
-
-def _side(mark: str, sides: int) -> int:
-    side = ord(mark) - ord("0")
-    if not 0 <= side < sides:
-        raise BrokenTree(f"{mark!r} is not a side of the box")
-    return side
 
 
 # --- Polynomials over boxes.

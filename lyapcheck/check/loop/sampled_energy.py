@@ -207,10 +207,8 @@ def falls(
                 middle = form_of(i, V, u, pays[i], gains, ((left + right) / 2, *at))
                 rows = zip(middle, of[left], of[right], strict=True)
                 forms.append([[2 * m - (a + b) / 2 for m, a, b in zip(*row, strict=True)] for row in rows])
-            if not all(_definite(form) for form in forms):
-                return False
+            for form in forms:
+                lower = [[to_arb(x) for x in row[: a + 1]] for a, row in enumerate(form)]
+                if not BALLS.positive_definite(lower):
+                    return False
     return True
-
-
-def _definite(form: Form) -> bool:
-    return BALLS.positive_definite([[to_arb(x) for x in row[: a + 1]] for a, row in enumerate(form)])

@@ -62,16 +62,13 @@ class Evaluator:
         return self.of.positive_definite(self.schur(sides, errors, box[last:]))
 
     def schur(self, sides: Box, errors: Box, uncertain: Box) -> Rows:
-        filled, known = self._filled(uncertain), self.errors(errors)
+        filled = self.exact  # all parameters and then B: sides of the box where they are uncertain
+        if uncertain:
+            own = iter(uncertain)
+            filled = [self.of.value(ball(next(own))) if value is None else value for value in self.fixed]
+        known = self.errors(errors)
         B = filled[len(filled) - self.loop.n :]
         return form(*self._arm(sides, uncertain, filled), known, B, self.of)
-
-    def _filled(self, uncertain: Box) -> list[Value]:
-        """All parameters and then B: sides of the box where they are uncertain."""
-        if not uncertain:
-            return self.exact
-        sides = iter(uncertain)
-        return [self.of.value(ball(next(sides))) if value is None else value for value in self.fixed]
 
     def _errors(self, errors: Box) -> Errors:
         r_squared = sum((self.square(side) for side in errors), arb(0))

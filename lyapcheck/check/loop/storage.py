@@ -24,7 +24,6 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 
 from flint import arb, ctx, fmpq, fmpq_mat
 
@@ -216,16 +215,15 @@ class Shown:
         lengths = {len(row) for rows in self.forms for row in rows}
         if len(chains) != len(self.forms) or not all(sizes) or lengths != {count}:
             return False
-        return all(map(partial(self._shows, vectors), chains, self.forms))
-
-    def _shows(self, vectors: int, stages: Sequence[Stage], rows: Forms) -> bool:
-        forms = [invariant_form(row, vectors) for row in rows]
-        each = enumerate(zip(forms, [*forms[1:], None], self.prices, strict=True))
-        slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after, kappa) in each]
-        with ctx.workprec(BITS):
-            return all(
-                BALLS.positive_definite([list(map(arb, row)) for row in form.tolist()]) for form in slacks
-            )
+        for stages, rows in zip(chains, self.forms, strict=True):
+            forms = [invariant_form(row, vectors) for row in rows]
+            each = enumerate(zip(forms, [*forms[1:], None], self.prices, strict=True))
+            slacks = [slack(stages, k, own, after, rational(kappa)) for k, (own, after, kappa) in each]
+            with ctx.workprec(BITS):
+                balls = ([list(map(arb, row)) for row in form.tolist()] for form in slacks)
+                if not all(map(BALLS.positive_definite, balls)):
+                    return False
+        return True
 
 
 def stored_at_base(stages: Sequence[Stage], forms: Sequence[fmpq_mat], fall: Sequence[Fraction]) -> Fraction:

@@ -154,19 +154,15 @@ def hyperbolic_constants(m: int, digits: int = 30) -> Constants:
         return Constants(1, one, one, one, None, zero, zero)
     with ctx.workprec(ceil(digits * log(10, 2)) + 24 + 2 * m.bit_length()):
         u = peak_of_h(m)
-        rho, rho_at = _rho(m)
+        # h' vanishes at 0 and at infinity, so that |h'| is largest at a root of P
+        places = peaks_of_dh(m)
+        rise, fall = (abs(dh_value(m, at)) for at in places)
+        if not (rise < fall or rise > fall):
+            raise ArithmeticError(f"the extremes of h' for m = {m} are too close to tell which is larger")
+        rho, rho_at = (rise, position(places[0])) if rise > fall else (fall, position(places[1]))
         x = peak_of_secant(m)
         balls = (gamma_value(m, u), rho, dh_value(m, x.sinh() ** 2), position(u), rho_at, x)
         return Constants(m, *map(Enclosure.from_arb, balls))
-
-
-def _rho(m: int) -> tuple[arb, arb]:
-    """sup |h'| and where it is, for m >= 2; h' vanishes at 0 and at infinity, so a root of P gives it."""
-    places = peaks_of_dh(m)
-    rise, fall = (abs(dh_value(m, u)) for u in places)
-    if not (rise < fall or rise > fall):
-        raise ArithmeticError(f"the extremes of h' for m = {m} are too close to tell which is larger")
-    return (rise, position(places[0])) if rise > fall else (fall, position(places[1]))
 
 
 def position(u: arb) -> arb:
@@ -195,17 +191,49 @@ to_arb = ball_of
 
 def h(m: int, x: arb) -> arb:
     """h_m(x) = sinh^(2m-1)x cosh x / (1 + sinh^(2m)x)."""
-    return odd_range(lambda a: _h(m, a), _extremes_of_h(m, ctx.prec), x)
+
+    def at(a: arb) -> arb:
+        if a == 0:
+            return arb(0)
+        if a > 1:
+            coth, r = _far(a)
+            return coth / (1 + power(r, 2 * m))
+        s, c = a.sinh_cosh()
+        low = power(s, 2 * m - 1)
+        return low * c / (1 + low * s)
+
+    return odd_range(at, _extremes_of_h(m, ctx.prec), x)
 
 
 def dh(m: int, x: arb) -> arb:
     """h_m'(x) = (2m-1 + 2m s² - s^(2m)) s^(2m-2) / (1 + s^(2m))² with s = sinh x."""
-    return even_range(lambda a: _dh(m, a), _extremes_of_dh(m, ctx.prec), x)
+
+    def at(a: arb) -> arb:
+        if a == 0:
+            return arb(1 if m == 1 else 0)
+        if a > 1:
+            _, r = _far(a)
+            r2 = r * r
+            q = power(r2, m - 1)
+            return r2 * ((2 * m - 1) * q * r2 + 2 * m * q - 1) / (1 + q * r2) ** 2
+        return dh_value(m, a.sinh() ** 2)
+
+    return even_range(at, _extremes_of_dh(m, ctx.prec), x)
 
 
 def potential(m: int, x: arb) -> arb:
     """U_m(x) = ln(1 + sinh^(2m)x) / (2m)."""
-    return even_range(lambda a: _potential(m, a), (), x)
+
+    def at(a: arb) -> arb:
+        if a == 0:
+            return arb(0)
+        if a > 1:
+            _, r = _far(a)
+            log_sinh = a + (-(-2 * a).exp()).log1p() - arb.const_log2()
+            return log_sinh + power(r, 2 * m).log1p() / (2 * m)
+        return power(a.sinh(), 2 * m).log1p() / (2 * m)
+
+    return even_range(at, (), x)
 
 
 def even_range(value: Callable[[arb], arb], extremes: Extremes, x: arb) -> arb:
@@ -239,38 +267,6 @@ def _range(value: Callable[[arb], arb], extremes: Extremes, low: arb, high: arb)
         if not (where < low or where > high):
             result = result.union(reached)
     return result
-
-
-def _h(m: int, a: arb) -> arb:
-    if a == 0:
-        return arb(0)
-    if a > 1:
-        coth, r = _far(a)
-        return coth / (1 + power(r, 2 * m))
-    s, c = a.sinh_cosh()
-    low = power(s, 2 * m - 1)
-    return low * c / (1 + low * s)
-
-
-def _dh(m: int, a: arb) -> arb:
-    if a == 0:
-        return arb(1 if m == 1 else 0)
-    if a > 1:
-        _, r = _far(a)
-        r2 = r * r
-        q = power(r2, m - 1)
-        return r2 * ((2 * m - 1) * q * r2 + 2 * m * q - 1) / (1 + q * r2) ** 2
-    return dh_value(m, a.sinh() ** 2)
-
-
-def _potential(m: int, a: arb) -> arb:
-    if a == 0:
-        return arb(0)
-    if a > 1:
-        _, r = _far(a)
-        log_sinh = a + (-(-2 * a).exp()).log1p() - arb.const_log2()
-        return log_sinh + power(r, 2 * m).log1p() / (2 * m)
-    return power(a.sinh(), 2 * m).log1p() / (2 * m)
 
 
 def _far(a: arb) -> tuple[arb, arb]:

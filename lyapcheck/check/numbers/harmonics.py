@@ -36,7 +36,14 @@ def harmonics(terms: Iterable[Term], n: int) -> Harmonics:
         for k, (re, im) in _product(powers[:n], powers[n : 2 * n]).items():
             old = total.get(k, (0, 0))
             total[k] = old[0] + whole * re, old[1] + whole * im
-    return _real({k: (Fraction(re, scale), Fraction(im, scale)) for k, (re, im) in total.items()})
+    # conjugate pairs as cosines and sines: v e^{ix} + v̄ e^{−ix} = 2 Re v cos x − 2 Im v sin x
+    result: Harmonics = {}
+    for k, (re, im) in sorted(total.items()):
+        lead = _lead(k)
+        if lead >= 0 and (re or im):
+            both = (re, 0) if lead == 0 else (2 * re, -2 * im)
+            result[k] = Fraction(both[0], scale), Fraction(both[1], scale)
+    return result
 
 
 Uncertain = dict[tuple[int, ...], Harmonics]
@@ -137,13 +144,3 @@ def _times(terms: _Integers, i: int, up: tuple[int, int], down: tuple[int, int])
 
 def _lead(k: Harmonic) -> int:
     return next((x for x in k if x), 0)
-
-
-def _real(terms: dict[Harmonic, Gaussian]) -> Harmonics:
-    """Conjugate pairs as cosines and sines: v e^{ix} + v̄ e^{−ix} = 2 Re v cos x − 2 Im v sin x."""
-    result: Harmonics = {}
-    for k, (re, im) in sorted(terms.items()):
-        lead = _lead(k)
-        if lead >= 0 and (re or im):
-            result[k] = (re, Fraction(0)) if lead == 0 else (2 * re, -2 * im)
-    return result

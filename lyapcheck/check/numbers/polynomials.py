@@ -96,18 +96,15 @@ def positive_on(
 def inner_point(poly: fmpq_poly, low: End, high: End) -> Fraction:
     """A rational point strictly inside the interval at which a non-zero polynomial is not zero."""
     for step in range(1, poly.degree() + 3):
-        point = _point(low, high, step)
+        if low is not None and high is not None:
+            point = low + (high - low) * Fraction(1, step + 1)
+        elif low is not None:
+            point = low + step
+        else:
+            point = high - step if high is not None else Fraction(step)
         if sign_at(poly, point):
             return point
     raise ArithmeticError("a non-zero polynomial has more roots than its degree")
-
-
-def _point(low: End, high: End, step: int) -> Fraction:
-    if low is not None and high is not None:
-        return low + (high - low) * Fraction(1, step + 1)
-    if low is not None:
-        return low + step
-    return high - step if high is not None else Fraction(step)
 
 
 def _positive_by_coefficients(poly: fmpq_poly, low: End, high: End) -> bool:
