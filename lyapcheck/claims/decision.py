@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import lyapcheck
 from lyapcheck.certificate import Certificate
@@ -220,11 +220,8 @@ class ContradictionError(Exception):
         )
 
 
-Name = TypeVar("Name")
-
-
-def judge_afresh(certificates: Mapping[Name, Certificate]) -> dict[Name, Judged]:
-    """What ``python -P -m lyapcheck.check`` says about certificates that use none but each other.
+def judge_afresh(certificates: Mapping[Any, Certificate]) -> dict[Any, Judged]:
+    """What ``python -P -m lyapcheck.check`` says about certificates that use none but each other, by any key.
 
     Soundness: a new process reads the files, and trusts nothing of what has happened in this one.
 
