@@ -63,8 +63,15 @@ def by_witness(statement: Pointwise, proof: Witness) -> Accepted:
     """Soundness: a point of the domain; every hypothesis holds and the conclusion fails, in balls."""
     point = coordinates(proof.point, statement.ranges)
     require_inside(statement.ranges, point)
-    given, conclusion = statement.at_points
-    require_failure(conclusion, point, proof.bits, given)
+    hypotheses, conclusion = statement.at_points
+    for left, _, right in (conclusion, *hypotheses):
+        require_defined_at(left, point)
+        require_defined_at(right, point)
+    with ctx.workprec(require_bits(proof.bits)):
+        met = all(holds(hypothesis, point) is True for hypothesis in hypotheses)
+        fails = met and holds(conclusion, point) is False
+    shown = ", ".join(f"{name} = {value}" for name, value in point.items())
+    require(fails, "point", shown, "is not shown to break the statement")
     return Accepted("refuted", "enclosure")
 
 
@@ -72,20 +79,6 @@ def require_inside(ranges: Mapping[str, Interval], point: dict[str, Fraction]) -
     """Refuse a point that lies outside the ranges of the variables."""
     for name, interval in ranges.items():
         require(point[name] in interval, name, point[name], f"must be {interval}")
-
-
-def require_failure(
-    conclusion: Comparison, point: dict[str, Fraction], bits: int, hypotheses: tuple[Comparison, ...] = ()
-) -> None:
-    """Refuse a point at which it is not shown that the hypotheses hold and the conclusion fails."""
-    for left, _, right in (conclusion, *hypotheses):
-        require_defined_at(left, point)
-        require_defined_at(right, point)
-    with ctx.workprec(require_bits(bits)):
-        met = all(holds(hypothesis, point) is True for hypothesis in hypotheses)
-        fails = met and holds(conclusion, point) is False
-    shown = ", ".join(f"{name} = {value}" for name, value in point.items())
-    require(fails, "point", shown, "is not shown to break the statement")
 
 
 # --- What several kinds of statement share: relations and the ranges of variables, their form and their text.

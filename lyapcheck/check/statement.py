@@ -146,3 +146,5 @@ class Piece:
 Ends = tuple[Fraction, Fraction]
 Monomials = tuple[tuple[tuple[int, ...], Fraction], ...]
 """Exponents of s1 … sn, c1 … cn and the parameters, with the coefficient."""
+Mass = tuple[tuple[Monomials, ...], ...]
+"""M(q) by rows."""

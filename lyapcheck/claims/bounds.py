@@ -26,10 +26,10 @@ from lyapcheck.check.kinds.coriolis import (
     RateOfMass,
 )
 from lyapcheck.check.kinds.gravity import GravityBelow
-from lyapcheck.check.kinds.inertia import Mass, MassAbove, MassBelow
+from lyapcheck.check.kinds.inertia import MassAbove, MassBelow
 from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
-from lyapcheck.check.statement import Statement
+from lyapcheck.check.statement import Mass, Statement
 from lyapcheck.claims.claim import lacking
 from lyapcheck.claims.expressions import (
     Expr,

@@ -158,11 +158,6 @@ def axioms_of(printed: str) -> set[str]:
     return result
 
 
-def seconds_in(printed: str) -> float:
-    """The computing time of all sentences of a file that was compiled with ``-time``."""
-    return sum(float(user) + float(system) for user, system in TIMES.findall(printed))
-
-
 def golden(name: str) -> frozenset[str]:
     """The axioms of a golden list, ``real`` or ``float``; the second has those of the first as well."""
     own = frozenset((shipped("formal") / f"axioms.{name}").read_text(encoding="utf-8").split())
@@ -254,7 +249,8 @@ def _compiled(one: Checked, coq: Coq, progress: Callable[[str], None]) -> Kernel
     theorem = text.split("Theorem claim : ", 1)[1].split(".\nProof.", 1)[0]
     # the shorter golden list, if no tactic of the proof computes with intervals; Coq has the last word
     axioms = "float" if COMPUTES.search(text) else "real"
-    return Kernel(one.file, True, theorem=theorem, axioms=axioms, seconds=seconds_in(printed))
+    taken = sum(float(user) + float(system) for user, system in TIMES.findall(printed))
+    return Kernel(one.file, True, theorem=theorem, axioms=axioms, seconds=taken)
 
 
 def _module(one: Checked) -> str:

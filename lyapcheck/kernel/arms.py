@@ -19,13 +19,13 @@ from lyapcheck.check.kinds.decreasing import (
     PositiveAndDecreasing,
     StateWitness,
 )
-from lyapcheck.check.kinds.inertia import HarmonicSizes, Mass, MassAbove, MassBelow, OfArm
+from lyapcheck.check.kinds.inertia import HarmonicSizes, MassAbove, MassBelow, OfArm
 from lyapcheck.check.loop import ClosedLoop, certifies
 from lyapcheck.check.loop.field import PI_ABOVE, Side
 from lyapcheck.check.loop.schur import MORE_HALVINGS
 from lyapcheck.check.numbers.harmonics import angles_in
 from lyapcheck.check.numbers.polynomials import root_above
-from lyapcheck.check.statement import Proof
+from lyapcheck.check.statement import Mass, Proof
 from lyapcheck.kernel.statements import OF_ARM
 from lyapcheck.kernel.terms import NotPrinted, exact, exact_list
 from lyapcheck.robots.numeric import NumericModel

@@ -121,8 +121,7 @@ def gate_script(statement: GateAccepted, proof: Proof) -> str:
     Raises:
         NotPrinted: a bound of gravity is shown in another way than by the sizes of harmonics.
     """
-    sizes = isinstance(proof, GateParts) and all(isinstance(own, HarmonicSizes) for own in proof.gravity)
-    if not sizes:
+    if not isinstance(proof, GateParts) or not all(isinstance(own, HarmonicSizes) for own in proof.gravity):
         raise NotPrinted("a bound of gravity by boxes or levers")
     m = _m(statement)
     _, most = between("gamma", m)
@@ -235,8 +234,7 @@ def sampled_script(statement: SampledStable, proof: Proof) -> str:
         NotPrinted: a bound of gravity is shown in another way than by the sizes of harmonics, or (S) holds
             with finer constants than those of the library alone.
     """
-    sizes = isinstance(proof, ShortPeriod) and all(isinstance(own, HarmonicSizes) for own in proof.gravity)
-    if not isinstance(proof, ShortPeriod) or not sizes:
+    if not isinstance(proof, ShortPeriod) or not all(isinstance(own, HarmonicSizes) for own in proof.gravity):
         raise NotPrinted("a bound of gravity by boxes or levers")
     if _is_near(statement, statement.k_g or proof.k_g):
         raise NotPrinted("a border nearer than ρ_m and L_m to four digits tell")

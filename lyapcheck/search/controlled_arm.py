@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck._types import SEED, Array
 from lyapcheck.check.kinds.decreasing import BoxTree, PositiveAndDecreasing, statement_of
-from lyapcheck.check.kinds.inertia import Bisection, Links, Mass, MassAbove, MassAtCorners, PostureWitness
+from lyapcheck.check.kinds.inertia import Bisection, Links, MassAbove, MassAtCorners, PostureWitness
 from lyapcheck.check.kinds.link_bounds import LinkBounds
 from lyapcheck.check.loop import ClosedLoop, corners_of
 from lyapcheck.check.loop.states import Arm, Controller
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lyapcheck.check.kinds.link_bounds import ChainDecreasing
-    from lyapcheck.check.statement import Ends, Proof, Statement
+    from lyapcheck.check.statement import Ends, Mass, Proof, Statement
     from lyapcheck.control.gains import GainSet
     from lyapcheck.lyapunov.numeric import LyapunovNumeric
     from lyapcheck.robots.numeric import NumericModel

@@ -30,7 +30,6 @@ from lyapcheck.check.expressions.expression import (
 from lyapcheck.check.expressions.grammar import MAX_SIZE, written_out
 from lyapcheck.check.numbers.polynomials import fraction, rational, rational_root
 
-HYPERBOLIC = ("sinh", "cosh", "tanh")
 MAX_STEPS = 5_000_000
 """Products of two terms each that the product of two polynomials may take."""
 ODD = ("atan", "asin", "tan")
@@ -112,7 +111,7 @@ class RationalAlgebra(Algebra):
             return self.number(Fraction(0))
         if name == "exp":
             return self._exponential(value)
-        if name in HYPERBOLIC:
+        if name in ("sinh", "cosh", "tanh"):
             grow, half = self._exponential(value), self.number(Fraction(1, 2))
             fall = self.number(Fraction(1)) / grow
             sinh, cosh = (grow - fall) * half, (grow + fall) * half

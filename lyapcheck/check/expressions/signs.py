@@ -38,6 +38,7 @@ from lyapcheck.check.numbers.polynomials import (
     nonnegative_on,
     positive_on,
     rational,
+    signum,
     univariate,
 )
 from lyapcheck.check.refusal import Refused
@@ -89,7 +90,7 @@ class _Reader:
     def _by_form(self, tree: Tree) -> Signs:
         kind, *rest = tree
         if kind == "num":
-            return frozenset([_sign(Fraction(rest[0]))])
+            return frozenset([signum(Fraction(rest[0]))])
         if kind == "var":
             return self.domain.get(rest[0], REALS).signs()
         if kind in CONSTANTS or kind in ("pi", "exp", "cosh"):
@@ -145,15 +146,11 @@ RULES: dict[str, Callable[[_Reader, list[Any]], Signs]] = {
 }
 
 
-def _sign(value: Fraction | fmpq) -> int:
-    return int(value > 0) - int(value < 0)
-
-
 def _of_number(tree: Tree) -> Signs:
     """The sign of a number: exactly where its normal form is rational, else by a ball that avoids 0."""
     value = rational_value(tree)
     if value is not None:
-        return frozenset([_sign(value)])
+        return frozenset([signum(value)])
     for bits in BITS:
         with ctx.workprec(bits):
             result = _sign_of(ball(tree))
@@ -231,7 +228,7 @@ def of_monomial(exponents: tuple[int, ...], bounds: Bounds) -> Signs:
 def of_terms(polynomial: fmpq_mpoly, bounds: Bounds) -> Signs:
     """The signs that the terms show."""
     terms = polynomial.to_dict().items()
-    return _sum([frozenset(_sign(c) * s for s in of_monomial(e, bounds)) for e, c in terms])
+    return _sum([frozenset(signum(c) * s for s in of_monomial(e, bounds)) for e, c in terms])
 
 
 def _by_sturm(polynomial: fmpq_poly, interval: Interval) -> Signs:
@@ -274,7 +271,6 @@ def _over_pieces(tree: Tree, name: str, low: Fraction, high: Fraction, halvings:
 
 ONE: Tree = ("num", "1")
 _DEFINED = Remembered()
-Condition = Callable[[list[Any], Domain], bool]
 
 
 class Undefined(Refused):
@@ -286,7 +282,7 @@ def _within_one(rest: list[Any], domain: Domain) -> bool:
     return all(never(side, MINUS, domain) for side in sides)
 
 
-CONDITIONS: dict[str, Condition] = {
+CONDITIONS: dict[str, Callable[[list[Any], Domain], bool]] = {
     "div": lambda rest, domain: never(rest[1], ZERO, domain),
     "sqrt": lambda rest, domain: never(rest[0], MINUS, domain),
     "log": lambda rest, domain: never(rest[0], MINUS | ZERO, domain),

@@ -34,9 +34,8 @@ from lyapcheck.check.loop.inertia import Inertia
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, mixed, slope
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Monomials
+from lyapcheck.check.statement import Mass
 
-Matrices = tuple[tuple[tuple[Monomials, ...], ...], ...]
 Lost = list[tuple[tuple[int, ...], Uncertain]]
 
 
@@ -62,7 +61,7 @@ class _OfCoriolis(OfArm, Compared):
     Empty where C is that of Christoffel symbols.
     """
 
-    printed: Matrices
+    printed: tuple[Mass, ...]
 
     def require_well_formed(self) -> None:
         """Polynomials, n + 1 an entry, or none; a symmetric M where its Christoffel symbols are meant."""

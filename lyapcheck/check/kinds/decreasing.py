@@ -17,7 +17,6 @@ from lyapcheck.check.judgement import TORQUE
 from lyapcheck.check.kinds.constant import Constant
 from lyapcheck.check.kinds.inertia import (
     DECREASING,
-    Mass,
     MassAbove,
     PostureWitness,
     law_text,
@@ -31,7 +30,7 @@ from lyapcheck.check.loop.schur import proves
 from lyapcheck.check.loop.states import Arm, Controller, State, confirms_positive
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, OfTerms, Proof, Relation, Statement, Total
+from lyapcheck.check.statement import Ends, Mass, OfTerms, Proof, Relation, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule, verify, weakest
 
 # --- What statements about the closed loop (11) of every arm in some ranges, under one controller, share.

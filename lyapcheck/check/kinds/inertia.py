@@ -23,7 +23,7 @@ from lyapcheck.check.loop.inertia import Inertia, inertia_of
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.members import member_text
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Total
+from lyapcheck.check.statement import Ends, Mass, Monomials, Proof, Total
 from lyapcheck.check.verify import Accepted, all_proved, rule
 
 MAX_POWER = 40
@@ -32,7 +32,6 @@ MAX_HARMONICS = 2_000_000
 """Products of exponentials to which polynomials may be expanded; those of a seven-joint arm are 260,000."""
 LONGEST = 150
 """Characters beyond which M(q) is no longer written out in a statement."""
-Mass = tuple[tuple[Monomials, ...], ...]
 
 
 def require_mass(mass: Mass, parameters: tuple[Ends, ...]) -> None:

@@ -35,7 +35,7 @@ from lyapcheck.check.loop.chain import RigidLink
 from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.numbers.members import member, member_text
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Statement, Total
+from lyapcheck.check.statement import Ends, Mass, Monomials, Proof, Statement, Total
 from lyapcheck.check.verify import Accepted, require_proved, rule
 
 MOST_DELAY = 1000
@@ -73,7 +73,7 @@ class SampledStable(Total):
     k_g: tuple[Fraction, ...]
     links: tuple[RigidLink, ...]
     fall: tuple[Fraction, ...]
-    mass: tuple[tuple[Monomials, ...], ...]
+    mass: Mass
     potential: Monomials
     parameters: tuple[Ends, ...]
     period: Fraction

@@ -32,7 +32,7 @@ from lyapcheck.check.numbers.harmonics import by_parameters
 from lyapcheck.check.numbers.members import member
 from lyapcheck.check.numbers.polynomials import dyadic, root_above
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Proof, Total
+from lyapcheck.check.statement import Ends, Mass, Monomials, Proof, Total
 from lyapcheck.check.verify import Accepted, rule
 
 MOST_DELAY = 6
@@ -56,7 +56,7 @@ class SampledFromRest(Total):
     kp: Numbers
     kv: Numbers
     viscous: tuple[Ends, ...]
-    mass: tuple[tuple[Monomials, ...], ...]
+    mass: Mass
     potential: Monomials
     parameters: tuple[Ends, ...]
     period: Fraction

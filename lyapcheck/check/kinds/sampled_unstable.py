@@ -92,12 +92,6 @@ def transition(
     return arb_mat(moved + [[arb(int(k == place)) for k in range(size)] for place in kept])
 
 
-def grows(step: arb_mat, form: arb_mat, growth: Fraction) -> bool:
-    """Whether μ²S − ΦᵀSΦ is positive definite for all Φ in a matrix of balls; ``False`` says nothing."""
-    gap = (form * to_arb(growth**2) - step.transpose() * form * step).tolist()
-    return BALLS.positive_definite([row[: i + 1] for i, row in enumerate(gap)])
-
-
 BITS = 256
 MOST_STATES = 200
 
@@ -158,7 +152,9 @@ def by_growing_motion(statement: SampledStable, proof: GrowingMotion) -> Accepte
         state = [*proof.start, *proof.start[:n] * (size // n - 2)]
         v = arb_mat([[to_arb(x)] for x in state])
         require((v.transpose() * form * v)[0, 0] < 0, "start", "", "is not shown to have vᵀSv < 0")
-        require(grows(step, form, proof.growth), "form", "", "does not show μ²S − ΦᵀSΦ ≻ 0")
+        gap = (form * to_arb(proof.growth**2) - step.transpose() * form * step).tolist()
+        grows = BALLS.positive_definite([row[: i + 1] for i, row in enumerate(gap)])
+        require(grows, "form", "", "does not show μ²S − ΦᵀSΦ ≻ 0")
     return Accepted("refuted", "enclosure")
 
 

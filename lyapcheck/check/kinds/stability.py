@@ -296,9 +296,8 @@ POSITIVE = "V is positive definite"
 UNBOUNDED = "V is radially unbounded"
 DECRESCENT = "V is decrescent"
 SMOOTH = "V is continuously differentiable"
-Part = Callable[[Argument], parts.Named]
 DEFINITE = (parts.energy_at_origin, parts.functions, parts.above)
-PROPERTIES: dict[str, tuple[Part, ...]] = {
+PROPERTIES: dict[str, tuple[Callable[[Argument], parts.Named], ...]] = {
     EQUILIBRIUM: (parts.origin, parts.functions, parts.at_rest),
     AN_EQUILIBRIUM: (parts.origin, parts.functions),
     POSITIVE: DEFINITE,

@@ -28,21 +28,20 @@ from lyapcheck.check.kinds.inertia import (
 from lyapcheck.check.kinds.stability import ByObligations, Stable
 from lyapcheck.check.refusal import require
 from lyapcheck.check.replay import require_distinct
-from lyapcheck.check.statement import Monomials, Relation, Statement, Total
+from lyapcheck.check.statement import Mass, Monomials, Relation, Statement, Total
 from lyapcheck.check.systems.argument import Argument
 from lyapcheck.check.systems.facts import constants_of
 from lyapcheck.check.systems.obligations import obligations
 from lyapcheck.check.verify import Accepted, all_proved, rule
 
 Numbers = tuple[Fraction, ...]
-Mass = tuple[tuple[Monomials, ...], ...]
 
 
 @dataclass(frozen=True)
 class Arm:
     """M(q), kg·m², the diagonal of B, N·m·s/rad, and the energy of gravity, J, in sines and cosines of q."""
 
-    mass: tuple[tuple[Monomials, ...], ...]
+    mass: Mass
     viscous: Numbers
     potential: Monomials
 

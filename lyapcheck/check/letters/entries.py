@@ -17,7 +17,7 @@ from lyapcheck.check.expressions.expression import (
     evaluate,
     variables,
 )
-from lyapcheck.check.numbers.polynomials import ball_of, rational
+from lyapcheck.check.numbers.polynomials import ball_of, rational, signum
 
 ZERO: Tree = ("num", "0")
 BITS = 256
@@ -126,7 +126,7 @@ def compared(left: Tree, right: Tree, point: Mapping[str, Fraction]) -> int | No
         with ctx.workprec(BITS):
             value = ball(gap, {name: ball_of(x) for name, x in point.items()})
             return 1 if value > 0 else -1 if value < 0 else None
-    return int(value > 0) - int(value < 0)
+    return signum(value)
 
 
 def _sum(parts: list[Tree]) -> Tree:

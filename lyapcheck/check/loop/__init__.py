@@ -34,7 +34,7 @@ from lyapcheck.check.numbers.harmonics import Uncertain, angles_in, is_mirrored
 from lyapcheck.check.numbers.members import Member, member
 from lyapcheck.check.numbers.polynomials import Enclosure, root_above
 from lyapcheck.check.refusal import require
-from lyapcheck.check.statement import Ends, Monomials, Proof
+from lyapcheck.check.statement import Ends, Mass, Monomials, Proof
 
 
 @dataclass(frozen=True)
@@ -215,11 +215,6 @@ class ClosedLoop:
         powers = {len(p) for row in self.mass for entry in row for p in entry}
         return self.inertia.symmetric and powers <= {len(self.parameters)} and min(self.stiffness) > 0
 
-    @cached_property
-    def free(self) -> tuple[Range, ...]:
-        """The ranges, of parameters and then of friction, that are more than a point: sides of the box."""
-        return tuple((low, high) for low, high in (*self.parameters, *self.friction) if low < high)
-
     @property
     def farthest(self) -> list[float]:
         """Doubles that |e_i| need not exceed: R, for each joint."""
@@ -227,9 +222,10 @@ class ClosedLoop:
 
     @property
     def start(self) -> Box:
-        """The box of the angles that matter, the errors, in rad, and what is uncertain."""
+        """The box of the angles that matter, the errors, in rad, the parameters and friction that range."""
         errors = [(0.0 if i in self.one_sided else -x, x) for i, x in enumerate(self.farthest)]
-        uncertain = [Enclosure(*ends).side for ends in self.free]
+        ranges = (*self.parameters, *self.friction)
+        uncertain = [Enclosure(low, high).side for low, high in ranges if low < high]
         return (*[(-PI_ABOVE, PI_ABOVE)] * len(self.angles), *errors, *uncertain)
 
 
@@ -249,8 +245,6 @@ class RateProof(Proof, ABC):
 # their ranges; likewise λmax of M and of what is linear in it.
 #
 # References: ``reyes2019family`` (11), (15).
-
-Mass = tuple[tuple[Monomials, ...], ...]
 
 
 def corners_of(parameters: Sequence[Ends]) -> Iterator[tuple[Fraction, ...]]:

@@ -190,8 +190,6 @@ PI_ABOVE = 3.1415926535897936
 """A double above π."""
 BITS = 64
 MOST_BOXES = 20_000
-Shows = Callable[[list[Value], Arithmetic], bool]
-"""Whether enclosures of all polynomials show it."""
 Values = dict[tuple[int, ...], tuple[Value, Value]]
 """The cosine and the sine of each harmonic."""
 
@@ -214,8 +212,8 @@ class Field:
         self.entries = [Polynomial(entry) for entry in entries]
         self.used = sorted({k for entry in self.entries for k in entry.used})
 
-    def throughout(self, shows: Shows, most: int = MOST_BOXES) -> bool:
-        """Whether something is shown for all angles and parameters; ``False`` says nothing.
+    def throughout(self, shows: Callable[[list[Value], Arithmetic], bool], most: int = MOST_BOXES) -> bool:
+        """Whether enclosures show something for all angles and parameters; ``False`` says nothing.
 
         Soundness: the boxes cover all angles that occur and all parameters; each of them shows it.
         """

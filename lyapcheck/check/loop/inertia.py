@@ -15,15 +15,13 @@ from flint import arb
 from lyapcheck.check.loop.field import MOST_BOXES, Arithmetic, Field, Value, size_of, value_at
 from lyapcheck.check.numbers.balls import to_arb
 from lyapcheck.check.numbers.harmonics import Uncertain, by_parameters, christoffel
-from lyapcheck.check.statement import Ends, Monomials
-
-Rows = tuple[tuple[Monomials, ...], ...]
+from lyapcheck.check.statement import Ends, Mass
 
 
 class Inertia:
     """M(q) of n joints, for all parameters in their ranges."""
 
-    def __init__(self, mass: Sequence[Sequence[Monomials]], parameters: Sequence[Ends]) -> None:
+    def __init__(self, mass: Mass, parameters: Sequence[Ends]) -> None:
         self.n, self.parameters = len(mass), tuple(parameters)
         self.mass: list[list[Uncertain]] = [[by_parameters(entry, self.n) for entry in row] for row in mass]
 
@@ -110,7 +108,7 @@ class Inertia:
 
 
 @lru_cache(maxsize=4)
-def inertia_of(mass: Rows, parameters: tuple[Ends, ...]) -> Inertia:
+def inertia_of(mass: Mass, parameters: tuple[Ends, ...]) -> Inertia:
     """M(q) of a statement; several ask for the same, and its harmonics can take seconds."""
     return Inertia(mass, parameters)
 

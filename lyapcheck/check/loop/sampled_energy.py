@@ -38,7 +38,6 @@ from lyapcheck.check.statement import Piece
 
 Numbers = tuple[Fraction, ...]
 Rows = tuple[Numbers, ...]
-Form = list[list[Fraction]]
 PIECES = 3
 """Parts of a step, over each of which the coefficients of Bernstein's form are definite."""
 
@@ -139,7 +138,7 @@ def shared(V: SampledEnergy, arm: ArmBounds, turning: Rows, gains: Gains) -> lis
 
 def form_of(
     i: int, V: SampledEnergy, u: Fraction, pays: dict[str, Fraction], gains: Gains, at: tuple[Fraction, ...]
-) -> Form:
+) -> list[list[Fraction]]:
     """The form of joint i at (z, D, D_e, b_i)."""
     z, D, slope, b = at
     d, T, reach = gains.delay, gains.period, V.reach * gains.period

@@ -58,10 +58,6 @@ class State:
     e: Vector
     w: Vector
 
-    @property
-    def at_origin(self) -> bool:
-        return not any(self.e) and not any(self.w)
-
 
 def value(arm: Arm, controller: Controller, eps0: Fraction, state: State, bits: int = 128) -> arb:
     """A ball that contains V at the state, in J."""
@@ -95,7 +91,7 @@ def confirms_positive(arm: Arm, controller: Controller, eps0: Fraction, state: S
     also at the origin, for ε₀ <= 0, and for a state of another number of joints.
     """
     sizes = {arm.n, *map(len, (controller.kp, controller.kv, state.q, state.e, state.w))}
-    if len(sizes) != 1 or state.at_origin or eps0 <= 0:
+    if len(sizes) != 1 or not any((*state.e, *state.w)) or eps0 <= 0:
         return False
     for bits in _BITS:
         result = rate(arm, controller, eps0, state, bits)

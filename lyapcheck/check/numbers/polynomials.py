@@ -37,6 +37,11 @@ def rational_root(square: Fraction) -> Fraction | None:
     return root if root**2 == square else None
 
 
+def signum(value: Fraction | fmpq) -> int:
+    """−1, 0 or 1."""
+    return int(value > 0) - int(value < 0)
+
+
 def univariate(polynomial: fmpq_mpoly, index: int) -> fmpq_poly:
     """A polynomial in which one generator alone occurs."""
     result = [fmpq(0)] * (1 + polynomial.degrees()[index])
@@ -47,7 +52,7 @@ def univariate(polynomial: fmpq_mpoly, index: int) -> fmpq_poly:
 
 def sign_at(poly: fmpq_poly, point: Fraction) -> int:
     """The sign of a polynomial at a rational point."""
-    return _sign(poly(rational(point)))
+    return signum(poly(rational(point)))
 
 
 def count_roots(poly: fmpq_poly, low: End, high: End) -> int:
@@ -119,7 +124,7 @@ def _positive_by_coefficients(poly: fmpq_poly, low: End, high: End) -> bool:
 
 def _changes(chain: list[fmpq_poly], end: End, side: int) -> int:
     if end is None:
-        signs = [_sign(member.leading_coefficient()) * (side ** member.degree()) for member in chain]
+        signs = [signum(member.leading_coefficient()) * (side ** member.degree()) for member in chain]
     else:
         signs = [sign_at(member, end) for member in chain]
     signs = [sign for sign in signs if sign]
@@ -131,10 +136,6 @@ def _scaled(poly: fmpq_poly) -> fmpq_poly:
     if not poly:
         return poly
     return poly / fmpq(abs(poly.numer().content()), poly.denom())
-
-
-def _sign(value: fmpq) -> int:
-    return int(value > 0) - int(value < 0)
 
 
 # --- A real number known to lie between two exact rationals.

@@ -63,8 +63,6 @@ from lyapcheck.check.systems.system import (
     vector_of,
 )
 
-Norm = tuple[tuple[Tree, ...], Tree]
-Least = tuple[Tree, Tree]
 ONE: Tree = ("num", "1")
 BOUNDS = ("reach", "slope", "secant", "sector", "share")
 """The constants of a function."""
@@ -91,7 +89,7 @@ def constant(name: str) -> Tree:
     return ("var", name)
 
 
-def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]:
+def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[tuple[tuple[Tree, ...], Tree]]:
     """What is known of the norms of letters; ``changed`` are new letters, ``local`` is for ‖e‖ <= R."""
     kc = constant("kc")
     for name in (*system.moving, *changed):
@@ -141,7 +139,7 @@ def norms(system: System, changed: Iterable[str], local: bool) -> Iterator[Norm]
     yield (OPPOSITE,), product(constant("kg"), size("e"))
 
 
-def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[Least]:
+def least(system: System, words: Words, changed: Iterable[str]) -> Iterator[tuple[Tree, Tree]]:
     """Lower bounds of the words that have one: xᵀK…x, fᵀK…x for f of x, xᵀMx, kᵀU, and TᵀLf by a level."""
     sized = {*system.moving, *changed, *(f.name for f in system.by_entries)}
     for word in sorted(chain.from_iterable(words.seen.values())):
@@ -284,8 +282,3 @@ def facts(member: Member) -> Iterator[tuple[str, Statement]]:
         line: Tree = ("mul", ("num", str(member.steep)), X)
         name = f"{member.steep}x ≤ f(x) for 0 ≤ x ≤ {member.start}"
         yield name, ForAll(Relation(line, "<=", f), Fraction(0), member.start)
-
-
-def increasing(member: Member) -> ForAll:
-    """f increases strictly."""
-    return ForAll(Relation(ZERO, "<", member.slope))

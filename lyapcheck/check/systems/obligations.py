@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from lyapcheck.check.expressions.expression import Tree, variables
 from lyapcheck.check.kinds.every_n import EveryN
+from lyapcheck.check.kinds.for_all import ForAll
 from lyapcheck.check.kinds.implies import Implies
 from lyapcheck.check.letters import letters
 from lyapcheck.check.letters.words import Words
@@ -18,7 +19,6 @@ from lyapcheck.check.systems.facts import (
     constant,
     constants_of,
     facts,
-    increasing,
     product,
     size,
     written_out,
@@ -93,7 +93,7 @@ def functions(argument: Argument) -> Named:
             for name, fact in facts(f.member):
                 yield f"{f.name}: {name}", fact
             if any(one.function == f.name for one in argument.system.increases):
-                yield f"{f.name}: 0 < f'", increasing(f.member)
+                yield f"{f.name}: 0 < f'", ForAll(Relation(ZERO, "<", f.member.slope))
 
 
 def above(argument: Argument) -> Named:
