@@ -12,7 +12,7 @@ from lyapcheck.output.document import command
 from lyapcheck.robots.choice import split
 
 if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainFile
+    from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.robots import RobotModel
 
 
@@ -32,6 +32,13 @@ def arm_words(robot: str) -> list[str]:
 def file_words(file: GainFile, robot: str) -> list[str]:
     """A gain file as words of a command line, with the arm if the file names another."""
     return [file.path, *([] if robot in ("", file.robot) else ["--robot", *arm_words(robot)])]
+
+
+def bounds_words(bounds: Bounds) -> list[str]:
+    """``[bounds]`` of a gain file as words for ``tune``."""
+    friction = bounds.viscous_min and (bounds.viscous_min,)
+    rows = (("--torque", bounds.torque), ("--gravity", bounds.gravity), ("--viscous-min", friction))
+    return [word for name, row in rows if row for word in (name, ",".join(map(decimal_text, row)))]
 
 
 def assumed_line(model: RobotModel, robot: str) -> str:

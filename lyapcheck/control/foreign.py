@@ -28,6 +28,7 @@ WORDS = {
 }
 """How programs call the three gains."""
 _JOINTS = ("joint", "joint_name", "name", "joints", "dof_names", "joint_names")
+_UNITS = ("", "nm", "nmrad", "nms", "nmsrad", "nmrads")
 _DEPTH, _MOST = 20, 100_000
 _LAW = "the theory judges proportional and derivative gains, one a joint, with g(q) in the loop"
 
@@ -66,9 +67,14 @@ def read_foreign(path: Path, joints: Sequence[str]) -> tuple[Pid, ...]:
 
 def _csv(text: str, name: str) -> _Node:
     """Each row as a table by the header, in which units may stand in brackets."""
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")] or [""]
     mark = max(",;\t", key=lines[0].count)
-    header = [re.split(r"[\[(]", word)[0].strip(" \"'").lower() for word in lines[0].split(mark)]
+    heads = [re.split(r"[\[(]", word, maxsplit=1) for word in lines[0].split(mark)]
+    header = [word.strip(" \"'").lower() for word, *_ in heads]
+    for key, (_, *unit) in zip(header, heads, strict=True):
+        if re.sub("[^a-zµ°]", "", "".join(unit).lower()) not in _UNITS and key in sum(WORDS.values(), ()):
+            text, repair = "".join(unit).strip("])\"' "), "convert its gains to N·m/rad or N·m·s/rad"
+            raise InputError(Problem(name, 1, key, text, "is not the unit of gains here", repair))
     if not {"joint", *WORDS["p"]} & {*header}:
         rule = "has no header that names the columns"
         raise InputError(Problem(name, 1, "header", lines[0][:60], rule, "begin with joint,kp,kd"))
@@ -102,8 +108,7 @@ def _plain(node: Any, left: list[int], depth: int = 0) -> _Node:
         return _Node(value, line)
     if node.id == "sequence":
         return _Node([_plain(item, left, depth + 1) for item in value], line)
-    pairs = [(str(key.value), _plain(item, left, depth + 1)) for key, item in value]
-    return _Node(dict(pairs), line)
+    return _Node({str(key.value): _plain(item, left, depth + 1) for key, item in value}, line)
 
 
 class _Reading:
@@ -121,13 +126,11 @@ class _Reading:
         broken = bool(self.problems)
         for joint in self.joints:
             sets = self.found.get(joint, [])
-            lines = ", ".join(str(one.line) for one in sets)
             if not sets and not broken:
-                meant = nearest(joint, self.others, "")
-                repair = f"{meant} " if meant else ""
-                self.fail(None, f"joint {joint}", "", "has no p gain in this file", f"{repair}add it".strip())
+                repair = f"{nearest(joint, self.others, '')} add it".strip()
+                self.fail(None, f"joint {joint}", "", "has no p gain in this file", repair)
             if len({(one.p, one.d) for one in sets}) > 1:
-                rule = f"has several sets of gains, in lines {lines}"
+                rule = f"has several sets of gains, in lines {', '.join(str(one.line) for one in sets)}"
                 self.fail(sets[0].line, f"joint {joint}", "", rule, "keep those of one controller")
         if self.problems:
             raise InputError(self.problems)
@@ -139,8 +142,7 @@ class _Reading:
                 self._look(item, keys, listed)
         elif isinstance(node.value, dict):
             table = {key.lower(): child for key, child in node.value.items()}
-            names = next((_names(table[key]) for key in _JOINTS if key in table), ())
-            listed = names or listed
+            listed = next((_names(table[key]) for key in _JOINTS if key in table), ()) or listed
             gains = {
                 kind: next((table[word] for word in words if word in table), None)
                 for kind, words in WORDS.items()
@@ -155,11 +157,10 @@ class _Reading:
     def _gains(
         self, gains: Mapping[str, _Node | None], keys: tuple[str, ...], listed: tuple[str, ...]
     ) -> None:
-        p = gains["p"]
-        assert p is not None
+        p = gains["p"] or _Node("", 1)
         if isinstance(p.value, list):
             lists = {
-                kind: node.value for kind, node in gains.items() if node and isinstance(node.value, list)
+                k: x.value if isinstance(x.value, list) else [x] * len(p.value) for k, x in gains.items() if x
             }
             if any(isinstance(item.value, list) for items in lists.values() for item in items):
                 self.fail(p.line, "p", "", f"is a full matrix; {_LAW}", "write its diagonal")

@@ -188,7 +188,8 @@ def gains_job(gains: str, name: str, robot: str, seed: int) -> GainData:
     # the paper's experiment if the arm has its three joints, else a step of 45° in every joint
     paper = (PAPER_TASK.q_d, PAPER_TASK.q0, PAPER_TASK.w0, PAPER_TASK.T)
     task = paper if model.n == len(PAPER_TASK.q_d) else ([REST] * model.n,)
-    run = simulate(gain_set, model, *task, eps0=float(row.certified or row.scalar or 0.0), stop=False)
+    eps0, moved = float(row.certified or row.scalar or 0.0), model.with_motors(file.bounds.torque)
+    run = simulate(gain_set, moved, *task, eps0=eps0, stop=False)
     # how far off dry friction may hold a joint; none for anywhere, as with a motor at its limit
     loads = zip(rest_errors(gain_set, model), dry_friction(model), limits_for(file, robot).room, strict=True)
     errors = [None if stalls(f, most) else error for error, f, most in loads]

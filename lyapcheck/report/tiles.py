@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import ceil, degrees
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers import arm_words, file_words
+from lyapcheck.answers import arm_words, bounds_words, file_words
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest
 from lyapcheck.answers.gate.words import advices
 from lyapcheck.answers.running import runs_of
@@ -47,7 +47,7 @@ def tiles(result: GateResult, model: RobotModel, run: RunRow | None) -> tuple[Ti
     """The six tiles of a gain set: motors, stability, rate, behaviour, dry friction, assumed numbers."""
     robot = result.limits.robot or model.name
     gate = ("gate", *file_words(result.file, robot))
-    member = () if result.m is None else ("--m", result.m)
+    member = (*(() if result.m is None else ("--m", result.m)), *bounds_words(result.file.bounds))
     targets = ("--overshoot", 5, "--settle", 2.5, *(("--rest-error", FAR) if model.dry else ()))
     tune = command("tune", *arm_words(robot), *member, *targets, "--out", "tuned.toml")
     return (

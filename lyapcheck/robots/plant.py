@@ -156,6 +156,11 @@ class RobotModel:
         nominal = {name: lift(number.value) for name, number in self.parameters.items()}
         return self.dynamics.at(sin, cos, nominal | dict(parameters or {}), lift, tidy)
 
+    def with_motors(self, limits: Sequence[Fraction] | None) -> RobotModel:
+        """The same arm with other torque limits, N·m, if there are some."""
+        given = tuple(Number(limit, "N·m", "[bounds]") for limit in limits or ())
+        return replace(self, torque_limit=given or self.torque_limit)
+
     def fixed(self, **parameters: Fraction | int) -> RobotModel:
         """The same arm with every uncertain parameter of M and the potential at one exact value.
 

@@ -183,8 +183,7 @@ def corners(model: RobotModel) -> tuple[str, tuple[tuple[str, RobotModel], ...]]
     said = "the corner of the ranges" if count == 1 else f"all {count} corners of the ranges"
     if count > MOST_CORNERS:
         groups = list(named.values())
-        tried = 2 ** len(groups)
-        said = f"{tried} of {count} corners of the ranges (numbers of one name move together)"
+        said = f"{2 ** len(groups)} of {count} corners of the ranges (numbers of one name move together)"
     arms = []
     for ends in product((0, 1), repeat=len(groups)):
         pairs = zip(groups, ends, strict=True)

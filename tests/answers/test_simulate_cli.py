@@ -25,13 +25,10 @@ def lyapcheck(*words):
 def test_json_follows_its_schema():
     done = lyapcheck(PD, "--format", "json", "--eps0", "0.01")
     data = json.loads(done.stdout)
-    assert data["schema"] == "lyapcheck/simulate/1"
     (result,) = data["results"]
-    assert result["name"] == "tau_pd"
-    assert result["m"] is None
+    assert (data["schema"], result["name"]) == ("lyapcheck/simulate/1", "tau_pd")
+    assert (result["m"], result["torque_bound"], result["eps0"]) == (None, None, 0.01)
     assert result["target"] == [45.0, 45.0, 90.0]
-    assert result["torque_bound"] is None
-    assert result["eps0"] == 0.01
     assert len(result["settling"]) == len(result["joints"]) == 3
     assert lyapcheck(PD, "--format", "json", "--eps0", "0.01").stdout == done.stdout
 
@@ -88,32 +85,35 @@ DRY = ONE_JOINT.format(viscous=0.5, torque=20, more="")
 IDEAL = "without the dry friction of the file"
 
 
-@pytest.mark.parametrize(
-    "coulomb", ["", "coulomb = 0", "coulomb = 0.1", "coulomb = {value = 0, low = 0, high = 1}"]
-)
+def simulated(folder, more, *way, end=""):
+    (folder / "arm.toml").write_text(DRY + more)
+    gains = folder / "gains.toml"
+    gains.write_text(f'robot = "arm.toml"\n{end}[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')
+    return invoke("simulate", str(gains), "--target", "30", "--time", "1", *way)
+
+
+@pytest.mark.parametrize("coulomb", ["", "coulomb = 0.1", "coulomb = {value = 0, low = 0, high = 1}"])
 @pytest.mark.parametrize("way", [(), ("--experiment",), ("--runs", "3")])
 def test_the_first_line_says_that_dry_friction_is_left_out(tmp_path, coulomb, way):
     """Runs of (11) leave it out, the bench does not."""
-    (tmp_path / "arm.toml").write_text(DRY + coulomb)
-    gains = tmp_path / "gains.toml"
-    gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')
-    first = " ".join(
-        invoke("simulate", str(gains), "--target", "30", "--time", "1", *way).stdout.split("═")[0].split()
-    )
+    first = " ".join(simulated(tmp_path, coulomb, *way).stdout.split("═")[0].split())
     told = "1" in coulomb and way != ("--experiment",)
     assert (IDEAL in first) == told
     assert not told or first.startswith("! ")
 
 
 def test_it_is_said_on_which_arms_gains_are_simulated(tmp_path):
-    (tmp_path / "arm.toml").write_text(DRY)
-    gains = tmp_path / "gains.toml"
-    gains.write_text('robot = "arm.toml"\n[[gains]]\nname = "a"\nm = 1\nkp = [2]\nkv = [0.5]\n')
-    words = ("simulate", str(gains), "--target", "30", "--time", "1", "--vary")
-    within = " ".join(invoke(*words, "viscous=-10%..+10%").stdout.split())
+    within = " ".join(simulated(tmp_path, "", "--vary", "viscous=-10%..+10%").stdout.split())
     assert "simulated on the arm of the file and all 2 corners of the ranges" in within
-    beyond = " ".join(invoke(*words, "viscous=5%..+10%").stdout.split())
+    beyond = " ".join(simulated(tmp_path, "", "--vary", "viscous=5%..+10%").stdout.split())
     assert "the arm of the file, which lies outside the ranges, and all 2 corners" in beyond
-    alone = " ".join(invoke(*words, "viscous=0.7..0.7").stdout.split())  # a corner that changes nothing
+    alone = " ".join(simulated(tmp_path, "", "--vary", "viscous=0.7..0.7").stdout.split())
     assert "and the corner of the ranges" in alone
-    assert "a:" not in alone
+    assert "a:" not in alone  # a corner that changes nothing
+
+
+@pytest.mark.parametrize("way", [(), ("--vary", "viscous=-10%..+10%"), ("--experiment",)])
+def test_torque_limits_of_the_gain_file_go_before_those_of_the_arm(tmp_path, way):
+    done = simulated(tmp_path, "", *way, "--format", "json", end="[bounds]\ntorque = [0.5]\n")
+    assert {tuple(one["torque_limit"]) for one in json.loads(done.stdout)["results"]} == {(0.5,)}
+    assert done.exit_code == int("--experiment" not in way)

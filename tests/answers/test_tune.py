@@ -234,6 +234,7 @@ def test_smaller_gains_are_found_out():
     [
         (("pelican2",), 3, "give --torque"),
         (("buap3", "--torque", "50,40,15"), 2, "not above the gravity torque of 40.28 N·m"),
+        (("buap3", "--torque", "50,40,15", "--gravity", "0,0,0"), 2, "40.28 N·m from the model is used"),
         (("buap3", "--peak-share", "0.2"), 2, "larger --peak-share"),
         (("buap3", "--digits", "0"), 2, "raise --digits"),
         (("buap3", "--damping", "100"), 2, "lower --damping"),

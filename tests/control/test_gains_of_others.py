@@ -177,13 +177,16 @@ def test_gains_are_brought_over_by_joint_and_pass_the_gate(place: Path, form: st
         ("kp: [1, 2, 3]\n", "is a list of 3 gains for 0 joints"),
         ("shoulder,60,3\nelbow,40,2\n", "header = shoulder,60,3: has no header that names the columns"),
         ("joint;kp;kd\nshoulder;60,5;3\nelbow;40;2\n", "p = 60,5: must be a number"),
+        ("# joint,kp,kd\n", "pid.csv:1: header: has no header"),
+        ("joint,kp [N·m/deg],kd\nshoulder,1,1\nelbow,1,1\n", "kp = N·m/deg: is not the unit of gains here"),
+        ("kp: [60, 40]\nkd: 3\nki: 2\n", "shoulder: i = 2: is an integral"),
         ("MATLAB 5.0 MAT-file, Platform: GLNXA64\n", "is MATLAB"),
         ("a: [1\n", "is no YAML"),
         ("a: &a [*a]\n", "has no p gain in this file"),
     ],
 )
 def test_gains_that_cannot_be_brought_over(place: Path, text: str, message: str) -> None:
-    name = "pid.yaml" if ":" in text.partition("\n")[0] else "pid"
+    name = "pid.yaml" if ":" in text.partition("\n")[0] else "pid.csv" if text[0] == "#" else "pid"
     (place / name).write_text(text)
     with pytest.raises(InputError) as caught:
         run(["init", "new", "--from", name, "--arm", "two.urdf"])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from lyapcheck.answers import arm_words, assumed_line, file_words
+from lyapcheck.answers import arm_words, assumed_line, bounds_words, file_words
 from lyapcheck.answers.bounds.compare import BoundsComparison, compare
 from lyapcheck.answers.running import running_sentences
 from lyapcheck.answers.running.holds import NO_LINKS
@@ -105,7 +105,7 @@ class Comparisons(Answer):
             return command("gate", *again)
         if first.proved or first.gains.m is None:
             return command("simulate", *again)
-        return command("tune", *arm_words(self.arm), "--m", first.gains.m)
+        return command("tune", *arm_words(self.arm), "--m", first.gains.m, *bounds_words(self.file.bounds))
 
     def data(self) -> dict[str, Any]:
         """``results: [{name, robot, disturbance, simulated, …}]``."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from lyapcheck.answers import arm_words, assumed_line, file_words
+from lyapcheck.answers import arm_words, assumed_line, bounds_words, file_words
 from lyapcheck.answers.gate import accepting, proved_otherwise, remarks, without_19
 from lyapcheck.answers.gate.friction import ANYWHERE, farthest, swinging, without_friction
 from lyapcheck.answers.gate.judge import BREAKS_19, GateResult
@@ -254,15 +254,14 @@ def _next(answer: GateAnswer) -> str:
     missing = [check.id for check in result.failures if check.id in ("scalar", "global")]
     if result.verdict == UNDECIDED and missing and limits.model is not None:
         other = ["lasalle" if name in missing else name for name in result.deciding]
-        return command(
-            "gate", *again, *(word for name in dict.fromkeys(other) for word in ("--condition", name))
-        )
+        named = (word for name in dict.fromkeys(other) for word in ("--condition", name))
+        return command("gate", *again, *named)
     torques = (check for check in result.failures if check.id in ("10", "10p", "10i"))
     if robot and any(check.limit is not None and check.limit.upper <= 0 for check in torques):
         return command("robot", *robot, "-v")  # gravity alone needs the motor, and no gains help
     if result.verdict == REJECTED and limits.model is not None and result.m is not None:
         held = HOLDS not in [check.id for check in result.failures]  # else for gains beyond (10p), by proof
-        words = loop_words(result.file.loop, result.record)
+        words = (*loop_words(result.file.loop, result.record), *bounds_words(result.file.bounds))
         return command("tune", *robot, "--m", result.m, *words, *([] if held else TARGETS))
     plain = result.verdict == ACCEPTED and limits.model is not None and result.gains.angle_unit == "rad"
     unknown = any(check.reason == NO_LINKS for check in result.checks)  # no run knows that payload either

@@ -350,6 +350,5 @@ def csv_of(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """Lines of comma-separated values."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows(rows)
+    writer.writerows([head, *rows])
     return text.getvalue()

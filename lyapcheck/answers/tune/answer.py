@@ -178,7 +178,7 @@ class Tuning(Answer):
         heads, *rows = cells
         short: list[Block] = [Table(heads, tuple(rows))] if found else []
         reasons = (reason for item in self.sets for reason in item.reasons)
-        said = list(dict.fromkeys((*reasons, *self.limits.doubts)))
+        said = list(dict.fromkeys((*reasons, *self.limits.gravity_notes, *self.limits.doubts)))
         if said:
             short.append(Bullets(tuple(said[:MOST_REASONS])))
         details = (Paragraph(f"{self.targets.text()}."), *blocks)

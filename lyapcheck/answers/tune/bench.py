@@ -183,8 +183,7 @@ class BenchTuning(Answer):
     def unwritten(self) -> list[str]:
         """Why there is no gain file."""
         hint = "; --best writes the best one" if self.best is not None else ""
-        said = f"note: no set meets the targets, so none is written{hint}"
-        return [] if self.written_sets else [said]
+        return [] if self.written_sets else [f"note: no set meets the targets, so none is written{hint}"]
 
     def gain_file(self, folder: Path | None = None) -> str:
         """`written_sets` as a gain file, which will stand in ``folder``; empty where there are none."""

@@ -31,7 +31,7 @@ from lyapcheck.control.threshold import scaled
 from lyapcheck.family.base import named
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import ArmLike, RobotModel
-from lyapcheck.robots.fields import Number, Vary
+from lyapcheck.robots.fields import Vary
 from lyapcheck.robots.numeric import NumericModel
 from lyapcheck.robots.vary import at_values, corners, outside
 
@@ -234,11 +234,10 @@ def tune_for(
     """
     model, ranged = arms_over(robot, varies)
     name, limits, given = model.address, limits_with(ranged, bounds), bounds or Bounds()
+    given = replace(given, gravity=given.gravity and limits.gravity)
     known = {name: limits_of(ranged)}
     arms, tried_on = _arms(model, ranged)
-    if given.torque is not None:  # of which shares are told, not of the arm's
-        motors = tuple(Number(most, "N·m") for most in given.torque)
-        arms = tuple(replace(arm, torque_limit=motors) for arm in arms)
+    arms = tuple(arm.with_motors(given.torque) for arm in arms)  # of whose limits shares are told
     record = record_of(loop, NOTHING, model.loop)
     jobs = [(m, way) for m in dict.fromkeys(members) for way in bench.ways]
     sets: list[Candidate] = []
@@ -256,10 +255,10 @@ def tune_for(
             reasons.append(f"m = {m}: {why}")
             continue
         found = search.run(told)
-        judged = accepted(found.gains, way, name, bounds, known, loop)
+        judged = accepted(found.gains, way, name, given, known, loop)
         gains = judged.gains if judged.verdict == ACCEPTED else found.gains
         sets.append(replace(found, gains=gains, judged=judged))
-    missing = tuple(dict.fromkeys(reasons))
+    missing = tuple(dict.fromkeys((*limits.gravity_notes, *reasons)))
     shown = limits.assumptions, tried_on, given, ranged.varies, loop
     return BenchTuning(name, model, bench, tuple(sets), missing, *shown)
 

@@ -160,7 +160,7 @@ def run(
     from lyapcheck.simulate.reference import read_reference
 
     gain_file, name, model = gains_on_arm(file, robot)
-    wrong = Complaints()
+    wrong, model = Complaints(), model.with_motors(gain_file.bounds.torque)
     eps0, certified = wrong.reading(eps0_of, options["eps0"]), options["eps0"] == CERTIFIED
     start, velocity, time = (options[key] for key in ("start", "velocity", "time"))
     band = math.radians(BAND if options["band"] is None else options["band"])
@@ -187,7 +187,7 @@ def run(
         path = wrong.reading(read_reference, options["reference"], model.n)
         task = wrong.reading(request_of, model, path, start, velocity, time, eps0, band, certified)
     wrong.raise_all()
-    ranged = load(name, vary=ranges) if ranges else model
+    ranged = load(name, vary=ranges).with_motors(gain_file.bounds.torque) if ranges else model
     corner_text, others = corners(ranged) if ranges else ("", ())
     where = ", which lies outside the ranges," if outside(model, ranged) else ""
     arms = f"the arm of the file{where} and {corner_text}" if ranges else ""
