@@ -259,14 +259,7 @@ FIELDS = (
     Field("name", "controller.gains.name"),
     Field("c_name", "controller.name"),
     Field("joint", "controller.model.joints", "joint", align="l", each=True),
-    Field(
-        "limit",
-        "controller.limits",
-        "limit [N·m]",
-        _limit,
-        decimal_texts,
-        each=True,
-    ),
+    Field("limit", "controller.limits", "limit [N·m]", _limit, decimal_texts, each=True),
     *(
         Field(
             f"rounding_{angle}",

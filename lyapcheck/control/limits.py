@@ -15,7 +15,7 @@ from lyapcheck.robots import ArmLike, Number, RobotModel, load
 from lyapcheck.robots.choice import named
 
 if TYPE_CHECKING:
-    from lyapcheck.control.gains import GainFile
+    from lyapcheck.control.gains import Bounds, GainFile
     from lyapcheck.robots.fields import Vary
 
 
@@ -97,24 +97,29 @@ def limits_of(model: RobotModel) -> Limits:
     """The limits of an arm, for all values in the ranges that it was loaded with."""
     if not model.varies:
         return model_limits(model)
-    nominal = arm_limits(model.address)
-    result = model_limits(model, nominal.model)
-    pairs = [("λmin(B)", "N·m·s/rad", nominal.viscous_min, result.viscous_min)]
+    return replace(model_limits(model, load(model.address)), varied=True)
+
+
+def _cost(arm: Limits, bounds: Bounds) -> list[str]:
+    """What the ranges of --vary change among the limits that a gain file does not replace, as one note."""
+    if not arm.varied or arm.model is None or arm.own is None:
+        return []
+    before = model_limits(arm.own)
+    pairs = [] if bounds.viscous_min else [("λmin(B)", "N·m·s/rad", before.viscous_min, arm.viscous_min)]
     pairs += [
-        (f"{what} of {joint}", "N·m", before, after)
+        (f"{what} of {joint}", "N·m", first, then)
         for what, key in (("torque limit", "torque"), ("gravity bound", "gravity"))
-        for joint, before, after in zip(
-            result.joints, getattr(nominal, key), getattr(result, key), strict=True
-        )
+        if not getattr(bounds, key)
+        for joint, first, then in zip(arm.joints, getattr(before, key), getattr(arm, key), strict=True)
     ]
     cost = [
-        f"{what} {float(after):.6g} instead of {float(before):.6g} {unit}"
-        for what, unit, before, after in pairs
-        if before != after and before is not None and after is not None
+        f"{what} {float(then):.6g} instead of {float(first):.6g} {unit}"
+        for what, unit, first, then in pairs
+        if first != then and first is not None and then is not None
     ]
-    asked = ", ".join(one.text for one in model.varies)
-    note = f"--vary {asked}: {'; '.join(cost) or 'no limit changes'}"
-    return replace(result, viscous_notes=(note, *result.viscous_notes), varied=True)
+    under = " under [bounds]" if bounds.torque or bounds.gravity or bounds.viscous_min else ""
+    asked = ", ".join(one.text for one in arm.model.varies)
+    return [f"--vary {asked}: {'; '.join(cost) or 'no limit changes' + under}"]
 
 
 def model_limits(model: RobotModel, own: RobotModel | None = None) -> Limits:
@@ -149,11 +154,6 @@ def gravity_bounds(model: RobotModel) -> tuple[Fraction, ...]:
     """k_gi of each joint: as the source prints it, whatever the model says, else computed."""
     pairs = zip(stated_bounds(model), computed_bounds(model), strict=True)
     return tuple(own if bound is None else bound for bound, own in pairs)
-
-
-def kept_bounds(model: RobotModel) -> tuple[Fraction, ...]:
-    """k_gi of each joint: as the source prints it where the model keeps it for all of its ranges."""
-    return settled(model, stated_bounds(model), model).bounds
 
 
 def stated_bounds(model: RobotModel) -> tuple[Fraction | None, ...]:
@@ -211,7 +211,8 @@ def limits_for(
         rule = f"has gains for {first.n} joints, but the arm {arm.robot} has {arm.n}"
         repair = "name the arm the gains were made for, or give one gain a joint"
         raise InputError(Problem(gain_file.path, place.line if place else None, "gains", "", rule, repair))
-    notes = (*(() if bounds.torque else arm.torque_notes), *(() if bounds.viscous_min else arm.viscous_notes))
+    notes = (*(() if bounds.torque else arm.torque_notes), *_cost(arm, bounds))
+    notes += () if bounds.viscous_min else arm.viscous_notes
     gravity = Gravity(arm.gravity, arm.gravity_notes, arm.refuted)
     if bounds.gravity is not None and arm.model is not None:
         gravity = settled(arm.model, bounds.gravity, arm.own or arm.model)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lyapcheck._types import Array
-from lyapcheck.control.limits import kept_bounds
+from lyapcheck.control.limits import model_limits
 from lyapcheck.search.controlled_arm import ControlledArm
 from lyapcheck.simulate.breach import LEAST_ENERGY
 from lyapcheck.simulate.run import Indices, Promises, Run
@@ -42,7 +42,7 @@ def observe(
     norm = float(np.max(np.linalg.norm(tau, axis=1)))
     known, joints, bound = controlled.family.constants().gamma, None, None
     if known is not None:
-        gamma, gravity = known.float_upper, list(map(float, kept_bounds(controlled.model)))
+        gamma, gravity = known.float_upper, list(map(float, model_limits(controlled.model).gravity))
         kp, kv = controlled.kp.tolist(), controlled.kv.tolist()
         bound = math.sqrt(controlled.n) * gamma * (max(kp) + max(kv)) + math.hypot(*gravity)
         rows = zip(kp, kv, gravity, strict=True)

@@ -62,6 +62,23 @@ def test_without_a_model_the_bound_is_a_premise(tmp_path):
     assert (outcome.exit_code, "for which no g is given" in said(outcome)) == (0, True)
 
 
+@pytest.mark.parametrize(
+    ("bounds", "vary", "words"),
+    [
+        ("viscous_min = 2", "viscous=-50%..+0%", "no limit changes under [bounds]"),
+        (
+            "viscous_min = 2",
+            "payload=0..1",
+            "--vary payload=0..1: gravity bound of j1 9.81 instead of 4.905 N·m",
+        ),
+        ("torque = [60]", "torque_limit=-50%..+0%", "no limit changes under [bounds]"),
+    ],
+)
+def test_a_range_of_what_the_gain_file_replaces_costs_nothing(tmp_path, bounds, vary, words):
+    path = files(tmp_path, 1, 2, "", f"kp = [5]\nkv = [1]\n[bounds]\n{bounds}")
+    assert words in said(invoke("gate", path, "--vary", vary))
+
+
 # --- one statement -------------------------------------------------------------------------------
 
 

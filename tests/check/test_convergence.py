@@ -4,15 +4,7 @@ from random import Random
 
 import pytest
 
-from lyapcheck.claims import (
-    any_vector,
-    constant_goal,
-    converges,
-    expr,
-    moving_goal,
-    norm,
-    transpose,
-)
+from lyapcheck.claims import any_vector, constant_goal, converges, expr, moving_goal, norm, transpose
 from lyapcheck.claims.procedures import propose
 from tests.helpers.shares import one_in
 from tests.helpers.stated import verdict, why

@@ -6,18 +6,7 @@ from random import Random
 
 import pytest
 
-from lyapcheck.claims import (
-    converges_to,
-    enters,
-    exp,
-    expr,
-    global_,
-    local,
-    sin,
-    sqrt,
-    system,
-    var,
-)
+from lyapcheck.claims import converges_to, enters, exp, expr, global_, local, sin, sqrt, system, var
 from tests.helpers.shares import one_in
 from tests.helpers.stated import verdict, why
 from tests.oracle.flows import flow

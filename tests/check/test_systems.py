@@ -14,14 +14,7 @@ from lyapcheck.check.statement import Witness
 from lyapcheck.check.systems.forms import is_positive
 from lyapcheck.check.verify import verify
 from lyapcheck.claims import any_matrix, any_vector, diagonal, expr, var
-from lyapcheck.claims.arguments import (
-    at_arm,
-    cascade,
-    form_of,
-    lasalle,
-    strict,
-    uniform,
-)
+from lyapcheck.claims.arguments import at_arm, cascade, form_of, lasalle, strict, uniform
 from lyapcheck.claims.goals import constant_goal, moving_goal, norm
 from lyapcheck.claims.procedures import propose
 from lyapcheck.robots import load

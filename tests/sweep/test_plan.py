@@ -64,6 +64,9 @@ def test_the_same_question_has_the_same_digest_whatever_it_is_called(plan):
         (HEAD.replace("reyes-kelly2", "nobody") + GRID, "plan.toml:1: robots"),
         (HEAD + GRID + "[gate]\ncondition = 1\n", "gate.condition"),
         (HEAD + GRID + "[gate]\nconditions = []\n", "did you mean condition?"),
+        (HEAD + GRID + "[gate]\ncondition = ['foo']\n", "gate.condition"),
+        (HEAD + GRID + "[gate]\nloop = ['rat=100']\n", "did you mean rate?"),
+        (HEAD + GRID + "[gate]\nloop = ['rate=1', 'rate=2']\n", "says something twice"),
         (HEAD + GRID + "[epsilon]\nmax_boxes = 0\n", "whole number from 1"),
         (
             HEAD.replace("gate", "simulate") + GRID + "[simulate]\ntarget = [30, 45, 60]\n",

@@ -157,15 +157,18 @@ def test_what_is_kept_is_not_asked_again(tmp_path, monkeypatch):
     assert contents(tmp_path / "out") == contents(tmp_path / "alone")
 
 
-def test_bounds_counts_what_the_loop_of_the_arm_does_not_know(tmp_path):
+def test_the_loop_of_the_arm_counts_as_in_each_command(tmp_path):
     """1,000 % of gravity more than the controller knows: the shoulder falls, as `bounds` says of the file."""
     text = (ARMS / "init" / "arm.toml").read_text(encoding="utf-8")
     (tmp_path / "known.toml").write_text(text, encoding="utf-8")
     (tmp_path / "loaded.toml").write_text(f"{text}\n[loop]\ngravity_error = 1000\n", encoding="utf-8")
-    before = "robots = ['known.toml', 'loaded.toml']\nquestions = ['bounds']\n[bounds]\ntime = 0.1\n"
+    before = (
+        "robots = ['known.toml', 'loaded.toml']\nquestions = ['bounds', 'simulate']\n[bounds]\ntime = 0.1\n"
+    )
     plan = tmp_path / "plan.toml"
     plan.write_text(f"{before}[[gains]]\nname = 'a'\nm = 1\nkp = [22, 10]\nkv = [12, 3]\n", encoding="utf-8")
-    assert [row["verdict"] for row in lyapcheck.sweep(plan, workers=1)] == ["proved", "refuted"]
+    rows = lyapcheck.sweep(plan, workers=1, out=tmp_path / "out")
+    assert [row["verdict"] for row in rows] == ["proved", "observed", "refuted", "seen"]
 
 
 @pytest.mark.slow
@@ -188,13 +191,8 @@ def test_every_question_is_answered_as_by_its_command(tmp_path):
         told = rows[ask]["answer"]
         data = data["results"][0] if ask in ("epsilon", "bounds") else {key: data[key] for key in told}
         assert told == data, ask
-    assert [row["verdict"] for row in rows.values()] == [
-        "proved",
-        "rejected",
-        "proved",
-        "undecided",
-        "observed",
-    ]
+    verdicts = [row["verdict"] for row in rows.values()]
+    assert verdicts == ["proved", "rejected", "proved", "undecided", "observed"]
     named = {digest for row in rows.values() for digest in row["certificates"]}
     judged = json.loads(command("recheck", tmp_path / "out" / "certificates", "--format", "json").stdout)
     assert {row["digest"] for row in judged["certificates"] if row["accepted"]} == named

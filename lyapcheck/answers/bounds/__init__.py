@@ -198,10 +198,7 @@ def _remarks(result: BoundsComparison, many: bool) -> Iterator[str]:
 
 
 def _table(rows: Sequence[tuple[BoundsComparison, int]], many: bool) -> Table:
-    shown_if = {
-        "gain set": many,
-        "with unknown gravity [°]": any(result.unknown for result, _ in rows),
-    }
+    shown_if = {"gain set": many, "with unknown gravity [°]": any(result.unknown for result, _ in rows)}
     fields = [field for field in JOINTS if shown_if.get(field.head, True)]
     return table(fields, rows, keys=1 + many)
 

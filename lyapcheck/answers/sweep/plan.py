@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from lyapcheck.answers.sweep.questions import OPTIONS, WITHOUT_GAINS, Question, arm
-from lyapcheck.control.gains import GainSet, beside, gain_set_of
+from lyapcheck.control.gains import GainSet, beside, conditions_of, gain_set_of
+from lyapcheck.control.sampling import loop_of_options
 from lyapcheck.errors import InputError, Problem
 from lyapcheck.files.decimals import decimal_text, exact_decimal
 from lyapcheck.files.fields import Fields, Notes
@@ -21,8 +22,6 @@ from lyapcheck.files.toml import PLAN, open_document, require_kind
 Gain = Fraction | tuple[Fraction, ...]
 """The same in every joint, or one a joint; N·m."""
 LONGEST_NAME = 120
-TEXTS = ("condition", "loop")
-"""Options that are lists of texts; the others are lists of angles."""
 LARGEST = 10**9
 """Whole number of an option."""
 MOST = 100_000
@@ -121,15 +120,8 @@ def read_plan(path: str | Path) -> Plan:
     if asks and needs_gains and not tables and "grid" not in document.data:
         top.fail("gains", "is missing, as is grid", "give [[gains]], or a [grid] of m, kp and kv")
     top.close()
-    plan = Plan(
-        document.name,
-        robots,
-        variations,
-        (),
-        tuple(one for one in listed if one is not None),
-        grid,
-        asks,
-    )
+    sets = tuple(one for one in listed if one is not None)
+    plan = Plan(document.name, robots, variations, (), sets, grid, asks)
     joints = [] if notes.problems else _joints(plan, notes)
     if notes.problems:
         raise InputError(notes.problems)
@@ -197,13 +189,22 @@ def _option(table: Fields, key: str, default: Any) -> Any:
 
 
 def _list(table: Fields, key: str) -> tuple[Any, ...] | None:
-    value, text = table.raw(key), key in TEXTS
+    if key == "condition":
+        return conditions_of(table) or None
+    value, text = table.raw(key), key == "loop"
     if value is None:
         return None
     sort: Any = str if text else int | Fraction
     if not isinstance(value, list) or not all(isinstance(x, sort) and not isinstance(x, bool) for x in value):
         table.fail(key, f"must be a list of {'texts' if text else 'angles in degrees'}", f"write {key} = […]")
         return None
+    try:
+        loop_of_options(dict(one.partition("=")[::2] for one in value) if text else {})
+    except InputError as error:
+        for one in error.problems:
+            table.fail(key, f"{one.key} {one.rule}", one.repair)
+    if text and len({one.partition("=")[0] for one in value}) < len(value):
+        table.fail(key, "says something twice", "give each once")
     return tuple(value) if text else tuple(map(float, value))
 
 

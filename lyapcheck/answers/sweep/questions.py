@@ -13,6 +13,7 @@ from lyapcheck import store
 from lyapcheck.check.certificate import digest_of
 from lyapcheck.files.decimals import decimal_text
 from lyapcheck.output.digits import at_least
+from lyapcheck.output.json import finite
 from lyapcheck.robots import load
 from lyapcheck.robots.fields import Vary
 from lyapcheck.simulate.task import PAPER_TASK, Task, task_for
@@ -150,7 +151,7 @@ def answered(
     """
     texts = {one.digest: one.text() for one in certificates}
     known = {"index": question.index, "question": question.digest, **question.data, **cells}
-    known |= {"verdict": verdict, "reason": reason, "certificates": sorted(texts), "answer": data}
+    known |= {"verdict": verdict, "reason": reason, "certificates": sorted(texts), "answer": finite(data)}
     return Answered({name: known.get(name) for name in COLUMNS}, texts)
 
 
@@ -176,6 +177,8 @@ def task_of(model: RobotModel, options: Mapping[str, Any]) -> Task:
 
 OBSERVED = "observed"
 """What a run that breaks no promise is called: it proves nothing."""
+SEEN = "seen"
+"""What is called a sampled run with a limit cycle or a falling payload: it refutes nothing."""
 MARGIN_DIGITS = 6
 Options = Mapping[str, Any]
 
@@ -256,14 +259,19 @@ def _simulate(question: Question, known: RobotModel, options: Options) -> Answer
     """One run, and one at each corner that is tried; the slowest of them counts. Observed, never proved."""
     from lyapcheck.answers.simulate.moved import moved, on_arms
     from lyapcheck.answers.simulate.runs import SetPointRuns
+    from lyapcheck.control.sampling import record_of
+    from lyapcheck.files.loop import NOTHING, LoopEntry
     from lyapcheck.robots.vary import corners
+    from lyapcheck.simulate.bench import Bench
     from lyapcheck.simulate.closed_loop import simulate
     from lyapcheck.simulate.trial import experiment
 
     task, arms = task_of(known, options), ""
     others: tuple[tuple[str, RobotModel], ...] = ()
     assert question.gains is not None
-    mover = experiment if options["experiment"] else partial(simulate, stop=True)
+    published = LoopEntry(period=Bench().period, delay=0) if options["experiment"] else NOTHING
+    record = record_of(published, NOTHING, known.loop)
+    mover = partial(simulate, stop=True) if record is None else partial(experiment, bench=Bench.of(record))
     if known.varies:
         tried, others = corners(known)
         arms = f"one arm in the ranges and {tried}"
@@ -271,6 +279,7 @@ def _simulate(question: Question, known: RobotModel, options: Options) -> Answer
     runs, unfinished = moved(on_arms([question.gains], known, others), move)
     result = SetPointRuns(tuple(runs), tuple(unfinished), arms=arms)
     verdict = OBSERVED if result.exit_code is Exit.PROVED else VERDICTS[result.exit_code]
+    verdict = SEEN if any(run.unrest is not None for run in runs) else verdict
     # nothing where one joint does not settle
     times = [math.nan if t is None else float(t) for run in runs for t in run.indices.settling]
     slowest = max(times) if times and all(map(math.isfinite, times)) else None

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lyapcheck.answers.sweep.questions import COLUMNS, OBSERVED, Answered, Row, line_of
+from lyapcheck.answers.sweep.questions import COLUMNS, OBSERVED, SEEN, Answered, Row, line_of
 from lyapcheck.errors import InputError, argument_error
 from lyapcheck.files.reader import holds
 from lyapcheck.output.answer import Answer
@@ -123,7 +123,7 @@ def full(path: Path, error: OSError) -> InputError:
 MOST_ROWS, MOST_REASONS = 12, 40
 Arm = tuple[str, tuple[str, ...]]
 """A robot, and what varies."""
-ORDER = {"error": 0, "refuted": 1, "rejected": 1, "undecided": 2}
+ORDER = {"error": 0, "refuted": 1, "rejected": 1, SEEN: 1, "undecided": 2}
 """What is wrong is seen first."""
 EXITS = (Exit.INTERNAL, Exit.REFUTED, Exit.UNDECIDED, Exit.PROVED)
 SIGNS = {Exit.PROVED: "✓", Exit.REFUTED: "✗", Exit.UNDECIDED: "?", Exit.INTERNAL: "!"}

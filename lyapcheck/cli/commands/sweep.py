@@ -48,8 +48,8 @@ def run(
     The folder --out gets rows.jsonl in the order of the plan, and certificates by their digests. With pyarrow
     it also gets rows.parquet. The same plan gives the same bytes on any workers.
 
-    Exit code 0: all proved, accepted or observed, 1: something refuted or rejected, 2: unusable input, 3:
-    something undecided, 4: a question failed, and its row has the reason.
+    Exit code 0: all proved, accepted or observed, 1: something refuted, rejected or seen, 2: unusable input,
+    3: something undecided, 4: a question failed, and its row has the reason.
 
     A plan:
       robots = ["reyes-kelly2"]
