@@ -57,8 +57,8 @@ def assert_accepted(
         raise argument_error("conditions", "", "names no condition", "use some, for instance 10p and 19")
     results = gate(read_gain_file(path, robot, undamped=True), robot, conditions)
     complaints = [line for result in results for line in _complaints(result)]
-    if complaints:
-        raise AssertionError("\n".join(complaints))
+    if complaints or results.exit_code:
+        raise AssertionError("\n".join(complaints) or repr(results))
     return results
 
 

@@ -74,9 +74,8 @@ class Limits:
     @property
     def nominal(self) -> bool:
         """Whether proofs of stability are about one arm out of ranges."""
-        if self.varied or self.model is None:
-            return False
-        return any(number.ranged for number in (*self.model.parameters.values(), *self.model.viscous))
+        arm = None if self.varied else self.model
+        return arm is not None and any(one.ranged for one in (*arm.parameters.values(), *arm.viscous))
 
     @property
     def ranges(self) -> tuple[str, ...]:
@@ -102,9 +101,9 @@ def limits_of(model: RobotModel) -> Limits:
 
 def _cost(arm: Limits, bounds: Bounds) -> list[str]:
     """What the ranges of --vary change among the limits that a gain file does not replace, as one note."""
-    if not arm.varied or arm.model is None or arm.own is None:
+    if not arm.varied or arm.model is None:
         return []
-    before = model_limits(arm.own)
+    before = model_limits(arm.own or arm.model)
     pairs = [] if bounds.viscous_min else [("λmin(B)", "N·m·s/rad", before.viscous_min, arm.viscous_min)]
     pairs += [
         (f"{what} of {joint}", "N·m", first, then)
@@ -118,8 +117,8 @@ def _cost(arm: Limits, bounds: Bounds) -> list[str]:
         if first != then and first is not None and then is not None
     ]
     under = " under [bounds]" if bounds.torque or bounds.gravity or bounds.viscous_min else ""
-    asked = ", ".join(one.text for one in arm.model.varies)
-    return [f"--vary {asked}: {'; '.join(cost) or 'no limit changes' + under}"]
+    costs = "; ".join(cost) or f"no limit changes{under}"
+    return [f"--vary {', '.join(one.text for one in arm.model.varies)}: {costs}"]
 
 
 def model_limits(model: RobotModel, own: RobotModel | None = None) -> Limits:

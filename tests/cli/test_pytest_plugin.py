@@ -6,6 +6,7 @@ from importlib.metadata import entry_points
 
 import pytest
 
+from lyapcheck.answers.gate.promises import NO_GROUNDS
 from lyapcheck.control.gains import paper_gain_file
 from lyapcheck.errors import InputError
 from lyapcheck.pytest_plugin import assert_accepted
@@ -30,6 +31,13 @@ def test_undecided_gains_are_no_pass(tmp_path):
     with pytest.raises(AssertionError, match="undecided"):
         assert_accepted(tmp_path / "gains.toml")
     assert_accepted(tmp_path / "gains.toml", conditions=("19",))
+
+
+def test_checks_that_pass_without_a_promise_are_no_pass(tmp_path, monkeypatch):
+    (tmp_path / "gains.toml").write_text(GOOD, encoding="utf-8")
+    monkeypatch.setattr("lyapcheck.answers.gate.judge.grounds", lambda *_: NO_GROUNDS)
+    with pytest.raises(AssertionError, match="undecided"):
+        assert_accepted(tmp_path / "gains.toml")
 
 
 @pytest.mark.parametrize("conditions", [(), ("11",), ("10p", "all")])
