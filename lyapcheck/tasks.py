@@ -134,12 +134,12 @@ def simulate_motion(
 
     Soundness: floating point. A simulation proves nothing.
     """
-    from lyapcheck.control.gains import read_gain_file
+    from lyapcheck.control.gains import GainSet, read_gain_file
     from lyapcheck.robots import arm_of
     from lyapcheck.simulate.closed_loop import simulate
 
     model = arm_of(robot)
-    if isinstance(gain_set, (str, Path)):
+    if not isinstance(gain_set, GainSet):
         model = model.with_motors(read_gain_file(gain_set).bounds.torque)
     task = _task(model, target_deg, start_deg, seconds)
     return simulate(gain_set, model, task.q_d, task.q0, T=task.T)

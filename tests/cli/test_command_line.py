@@ -104,7 +104,7 @@ BAD = [
     ("robot", ["the following arguments are required: NAME|FILE"]),
     ("robot nobody", ["robot = nobody: is neither"]),
     ("robot pelican2 --tip hand", ["has no links to choose from"]),
-    ("simulate", ["the following arguments are required: FILE"]),
+    ("derive --n 3 --robot pelican2", ["--n = 3: cannot go with --robot"]),
     ("simulate TABLE2 --time 0", ["--time = 0: must be from 1e-06 to 3600 s"]),
     (
         "simulate TABLE2 --time nan --eps0 -1 --target 1,2 --start a,b,c",
@@ -116,7 +116,6 @@ BAD = [
     ("simulate TABLE2 --plot TABLE2", ["--plot = TABLE2: cannot be made (File exists)"]),
     ("simulate TABLE2 --robot pelican2", ["tau_m1: has gains for 3 joints, but pelican2 has 2"]),
     ("tune", ["the following arguments are required: ROBOT"]),
-    ("tune nobody", ["robot = nobody: is neither"]),
     ("tune buap3 --m 0", ["--m = 0: m must be at least 1"]),
     ("tune buap3 --digits -1", ["--digits = -1: must be from 0"]),
     ("tune buap3 --torque 1,2", ["--torque = 1,2: has 2 values for 3 joints"]),
@@ -125,7 +124,6 @@ BAD = [
     ("report --m 0", ["--m = 0: m must be at least 1"]),
     ("report --m 1:21", ["a report covers at most 20 members"]),
     ("report --format html,docx", ["'docx' is not a format"]),
-    ("report --robot nobody", ["robot = nobody: is neither"]),
     ("report --robot reyes-kelly2", [f"tau_{k} has gains for 3 joints" for k in ("m1", "m2", "m3", "pd")]),
     ("report --out TABLE2", ["--out = TABLE2: cannot be made (File exists)"]),
 ]

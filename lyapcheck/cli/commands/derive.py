@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lyapcheck.cli.show import show
 from lyapcheck.cli.values import parse_m
-from lyapcheck.errors import told_as
+from lyapcheck.errors import argument_error, told_as
 from lyapcheck.output.answer import FORMATS
 from lyapcheck.verdicts import Exit
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 def arguments(parser: Parser) -> None:
     """What the command takes."""
     parser.add_members("2")
-    parser.add_number("--n", int, "Number of joints for V and dV/dt.", default=2)
+    parser.add_number("--n", int, "Number of joints for V and dV/dt, without --robot. Default: 2.")
     about = "Arm by name or file. Its M, C and g are printed, and it sets n."
     parser.add_robot(about)
     parser.add_format(FORMATS)
 
 
-def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
+def run(m: str, n: int | None, robot: str | None, format: str) -> Exit:  # noqa: A002
     """Derive h, h', the polynomials of γ and ρ, V of (12) and (13), and dV/dt of (15) from U_m by SymPy.
 
     The checker verifies each derived formula, and its verdict is printed next to the formula.
@@ -37,6 +37,9 @@ def run(m: str, n: int, robot: str | None, format: str) -> Exit:  # noqa: A002
     """
     from lyapcheck.answers.derive import MOST_JOINTS, derivation, require_up_to
 
+    if n is not None and robot is not None:
+        raise argument_error("--n", n, "cannot go with --robot, which sets it", "leave one of them out")
+    n = 2 if n is None else n
     require_up_to("--n", n, MOST_JOINTS)
     with told_as({"m": "--m"}):
         answer = derivation(parse_m(m), n, robot)
