@@ -145,16 +145,6 @@ def _(statement: Agrees, proof: Proof) -> str:
     return f"{inputs}repeat split; numbers."
 
 
-def _disagrees(statement: Agrees, proof: OutsideRounding) -> str:
-    """Over all roundings of the inputs the formula is on one side of what is printed."""
-    ends, formula = printed_range(statement.printed), expression(statement.formula)
-    below = at_printed(statement, proof.bits).upper < ends.lower
-    side = f"{formula} < {rational(ends.lower)}" if below else f"{rational(ends.upper)} < {formula}"
-    names = [identifier(name) for name, _ in statement.inputs]
-    pattern = " & ".join([*names, *(f"K{k}" for k, _ in enumerate(names)), "K"])
-    return f"intros ({pattern}). assert ({side}) by numbers. lra."
-
-
 @proved.register
 def _(statement: Property, proof: Proof) -> str:
     _, theorem = property_of(statement)
@@ -241,7 +231,13 @@ def _refuted(statement: Statement, proof: Proof) -> str:
     if isinstance(statement, Constant):
         return "intros H. fails H."
     if isinstance(statement, Agrees) and isinstance(proof, OutsideRounding):
-        return _disagrees(statement, proof)
+        # over all roundings of the inputs the formula is on one side of what is printed
+        ends, formula = printed_range(statement.printed), expression(statement.formula)
+        below = at_printed(statement, proof.bits).upper < ends.lower
+        side = f"{formula} < {rational(ends.lower)}" if below else f"{rational(ends.upper)} < {formula}"
+        names = [identifier(name) for name, _ in statement.inputs]
+        pattern = " & ".join([*names, *(f"K{k}" for k, _ in enumerate(names)), "K"])
+        return f"intros ({pattern}). assert ({side}) by numbers. lra."
     if not isinstance(proof, Witness):
         raise NotPrinted(f"a refutation by {type(proof).__name__}")
     point = dict(proof.point)

@@ -258,22 +258,20 @@ def summed(terms: list[tuple[Key, Coefficient]], start: Start) -> Asymptotic:
     parts: dict[Key, list[Coefficient]] = {}
     for key, c in terms:
         parts.setdefault(key, []).append(c)
-    added = ((key, _added(parts[key])) for key in sorted(parts, reverse=True))
-    kept = [(key, c) for key, c in added if not c.is_zero]
+    kept = []
+    for key in sorted(parts, reverse=True):
+        total, *more = parts[key]
+        if more:  # those that are exact first
+            total = _collected(term for c in parts[key] if c.exact is not None for term in c.exact)
+            others = [c.ball for c in parts[key] if c.exact is None]
+            total = Coefficient(sum(others, total.ball)) if others else total
+        if not total.is_zero:
+            kept.append((key, total))
     if len(kept) > TERMS:
         last = kept[TERMS - 1][0]
         rest = Asymptotic(tuple(kept[TERMS - 1 :]), start).scaled(exactly(1), power_of(last, Fraction(-1)))
         kept = [*kept[: TERMS - 1], (last, Coefficient(rest.enclosure()))]
     return Asymptotic(tuple(kept), start)
-
-
-def _added(parts: list[Coefficient]) -> Coefficient:
-    """The sum of numbers, those that are exact first."""
-    if len(parts) == 1:
-        return parts[0]
-    exact = _collected(term for c in parts if c.exact is not None for term in c.exact)
-    others = [c.ball for c in parts if c.exact is None]
-    return Coefficient(sum(others, exact.ball)) if others else exact
 
 
 def constant(c: Coefficient, start: Start) -> Asymptotic:

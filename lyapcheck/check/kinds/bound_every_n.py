@@ -247,7 +247,15 @@ def bound_of(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> 
     """What a term is at most, by a cover; refused if that does not fit."""
     c, powers = term
     if cover.least is not None:
-        return _by_least(statement, words, term, cover)
+        # a negative multiple of a number that is at least something
+        require(c < 0 and not cover.norms, "cover", cover.least, "is for terms with a minus")
+        require(0 <= cover.least < len(statement.least), "cover", cover.least, "does not exist")
+        number, least = statement.least[cover.least]
+        [(factor, word)] = terms_of(words.number(number))
+        others = Counter(powers) - Counter(word)
+        fits = factor == 1 and Counter(word) <= Counter(powers) and not set(others) & set(words.seen)
+        require(fits, "cover", cover.least, "is not the word of its term")
+        return ("mul", ("num", str(c)), least, *(("var", name) for name in others.elements()))
     for index in cover.norms:
         require(0 <= index < len(statement.norms), "cover", index, "does not exist")
     covered = Counter(letter for index in cover.norms for letter in statement.norms[index][0])
@@ -266,18 +274,3 @@ def written_letters(words: Words, powers: dict[str, int]) -> Iterator[Counter[Tr
     for choice in product(*written):
         seen = (letter for word in choice for letter in word)
         yield plain + Counter(("mat" if kind == "transposed" else kind, name) for kind, name in seen)
-
-
-def _by_least(statement: BoundEveryN, words: Words, term: Term, cover: Cover) -> Tree:
-    """A negative multiple of a number that is at least something."""
-    c, powers = term
-    require(c < 0 and not cover.norms, "cover", cover.least, "is for terms with a minus")
-    index = cover.least
-    assert index is not None
-    require(0 <= index < len(statement.least), "cover", index, "does not exist")
-    number, least = statement.least[index]
-    [(factor, word)] = terms_of(words.number(number))
-    rest = Counter(powers) - Counter(word)
-    fits = factor == 1 and Counter(word) <= Counter(powers) and not set(rest) & set(words.seen)
-    require(fits, "cover", index, "is not the word of its term")
-    return ("mul", ("num", str(c)), least, *(("var", name) for name in rest.elements()))

@@ -141,7 +141,7 @@ class ChainGravityBelow(OfChain):
 
 @dataclass(frozen=True)
 class StorageForms(Proof):
-    """For each joint the coefficients of its storage form; see :func:`storage.turning_form`."""
+    """For each joint the coefficients of its storage form; see :func:`storage.invariant_form`."""
 
     rule = "storage forms"
     forms: storage.Forms

@@ -89,8 +89,7 @@ def gap_of(statement: Identity) -> Tree:
 #
 # The form as a sum of harmonics is unique: two polynomials are one function exactly where it agrees.
 
-Rates = tuple[int, ...]
-Gap = tuple[str, Rates, Uncertain]
+Gap = tuple[str, tuple[int, ...], Uncertain]
 """Where, the joints whose rates it has as factors, counted from 0, and the difference of both sides there."""
 
 

@@ -180,22 +180,21 @@ class SampledStable(Total):
             if self.conclusion == GOAL
             else "all motions come to rest, whatever bounded gravity of a serial revolute arm acts,"
         )
+        if self.links:
+            over = ChainGravityBelow(self.links, self.fall, (1,), Fraction(0)).over
+            arm = f"the arm with free fall {list_text(self.fall)}, {over}"
+        elif self.mass:
+            energy = potential_text(self.potential, self.n, len(self.parameters))
+            arm = f"any arm with {mass_text(self.mass, self.parameters)} ≻ 0, {energy}"
+        else:
+            arm = f"any serial revolute arm with |g_i(q)| ≤ {list_text(self.k_g)}"
         return (
             f"for every T ≤ {number_text(self.period)} s {what} with torques (6) held between readings up to "
             f"{self._longest} apart, {late_text(self.delay)}, q̇ from differences/T weighted "
             f"{list_text(self.taps)}: h = {member_text(self.family, self.m)}, "
             f"K_p = {diagonal_text(self.kp)}, K_v = {diagonal_text(self.kv)}, "
-            f"b_i ≥ {list_text(self.viscous_min)}, {self._arm_text()}"
+            f"b_i ≥ {list_text(self.viscous_min)}, {arm}"
         )
-
-    def _arm_text(self) -> str:
-        if self.links:
-            arm = ChainGravityBelow(self.links, self.fall, (1,), Fraction(0)).over
-            return f"the arm with free fall {list_text(self.fall)}, {arm}"
-        if not self.mass:
-            return f"any serial revolute arm with |g_i(q)| ≤ {list_text(self.k_g)}"
-        energy = potential_text(self.potential, self.n, len(self.parameters))
-        return f"any arm with {mass_text(self.mass, self.parameters)} ≻ 0, {energy}"
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,6 @@ def scalar_form(
 
 LARGEST_RADIUS = 1 << 64
 """Radians; what takes more is no statement about an arm."""
-Range = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +116,8 @@ class ClosedLoop:
     kp: tuple[Fraction, ...]
     kv: tuple[Fraction, ...]
     eps0: Fraction
-    parameters: tuple[Range, ...] = ()
-    viscous: tuple[Range, ...] = ()
+    parameters: tuple[Ends, ...] = ()
+    viscous: tuple[Ends, ...] = ()
     coupling: tuple[Fraction, ...] = ()
 
     @property
@@ -131,7 +130,7 @@ class ClosedLoop:
         return member(self.family, self.m)
 
     @cached_property
-    def friction(self) -> tuple[Range, ...]:
+    def friction(self) -> tuple[Ends, ...]:
         return self.viscous or tuple((b, b) for b in self.arm.viscous)
 
     @cached_property
