@@ -165,7 +165,6 @@ def test_an_arm_is_a_model_a_name_or_a_path(tmp_path):
     gains = GainSet("g", 1, (Fraction(1),), (Fraction(1),))
     runs = [simulate_motion(gains, arm, seconds=0.1) for arm in ("pendulum1", path, robots.load("pendulum1"))]
     assert len({run.q.tobytes() for run in runs}) == 1
-    (file := tmp_path / "g.toml").write_text(
-        '[bounds]\ntorque = [9]\n[[gains]]\nname = "g"\nm = 1\nkp = [1]\nkv = [1]\n'
-    )
+    file = tmp_path / "g.toml"
+    file.write_text('[bounds]\ntorque = [9]\n[[gains]]\nname = "g"\nm = 1\nkp = [1]\nkv = [1]\n')
     assert simulate_motion(file, path, seconds=0.1).torque_limit == (9.0,)
