@@ -49,8 +49,8 @@ _CLASHES = (
     ("--runs", "--plot"),
     ("--runs", "--vary"),
     ("--reference", "--vary"),
-    ("--experiment", "--keep-going"),
-    ("--experiment", "--certificates"),
+    *((f"--{key.replace('_', '-')}", "--keep-going") for key in ("experiment", *LOOP)),
+    *((f"--{key.replace('_', '-')}", "--certificates") for key in ("experiment", *LOOP)),
     ("--reference", "--certificates"),
     ("--runs", "--certificates"),
 )

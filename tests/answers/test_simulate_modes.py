@@ -170,7 +170,7 @@ BAD = [
     (["--runs", 5, "--plot", "."], ["--plot"]),
     (["--runs", 5, "--experiment"], ["--experiment"]),
     (["--seed", 1, "--spread", 3, "--band", 2], ["--band", "--seed", "--spread"]),
-    (["--experiment", "--keep-going"], ["--keep-going"]),
+    (["--experiment", "--rate", "400", "--keep-going"], ["--keep-going"] * 2),
     (["--velocity", "1,2"], ["--velocity"]),
     (["--velocity", "1e9,0,0"], ["--velocity"]),
     (["--eps0", "1e300"], ["--eps0"]),
