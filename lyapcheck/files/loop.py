@@ -17,8 +17,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import isfinite
 from typing import Any
 
+from lyapcheck.errors import argument_error
 from lyapcheck.files.decimals import decimal_text, of_physical_size
 from lyapcheck.files.fields import Fields
 
@@ -63,6 +65,17 @@ class LoopEntry:
     gravity_error: Fraction | None = None
     within: Fraction | None = None
 
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if name in ("velocity", "filter") or value is None:
+                continue
+            zero = name in ("delay", "unknown_payload", "gravity_error")
+            if isinstance(value, bool) or not isfinite(value) or value < 0 or (value == 0 and not zero):
+                rule = "must be a positive number"
+                raise argument_error(name, value, rule, "correct the sign or the value")
+            if isinstance(value, float):  # the decimal that was typed
+                object.__setattr__(self, name, Fraction(repr(float(value))))
+
     def over(self, other: LoopEntry) -> LoopEntry:
         """The other, with what this one says in place; a period goes with its longest, a filter alone."""
         dropped: dict[str, Any] = {} if self.period is None else {"longest": None}
@@ -82,8 +95,8 @@ class LoopEntry:
             lines += [] if value is None else [f"{name} = {decimal_text(value)}"]
         lines += [] if self.velocity is None else [f'velocity = "{self.velocity}"']
         lines += [] if self.filter is None else [f"filter = [{', '.join(map(decimal_text, self.filter))}]"]
-        error = self.gravity_error
-        lines += [] if error is None else [f"gravity_error = {decimal_text(100 * error)}"]
+        if self.gravity_error is not None:
+            lines.append(f"gravity_error = {decimal_text(100 * self.gravity_error)}")
         return "\n".join(["[loop]", *lines])
 
 
@@ -107,18 +120,10 @@ def read_loop(table: Fields | None) -> LoopEntry:
         table.fail("longest", "must not be shorter than the period", "give the longest interval, or none")
     velocity = table.choice("velocity", VELOCITIES, VELOCITIES[0])
     delay = table.integer("delay", 0, MOST_DELAY)
-    result = LoopEntry(
-        period,
-        longest,
-        delay,
-        velocity if "velocity" in table.data else None,
-        _taps(table),
-        _positive(table, "lowpass", "Hz"),
-        _encoder(table),
-        table.number("unknown_payload", positive=False),
-        _share(table),
-        _within(table),
-    )
+    how = velocity if "velocity" in table.data else None
+    taps, lowpass, encoder = _taps(table), _positive(table, "lowpass", "Hz"), _encoder(table)
+    unknown = table.number("unknown_payload", positive=False), _share(table), _within(table)
+    result = LoopEntry(period, longest, delay, how, taps, lowpass, encoder, *unknown)
     table.close()
     return result
 
@@ -126,9 +131,8 @@ def read_loop(table: Fields | None) -> LoopEntry:
 def _positive(table: Fields, key: str, unit: str) -> Fraction | None:
     value = table.raw(key)
     if isinstance(value, str):
-        table.fail(
-            key, f"must be a number, in {unit}", f"give it without its unit, such as 400 for 400 {unit}"
-        )
+        repair = f"give it without its unit, such as 400 for 400 {unit}"
+        table.fail(key, f"must be a number, in {unit}", repair)
         return None
     return table.number(key)
 

@@ -322,7 +322,6 @@ NOT_FROM_REST = [
     (DRY, {"gravity_error": Fraction(1, 20)}, "knows g(q)"),
     (DRY, {"delay": 7}, "delays to 6"),
     (DRY, {"within": Fraction(4000)}, "starts to 3600"),
-    (DRY, {"within": Fraction(-5)}, "starts to 3600"),
 ]
 
 

@@ -58,21 +58,12 @@ FALSE = {
     ),
     "beyond its limit cycle": (local(TURNED_POL, POL, region=POL <= 30, within=60), "fall"),
     "a centre": (global_(system({"x": y, "y": -x}), SQUARE), "fall"),
-    "a centre that grows a little": (
-        global_(system({"x": y + F(1, 1000) * x, "y": -x}), SQUARE),
-        "fall",
-    ),
+    "a centre that grows a little": (global_(system({"x": y + F(1, 1000) * x, "y": -x}), SQUARE), "fall"),
     "another state of rest": (global_(system({"x": -x + x**3, "y": -y}), SQUARE), "fall"),
     "a saddle": (global_(system({"x": x, "y": -y}), SQUARE), "fall"),
     "a motion that escapes": (enters(system({"x": x}), x**2, region=x**2 <= 5), "fall"),
-    "Lorenz in a small bowl": (
-        enters(LORENZ, BOWL, region=BOWL <= 30, grows=F(1, 2), less=2000),
-        "fall",
-    ),
-    "consensus at 0": (
-        converges_to(system({"x": y - x, "y": x - y}), SQUARE, [x]),
-        "x → 0",
-    ),
+    "Lorenz in a small bowl": (enters(LORENZ, BOWL, region=BOWL <= 30, grows=F(1, 2), less=2000), "fall"),
+    "consensus at 0": (converges_to(system({"x": y - x, "y": x - y}), SQUARE, [x]), "x → 0"),
     "the origin moves": (global_(system({"x": 1 - x, "y": -y}), SQUARE), "rest of x"),
 }
 

@@ -144,3 +144,10 @@ def test_timing_without_a_period_is_refused_where_it_is_an_option() -> None:
         record_of(LoopEntry(delay=2))
     with pytest.raises(InputError, match="must not be shorter"):
         record_of(LoopEntry(longest=Fraction(1, 1000)), LoopEntry(Fraction(1, 400)))
+
+
+@pytest.mark.parametrize("wrong", [{"unknown_payload": -3}, {"period": float("nan")}, {"within": 0}])
+def test_an_entry_takes_numbers_as_typed_and_refuses_what_no_file_may_say(wrong: dict[str, float]) -> None:
+    assert LoopEntry(period=0.001, delay=0).period == Fraction(1, 1000)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="positive"):
+        LoopEntry(**wrong)  # type: ignore[arg-type]
