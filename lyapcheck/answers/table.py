@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -60,10 +60,16 @@ class Table(Answer):
 
     def document(self) -> Document:
         """The constants, all digits correct."""
-        printed = tuple(self._printed())
+        printed = []
+        for m in (row.m for row in self.rows if row.m in PRINTED_GAMMA):
+            bounds = "an upper bound of h" if printed_bounds(m) else "not an upper bound, h exceeds it"
+            printed.append(f"The paper prints γ_{m} = {decimal_text(PRINTED_GAMMA[m])}: {bounds}.")
         return Document(
             TITLE,
-            (table(self._fields, [(row,) for row in self.rows]), *([Bullets(printed)] if printed else [])),
+            (
+                table(self._fields, [(row,) for row in self.rows]),
+                *([Bullets(tuple(printed))] if printed else []),
+            ),
             (LIMITS, *([GROWS] if any(row.m > 1 for row in self.rows) else [])),
             (LEGEND,),
             next=command("tune", "buap3", "--m", self.rows[0].m if self.rows else 1),
@@ -89,12 +95,6 @@ class Table(Answer):
         constants = (Field(key, key, head, cell, both, "l") for key, head in CONSTANTS.items())
         slope = Field("slope_at_0", lambda row: str(slope_at_zero(row.m)), "h′(0)", align="l")
         return Field("m", "m", "m"), *constants, slope, Field("gamma_printed", lambda row: _printed(row.m))
-
-    def _printed(self) -> Iterator[str]:
-        """What is to be said of each printed γ in the table."""
-        for m in (row.m for row in self.rows if row.m in PRINTED_GAMMA):
-            bounds = "an upper bound of h" if printed_bounds(m) else "not an upper bound, h exceeds it"
-            yield f"The paper prints γ_{m} = {decimal_text(PRINTED_GAMMA[m])}: {bounds}."
 
 
 def build_table(

@@ -132,20 +132,15 @@ def run(words: Sequence[str]) -> int:
             os.environ[OFF] = "1"
         return int(command.run(**values))
     except InputError as error:
-        if not error.told:
-            _show_problems(words, error)
+        # programs read no standard error: they get a document of the format that was asked for
+        named = [word.removeprefix("--format=") for word in words if word.startswith("--format=")]
+        named += [after for word, after in pairwise(words) if word == "--format"]
+        if not error.told and named and named[-1] in FOR_PROGRAMS:
+            from lyapcheck.cli.show import show
+            from lyapcheck.output.answer import Unusable
+
+            show(Unusable(words[0], error.problems), named[-1])
         raise
-
-
-def _show_problems(words: Sequence[str], error: InputError) -> None:
-    """Write what is wrong as a document of the format that was asked for: programs read no standard error."""
-    named = [word.removeprefix("--format=") for word in words if word.startswith("--format=")]
-    named += [after for word, after in pairwise(words) if word == "--format"]
-    if named and named[-1] in FOR_PROGRAMS:
-        from lyapcheck.cli.show import show
-        from lyapcheck.output.answer import Unusable
-
-        show(Unusable(words[0], error.problems), named[-1])
 
 
 def main() -> None:

@@ -113,23 +113,17 @@ def blocks(result: Iterable[doc.Block], level: int, drawn: Drawn = linked) -> It
                 yield Markup("<table>")
                 if block.caption:
                     yield element("caption", block.caption)
+                styles = [f"text-align:{_SIDES[side]}" for side in block.align]
                 heads = [  # a column of signs has no head, and an empty one confuses screen readers
-                    element("th", head, style=_side(side), scope="col") if head.strip() else element("td")
-                    for head, side in zip(block.heads, block.align, strict=True)
+                    element("th", head, style=style, scope="col") if head.strip() else element("td")
+                    for head, style in zip(block.heads, styles, strict=True)
                 ]
                 yield element("thead", element("tr", heads))
                 yield Markup("<tbody>")
-                yield from (element("tr", _cells(row, block)) for row in block.rows)
+                for row in block.rows:
+                    cells = zip(row, block.heads, styles, strict=True)
+                    yield element("tr", [element("td", x, style=y, data_label=head) for x, head, y in cells])
                 yield from (Markup("</tbody>"), Markup("</table>"))
-
-
-def _cells(row: Sequence[str], table: doc.Table) -> Iterator[Markup]:
-    for cell, head, side in zip(row, table.heads, table.align, strict=True):
-        yield element("td", cell, style=_side(side), data_label=head)
-
-
-def _side(side: str) -> str:
-    return f"text-align:{_SIDES[side]}"
 
 
 # --- Formulas: LaTeX, and sentences in which formulas are written in letters and signs.
@@ -238,7 +232,15 @@ class _Reader:
     def node(self) -> Markup | None:
         """One letter, number or sign with all that stands above and below it."""
         base = self._base()
-        return None if base is None else self._with_scripts(base)
+        if base is None:
+            return None
+        low, high = self._lowered(), self._raised()
+        low = low or self._lowered()
+        if low and high:
+            return element("msubsup", base, low, high)
+        if low:
+            return element("msub", base, low)
+        return element("msup", base, high) if high else base
 
     def _take(self, pattern: str) -> str:
         result = re.match(pattern, self.rest)
@@ -265,31 +267,19 @@ class _Reader:
         if word := self._take(r"(implies|for|and|all|in|every|is|the|of)(?![A-Za-z])"):
             return element("mtext", f"{_BLANK}{word}{_BLANK}")
         if letter := self._take(rf"[A-Za-z{_GREEK}]"):
-            return self._accented(letter)
+            node = element("mi", letter)
+            while self.rest and self.rest[0] in ACCENTS:
+                node = element("mover", node, element("mo", ACCENTS[self._take(".")]), accent="true")
+            return node
         sign = self._take(r"(?s).")
         stretchy = "false" if sign in FENCES else None
         return element("mo", "−" if sign == "-" else sign, stretchy=stretchy)
-
-    def _accented(self, letter: str) -> Markup:
-        node = element("mi", letter)
-        while self.rest and self.rest[0] in ACCENTS:
-            node = element("mover", node, element("mo", ACCENTS[self._take(".")]), accent="true")
-        return node
 
     def _group(self) -> Markup:
         """What a root or an exponent is about: one node, or what stands in brackets."""
         if self._take(r"\("):
             return element("mrow", list(self.nodes(until=")")))
         return (self._base() if self.rest else None) or Markup()
-
-    def _with_scripts(self, base: Markup) -> Markup:
-        low, high = self._lowered(), self._raised()
-        low = low or self._lowered()
-        if low and high:
-            return element("msubsup", base, low, high)
-        if low:
-            return element("msub", base, low)
-        return element("msup", base, high) if high else base
 
     def _lowered(self) -> Markup | None:
         if signs := self._take(f"[{''.join(LOWERED)}]+"):

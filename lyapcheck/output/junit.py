@@ -17,18 +17,15 @@ def render(answer: Answer) -> str:
     for (path, group), result in groupby(answer.annotations(), key=lambda one: (one.path, one.group)):
         _suite(top, path, group, list(result))
     for path, problems in groupby(answer.problems, key=lambda one: one.path):
-        _errors(top, path or "input", [(problem.key, str(problem)) for problem in problems])
+        name, listed = path or "input", list(problems)
+        count = str(len(listed))
+        counts = {"tests": count, "failures": "0", "skipped": "0", "errors": count}
+        suite = ET.SubElement(top, "testsuite", {"name": name, **counts})
+        for problem in listed:
+            case = ET.SubElement(suite, "testcase", classname=name, name=problem.key)
+            ET.SubElement(case, "error", message=str(problem), type="unusable input")
     ET.indent(top)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(top, encoding="unicode") + "\n"
-
-
-def _errors(top: ET.Element, name: str, problems: list[tuple[str, str]]) -> None:
-    count = str(len(problems))
-    counts = {"tests": count, "failures": "0", "skipped": "0", "errors": count}
-    suite = ET.SubElement(top, "testsuite", {"name": name, **counts})
-    for key, text in problems:
-        case = ET.SubElement(suite, "testcase", classname=name, name=key)
-        ET.SubElement(case, "error", message=text, type="unusable input")
 
 
 def _suite(top: ET.Element, path: str, group: str, result: list[Annotation]) -> None:

@@ -30,7 +30,9 @@ def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
                 yield from (rf"  \item {{}}{latex_text(item)}" for item in items)
                 yield r"\end{itemize}"
             case doc.Code(text):
-                yield from (r"\begin{quote}\ttfamily", *_lines(text), r"\end{quote}")
+                yield r"\begin{quote}\ttfamily"
+                yield from (rf"{latex_text(printable(x))}\\" for x in text.splitlines() if x.strip())
+                yield r"\end{quote}"
             case doc.Equation(_, latex):
                 yield from (r"\[", printable(latex), r"\]")
             case doc.Figure(path, caption):
@@ -48,10 +50,6 @@ def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
                 yield r"\hline"
                 yield from map(_row, block.rows)
                 yield from (r"\hline", r"\end{tabular}")
-
-
-def _lines(text: str) -> Iterator[str]:
-    return (rf"{latex_text(printable(line))}\\" for line in text.splitlines() if line.strip())
 
 
 def _column(cells: Sequence[str], side: str) -> str:

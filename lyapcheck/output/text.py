@@ -108,7 +108,9 @@ class _Writer:
                 case doc.Paragraph(text):
                     yield from self._wrapped(text)
                 case doc.Bullets(items):
-                    yield from (line for item in items for line in self._hanging(item))
+                    for item in items:
+                        for number, line in enumerate(self._wrapped(item, len(INDENT))):
+                            yield f"{INDENT if number else '- '}{line}"
                 case doc.Equation(text, latex) if "\n" in text and any(
                     self._said(x) != x for x in text.split("\n")
                 ):
@@ -173,10 +175,6 @@ class _Writer:
 
     def _inset(self, text: str) -> Iterator[str]:
         return (INDENT + line for line in self._wrapped(text, len(INDENT)) if line)
-
-    def _hanging(self, text: str) -> Iterator[str]:
-        lines = self._wrapped(text, len(INDENT))
-        return (f"{INDENT if number else '- '}{line}" for number, line in enumerate(lines))
 
     def _said(self, text: str) -> str:
         return spelled(printable(text), self.encoding)

@@ -130,9 +130,8 @@ def _submit(subject: Subject, notes: Notes, workers: ProcessPoolExecutor) -> dic
     for file, name in subject.sets:
         start(name, gains_job, file.path, name, subject.robot, SEED)
     start("derivation", derive_job, subject.ms, subject.robot)
-    for proofs in (
-        () if subject.own else TURNS[1:]
-    ):  # last, as they take from the store what the first has found
+    # last, as they take from the store what the first has found
+    for proofs in () if subject.own else TURNS[1:]:
         start(f"claims of {', '.join(proofs)}", proofs_job, proofs, *about)
     return labels
 

@@ -73,7 +73,9 @@ class ReportAnswer(Answer):
                 for one in known
             ],
             "gate": report.gate.data()["results"],
-            "epsilon": [_epsilon(row) for row in report.epsilon],
+            "epsilon": [  # a promise is in words, not in data
+                {key: value for key, value in vars(one).items() if key != "promise"} for one in report.epsilon
+            ],
             "claims": [row.data() for row in report.claims],
             "others": [row.data() for row in report.others],
             "runs": [vars(row) for row in report.runs],
@@ -91,11 +93,6 @@ class ReportAnswer(Answer):
             {key: getattr(row, key) for key in keys} | {"verdict": row.decision.word}
             for row in self.report.every_claim
         ]
-
-
-def _epsilon(row: EpsilonRow) -> dict[str, Any]:
-    """The fields of a row by their names; a promise is in words, not in data."""
-    return {key: value for key, value in vars(row).items() if key != "promise"}
 
 
 def _robot(model: RobotModel) -> dict[str, Any]:
@@ -323,7 +320,17 @@ def rests(report: Report) -> Iterator[Section]:
     blocks: list[Block] = [Bullets(assumed)] if assumed else [Paragraph("Nothing is assumed about the arm.")]
     if report.certificates:
         words = f"{len(report.certificates)} certificates; the small checker judges them again with"
-        blocks += [Paragraph(words), Code("lyapcheck recheck certificates"), *_kernel(report)]
+        blocks += [Paragraph(words), Code("lyapcheck recheck certificates")]
+        decided = [row for row in report.every_claim if row.decided]
+        kernel = [row for row in decided if row.grade == GRADE]
+        if kernel:
+            words = (
+                "Grade kernel: a theorem of Coq's kernel too, printed from the claim's own data, "
+                "on golden axioms; what its words mean stands on one page, formal/Definitions.v. "
+                f"So it is for {len(kernel)} of {len(decided)} verdicts. "
+                "With Coq installed, it judges them anew by"
+            )
+            blocks += [Paragraph(words), Code("lyapcheck recheck --kernel certificates")]
     boxes = {row.boxes for row in report.epsilon}
     budget = f" Budget for ε₀: {max(boxes)} boxes a gain set." if boxes else ""
     blocks.append(Paragraph(f"Computed with {versions}. Seed {report.seed}.{budget}"))
@@ -334,16 +341,3 @@ def known(report: Report) -> Iterator[Section]:
     """What was known before the paper, and what is new."""
     if not report.own:
         yield Section("What was known, and what is new", (Bullets(report.notes.known[1:]),))
-
-
-def _kernel(report: Report) -> Iterator[Block]:
-    """What the grade ``kernel`` means, and which verdicts have it."""
-    rows = [row for row in report.every_claim if row.decided]
-    kernel = [row for row in rows if row.grade == GRADE]
-    if kernel:
-        yield Paragraph(
-            "Grade kernel: a theorem of Coq's kernel too, printed from the claim's own data, "
-            "on golden axioms; what its words mean stands on one page, formal/Definitions.v. So it is for "
-            f"{len(kernel)} of {len(rows)} verdicts. With Coq installed, it judges them anew by"
-        )
-        yield Code("lyapcheck recheck --kernel certificates")

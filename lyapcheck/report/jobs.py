@@ -207,13 +207,8 @@ def _epsilon(gain_set: GainSet, model: RobotModel, seed: int) -> tuple[EpsilonRo
     from lyapcheck.answers.epsilon.kept import certificates, kept_epsilon
     from lyapcheck.search.controlled_arm import ControlledArm
 
-    own: dict[str, Any] = {
-        "name": gain_set.name,
-        "m": gain_set.m,
-        "robot": model.name,
-        "assumptions": model.assumptions,
-    }
-    own |= {"seed": seed, "boxes": BOXES}
+    own: dict[str, Any] = {"name": gain_set.name, "m": gain_set.m, "robot": model.name}
+    own |= {"assumptions": model.assumptions, "seed": seed, "boxes": BOXES}
     try:
         ControlledArm(gain_set, model).require_friction()
     except InputError as refused:  # no ε₀ is certified on an arm that lacks friction

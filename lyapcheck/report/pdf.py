@@ -106,7 +106,14 @@ def _blocks(blocks: Iterable[doc.Block], level: int) -> Iterator[str]:
                 yield f"#figure({image}, {words}, numbering: none)"
             case doc.Section(title, inner):
                 yield f"#heading(level: {level}, {quoted(title)})"
-                yield from _beside(inner) if _ends_drawn(inner) else _blocks(inner, level + 1)
+                if _ends_drawn(inner):  # words on the left, the drawing that ends them on the right
+                    yield "#grid(columns: (1fr, 62mm), column-gutter: 5mm, ["
+                    yield from _blocks(inner[:-1], 0)
+                    yield "], ["
+                    yield from _blocks(inner[-1:], 0)
+                    yield "])"
+                else:
+                    yield from _blocks(inner, level + 1)
             case doc.Table():
                 yield from _table(block)
 
@@ -119,15 +126,6 @@ def _ends_drawn(blocks: tuple[doc.Block, ...]) -> bool:
         and isinstance(last, doc.Figure)
         and all(isinstance(one, doc.Paragraph | doc.Bullets) for one in words)
     )
-
-
-def _beside(blocks: tuple[doc.Block, ...]) -> Iterator[str]:
-    """Words on the left, the drawing that ends them on the right."""
-    yield "#grid(columns: (1fr, 62mm), column-gutter: 5mm, ["
-    yield from _blocks(blocks[:-1], 0)
-    yield "], ["
-    yield from _blocks(blocks[-1:], 0)
-    yield "])"
 
 
 def _table(table: doc.Table) -> Iterator[str]:

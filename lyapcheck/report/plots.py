@@ -65,17 +65,15 @@ def svg(figure: Any) -> str:
 
 
 def png(figure: Any) -> bytes:
-    """The figure as PNG for print, 200 dots an inch, without the version of what drew it."""
+    """The figure as PNG for print, 200 dots an inch, without the version of what drew it.
+
+    It has 256 colours: a drawing of lines needs no more, and a third of the bytes.
+    """
+    from PIL import Image
+
     data = BytesIO()
     with styled():
         figure.savefig(data, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
-    return _with_palette(data)
-
-
-def _with_palette(data: BytesIO) -> bytes:
-    """The same picture in 256 colours: a drawing of lines needs no more, and a third of the bytes."""
-    from PIL import Image
-
     flat = Image.open(data).convert("RGB")
     few = flat.quantize(method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     paper, colours = 3 * few.tobytes()[0], few.getpalette() or []

@@ -25,7 +25,7 @@ OURS = {
     ("kernel/__init__.py", "_record"): "a record of the package",
     ("kernel/__init__.py", "_definitions"): "the library of the package",
     ("rechecking/__init__.py", "_imported"): "source of the package",
-    ("report/plots.py", "_with_palette"): "a picture in memory",
+    ("report/plots.py", "png"): "a picture in memory",
     ("report/model.py", "published_notes"): "a proof of the package",
     ("report/page/__init__.py", "raw"): "style and script of the package",
     ("lyapunov/numeric.py", "_source_of"): "the file that a family was imported from",

@@ -373,13 +373,12 @@ class ProofResult(Answer):
         """A section a verdict, in it one for each part of the text; the claims of each as a table."""
         for verdict in verdicts:
             rows = self._with(verdict)
-            if rows:
-                yield Section(f"{self._word(verdict).capitalize()} ({len(rows)})", tuple(self._parts(rows)))
-
-    def _parts(self, rows: Sequence[ClaimResult]) -> Iterator[Block]:
-        for name in dict.fromkeys(row.section for row in rows):
-            table = _table([row for row in rows if row.section == name], self.timings)
-            yield Section(name, (table,)) if name else table
+            parts: list[Block] = []
+            for name in dict.fromkeys(row.section for row in rows):
+                table = _table([row for row in rows if row.section == name], self.timings)
+                parts.append(Section(name, (table,)) if name else table)
+            if parts:
+                yield Section(f"{self._word(verdict).capitalize()} ({len(rows)})", tuple(parts))
 
     def _with(self, verdict: Verdict) -> list[ClaimResult]:
         return [row for row in self.claims if row.verdict is verdict]

@@ -339,7 +339,8 @@ def largest(member: Member, name: str, function: str, form: Any, polynomial: Any
         for value in values:
             reached = reached.max(value)
         inside = reached.overlaps(known.to_arb()) and reached.rad() < arb(10) ** -SHOWN
-    words = f"{len(roots)} positive root{'s' * (len(roots) != 1)}, {letter} = {_digits(reached)}"
+    digits = correct_digits(Enclosure.from_arb(reached), SHOWN)
+    words = f"{len(roots)} positive root{'s' * (len(roots) != 1)}, {letter} = {digits}"
     _, upper = decimals(known, DIGITS)
     stated = NormBound((function, member.m, ("var", "x")), 1, ("num", str(Fraction(upper))))
     row = agreement(f"{letter}_{member.m}", words, bool(inside), "", stated)
@@ -349,7 +350,3 @@ def largest(member: Member, name: str, function: str, form: Any, polynomial: Any
 def _place(ends: tuple[Fraction, Fraction]) -> arb:
     """asinh √u for the u between two ends."""
     return ball_of(ends[0]).union(ball_of(ends[1])).sqrt().asinh()
-
-
-def _digits(value: arb) -> str:
-    return correct_digits(Enclosure.from_arb(value), SHOWN)

@@ -15,7 +15,7 @@ References: (6), (11) of reyes2019family.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
@@ -121,8 +121,13 @@ def holds_checks(
         return (Check(HOLDS, reason=reason),)
     if record.unknown_payload and not isinstance(model.dynamics, Chain):
         return (Check(HOLDS, reason=NO_LINKS),)
+    parts = []
     try:
-        parts = list(_parts(model, record))
+        if record.unknown_payload:
+            arm = payload_alone(model, record.unknown_payload)
+            parts.append(_Part("payload", arm, Fraction(1), computed_bounds(arm)))
+        if record.gravity_error:
+            parts.append(_Part("gravity", model, record.gravity_error, computed_bounds(model)))
     except TooManyTerms as error:
         return (Check(HOLDS, reason=str(error)),)
     friction = dry_friction(model) if dry is None else dry
@@ -138,14 +143,6 @@ class _Part:
     arm: RobotModel
     share: Fraction
     bounds: tuple[Fraction, ...]
-
-
-def _parts(model: RobotModel, record: LoopRecord) -> Iterator[_Part]:
-    if record.unknown_payload:
-        arm = payload_alone(model, record.unknown_payload)
-        yield _Part("payload", arm, Fraction(1), computed_bounds(arm))
-    if record.gravity_error:
-        yield _Part("gravity", model, record.gravity_error, computed_bounds(model))
 
 
 @lru_cache(maxsize=16)

@@ -89,9 +89,9 @@ class Folder:
         path = self.path / f".{TABLE}"
         with pending(path), open(self.path / ROWS, encoding="utf-8") as rows:
             with parquet.ParquetWriter(path, schema) as writer:
-                while group := [
-                    _cells(json.loads(line)) for _, line in zip(range(GROUP), rows, strict=False)
-                ]:
+                while group := [json.loads(line) for _, line in zip(range(GROUP), rows, strict=False)]:
+                    for row in group:  # its data are JSON text here
+                        row["answer"] = json.dumps(row["answer"], ensure_ascii=False, separators=(",", ":"))
                     writer.write_table(pa.Table.from_pylist(group, schema))
             path.replace(self.path / TABLE)
 
@@ -102,11 +102,6 @@ def _write(path: Path, content: bytes) -> None:
     with pending(part):
         part.write_bytes(content)
         part.replace(path)
-
-
-def _cells(row: dict[str, Any]) -> dict[str, Any]:
-    """A row with its data as JSON text."""
-    return {**row, "answer": json.dumps(row["answer"], ensure_ascii=False, separators=(",", ":"))}
 
 
 def full(path: Path, error: OSError) -> InputError:

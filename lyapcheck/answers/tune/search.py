@@ -139,7 +139,7 @@ class Search:
 
     def first(self) -> Array:
         """The logarithms of k_p and k_v (n, 2) by the rule of thumb."""
-        most, J = SHARE * self._largest, self._inertia
+        most, J = SHARE * (np.array(self.most_sum) * float(self.unit)), self._inertia
         half = DAMPING * np.sqrt(J)
         root = np.sqrt(half * half + most + self._friction) - half  # of k_p + 2 ζ √(J k_p) = most + b
         kp = np.minimum(root * root, most)
@@ -176,10 +176,6 @@ class Search:
     @cached_property
     def _friction(self) -> Array:
         return np.array([float(b.value) for b in self.models[0].viscous])
-
-    @cached_property
-    def _largest(self) -> Array:
-        return np.array(self.most_sum) * float(self.unit)
 
     @cached_property
     def _inertia(self) -> Array:

@@ -104,23 +104,9 @@ def _templates() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    functions = (
-        anchor,
-        badges,
-        chain,
-        drawn_arm,
-        file_stem,
-        finding_id,
-        latex,
-        lines,
-        quote,
-        raw,
-        route,
-        sentence,
-        sentences,
-        apart,
-    )
-    result.globals |= {one.__name__: one for one in functions}
+    verdicts = (badges, chain, route, sentences)
+    texts = (anchor, apart, drawn_arm, file_stem, finding_id, latex, lines, quote, raw, sentence)
+    result.globals |= {one.__name__: one for one in (*verdicts, *texts)}
     result.globals |= {"findings": findings, "SIGNS": SIGNS, "WEIGHTS": WEIGHTS}
     result.globals |= {"VERDICTS": tuple(Verdict)}
     return result
@@ -223,9 +209,7 @@ def apart(row: ClaimRow) -> str:
     """How far the two sides of a relation that fails are from each other."""
     witness = row.decision.witness or {}
     low, high = float(witness["left"][0]), float(witness["right"][0])
-    if low * high <= 0 or witness["operator"] == "=":
-        return ""
-    if low == high:
+    if low * high <= 0 or witness["operator"] == "=" or low == high:
         return ""
     ratio = low / high
     return f" (ratio {ratio:.3g})" if abs(ratio - 1) > NEAR else f" ({abs(ratio - 1):.2%} apart)"
