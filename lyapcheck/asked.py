@@ -260,8 +260,7 @@ def _of_motors(
         least = bounds.viscous_min or Fraction(0)
         return (), ((least, least),) * n, bounds.torque or (None,) * n
     own = tuple(None if limit is None else limit.bounds[0] for limit in arm.torque_limit)
-    parameters = arm.ranges
-    return parameters, viscous_of(arm, bounds.viscous_min), bounds.torque or own
+    return arm.ranges, viscous_of(arm, bounds.viscous_min), bounds.torque or own
 
 
 def viscous_of(

@@ -35,7 +35,15 @@ _LOOK = 0.02
 def end_below() -> None:
     """End all processes that this one has started, and theirs; each is held first, so that none gets away."""
     if LISTED:
-        _end_listed()
+        stopped: set[int] = set()
+        while found := _below(os.getpid()) - stopped:
+            for process in found:
+                _send(process, signal.SIGSTOP)
+            stopped |= found
+        for process in stopped:
+            # Not SIGKILL: the process that removes the locks of a pool lives on until that is done.
+            _send(process, signal.SIGTERM)
+            _send(process, signal.SIGCONT)
     elif "psutil" in sys.modules:
         import psutil
 
@@ -49,18 +57,6 @@ def end_below() -> None:
             with suppress(psutil.Error):
                 one.terminate()
                 one.resume()
-
-
-def _end_listed() -> None:
-    held: set[int] = set()
-    while fresh := _below(os.getpid()) - held:
-        for process in fresh:
-            _send(process, signal.SIGSTOP)
-        held |= fresh
-    for process in held:
-        # Not SIGKILL: the process that removes the locks of a pool lives on until that is done.
-        _send(process, signal.SIGTERM)
-        _send(process, signal.SIGCONT)
 
 
 def _below(ancestor: int) -> set[int]:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 import pytest
 
 if TYPE_CHECKING:
-    from lyapcheck.answers.gate import GateAnswer, GateResult
+    from lyapcheck.answers.gate import GateAnswer
     from lyapcheck.robots import ArmLike
 
 
@@ -50,13 +50,19 @@ def assert_accepted(
     """
     __tracebackhide__ = True
     from lyapcheck.answers.gate import gate
+    from lyapcheck.answers.gate.words import RULES, advice
     from lyapcheck.control.gains import read_gain_file
     from lyapcheck.errors import argument_error
 
     if conditions is not None and not conditions:
         raise argument_error("conditions", "", "names no condition", "use some, for instance 10p and 19")
     results = gate(read_gain_file(path, robot, undamped=True), robot, conditions)
-    complaints = [line for result in results for line in _complaints(result)]
+    complaints = []
+    for result in results:
+        for check in result.failures:
+            place = result.file.place(result.gains, RULES[check.id].key, check.joint)
+            where = result.file.path if place is None else f"{result.file.path}:{place.line}:{place.column}"
+            complaints.append(f"{where}: {result.name} {check.verdict}: {advice(result, check)}")
     if complaints or results.exit_code:
         raise AssertionError("\n".join(complaints) or repr(results))
     return results
@@ -74,15 +80,3 @@ def accepted_gains(request: pytest.FixtureRequest) -> AcceptedGains:
         return assert_accepted(root / path, robot=robot, conditions=conditions)
 
     return accepted
-
-
-def _complaints(result: GateResult) -> list[str]:
-    """A line a failed check, with the place of the gain."""
-    from lyapcheck.answers.gate.words import RULES, advice
-
-    lines = []
-    for check in result.failures:
-        place = result.file.place(result.gains, RULES[check.id].key, check.joint)
-        where = result.file.path if place is None else f"{result.file.path}:{place.line}:{place.column}"
-        lines.append(f"{where}: {result.name} {check.verdict}: {advice(result, check)}")
-    return lines

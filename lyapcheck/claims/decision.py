@@ -148,8 +148,7 @@ def chained(finding: SearchResult, statement: Statement | Missing, used: Iterabl
     """The finding on a step, open if what it uses does not carry it; a counterexample needs none of that."""
     if not finding.is_proof or isinstance(statement, Missing):
         return finding
-    rows = list(used)
-    open_uses = [row.claim.id for row in rows if not row.finding.is_proof]
+    open_uses = [row.claim.id for row in used if not row.finding.is_proof]
     if open_uses:
         return replace(still_open(rests_on(open_uses), finding.method), evidence=finding.evidence)
     return finding
@@ -246,17 +245,15 @@ def judge_afresh(certificates: Mapping[Any, Certificate]) -> dict[Any, Judged]:
             [(one["statement"], one["proved"], one["refuted"]) for one in answer["alarms"]]
         )
     rows = {row["file"]: row for row in answer["certificates"]}
-    return {key: _judged(rows[name], certificates[key]) for name, key in files.items()}
-
-
-def _judged(row: dict[str, Any], certificate: Certificate) -> Judged:
-    claim = certificate.claim
-    if row["accepted"] and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
-        raise RuntimeError(f"the checker answers about {row['id']} where {claim.id} was asked")
-    rests = (tuple(row["rules"]), tuple(row["granted"]))
-    return Judged(
-        certificate.statement, row["accepted"] is True, row["reason"], row["verdict"], row["grade"], *rests
-    )
+    result = {}
+    for name, key in files.items():
+        row, one = rows[name], certificates[key]
+        claim = one.claim
+        if row["accepted"] and (row["id"], row["m"], row["n"]) != (claim.id, claim.m, claim.n):
+            raise RuntimeError(f"the checker answers about {row['id']} where {claim.id} was asked")
+        said = row["reason"], row["verdict"], row["grade"], tuple(row["rules"]), tuple(row["granted"])
+        result[key] = Judged(one.statement, row["accepted"] is True, *said)
+    return result
 
 
 # --- Fresh Python processes that import the lyapcheck that runs here, and nothing from the working directory.

@@ -131,14 +131,12 @@ def read(text: str, cases: int) -> Handover:
         for number in (answer.statement for answer in claim.answers if answer.statement is not None):
             require(0 <= number < len(lines), claim.id, number, "is not the number of a statement")
             makers.setdefault(number, claim.id)
-    statements = (_statement(line, makers.get(k, "?")) for k, line in enumerate(lines))
+    statements: list[Statement | Missing] = []
+    for k, line in enumerate(lines):
+        try:
+            statements.append(from_json(Statement, parse(line), makers.get(k, "?")))
+        except Refused as refusal:
+            if refusal.rule not in (TOO_DEEP, DOCUMENT_TOO_DEEP):
+                raise
+            statements.append(Missing(f"its statement {refusal.rule}"))
     return replace(handover, statements=tuple(statements))
-
-
-def _statement(line: str, claim: str) -> Statement | Missing:
-    try:
-        return from_json(Statement, parse(line), claim)
-    except Refused as refusal:
-        if refusal.rule in (TOO_DEEP, DOCUMENT_TOO_DEEP):
-            return Missing(f"its statement {refusal.rule}")
-        raise

@@ -247,7 +247,12 @@ def _constant(arm: RobotModel, name: str, max_boxes: int, on_progress: Progress)
     at, inner = extreme(arm, name)
     if arm.n > FEW_JOINTS and arm.chain is not None:
         on_progress(0.1, "forms along the links")
-        shown = _along_links(arm.chain, name, inner)
+        still = name.startswith("k_g") and inner == 0
+        shown = storage_proof(arm.chain, name, still=True) if still else None
+        shown = shown or storage_proof(arm.chain, name)
+        if shown is None and name != "lambda_min":
+            rule = "has no bound along the links that the checker accepts"
+            raise argument_error(name, "", rule, "correct the masses and inertias")
         # bodies without mass may leave nothing to show, but that M(q) of links is never negative
         outer = Fraction(0)
     else:
@@ -257,17 +262,6 @@ def _constant(arm: RobotModel, name: str, max_boxes: int, on_progress: Progress)
     boxes = max_boxes if shown and isinstance(shown.proof, Bisection) else 0
     unit = "N·m" if name.startswith("k_g") else "kg·m²"
     return ConstantResult(name, unit, Enclosure(low, high), tuple(map(float, (*at.q, *at.x))), shown, boxes)
-
-
-def _along_links(chain: Chain, name: str, inner: Fraction) -> BoundWithProof | None:
-    """The best bound that storage forms show; only of λmin(M) there may be none."""
-    still = name.startswith("k_g") and inner == 0
-    found = storage_proof(chain, name, still=True) if still else None
-    found = found or storage_proof(chain, name)
-    if found is None and name != "lambda_min":
-        rule = "has no bound along the links that the checker accepts"
-        raise argument_error(name, "", rule, "correct the masses and inertias")
-    return found
 
 
 def _by_sizes_and_boxes(

@@ -16,13 +16,13 @@ from lyapcheck.check.kinds.constant import Constant, ExactNumbers, SeparateBalls
 from lyapcheck.check.numbers.balls import precision
 from lyapcheck.check.numbers.polynomials import Enclosure, fraction
 from lyapcheck.check.replay import MAX_BITS
-from lyapcheck.check.statement import Relation
+from lyapcheck.check.statement import Relation, Witness
 from lyapcheck.control.judgement import JudgedStatement, judged_statement
 from lyapcheck.files.decimals import Written, exact_decimal
 from lyapcheck.output.digits import scaled_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from lyapcheck.check.kinds.for_all import ForAll
     from lyapcheck.check.statement import Proof
@@ -59,7 +59,11 @@ class Threshold:
         key = value.as_integer_ratio()  # hashing a fraction takes longer
         known = self._known.get(key)
         if known is None:
-            proofs = _proofs(places) if self.bounded else self._against(value)
+            proofs: Iterable[Proof] = _proofs(places)
+            if not self.bounded:
+                # an x where value·h(x) = value·x is above the limit
+                x = Fraction(max(0, self.near().upper // (value or 1)) + 1)
+                proofs = [Witness((("x", x),))]
             known = self._known[key] = judged_statement(self.asked(value), proofs)
         return known
 
@@ -124,12 +128,6 @@ class Threshold:
             return Enclosure.exact(fraction(value))
         with precision(bits):
             return Enclosure.from_arb(ball(self.limit))
-
-    def _against(self, value: Fraction) -> list[Proof]:
-        """An x where value·h(x) = value·x is above the limit."""
-        from lyapcheck.check.statement import Witness
-
-        return [Witness((("x", Fraction(max(0, self.near().upper // (value or 1)) + 1)),))]
 
 
 def scaled(budget: Fraction, n: int, gamma: Tree | None, operator: str = "<") -> Threshold:

@@ -175,7 +175,8 @@ class Derivation:
 
         Soundness: polynomials are equal where their normal forms are, and the relations hold.
         """
-        difference = _letters(left - right)
+        # with the letter s for 1/(1 + r)
+        difference = sp.sympify(left - right).subs(1 / (1 + R), NEAR)
         names = sorted(difference.free_symbols.union(*(one.free_symbols for one in self.relations)), key=str)
         if not names:
             return bool(difference == 0)
@@ -208,11 +209,6 @@ class Derivation:
     def sum_is_rate(self) -> bool:
         """Whether the terms of (15) add up to dV/dt."""
         return self.gradient_is_momentum() and self.same(sum(t[0] for t in terms_15(self.x)), self.rate())
-
-
-def _letters(expression: Any) -> Any:
-    """The expression with its letters for 1/(1 + r) and 1/r."""
-    return sp.sympify(expression).subs(1 / (1 + R), NEAR)
 
 
 @lru_cache(maxsize=16)

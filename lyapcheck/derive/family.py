@@ -91,11 +91,11 @@ def member(m: int) -> Member:
     return Member(m, hyperbolic(m).sympy(X).potential)
 
 
-def positive_roots(polynomial: Any, width: Fraction = Fraction(1, 10**40)) -> list[tuple[Fraction, Fraction]]:
+def positive_roots(polynomial: Any) -> list[tuple[Fraction, Fraction]]:
     """Intervals of ℚ, each with one of the positive roots of a polynomial, in their order.
 
     Soundness: SymPy isolates the roots by exact arithmetic (continued fractions).
     """
-    small = sp.Rational(width.numerator, width.denominator)
-    found = [ends for ends, _ in polynomial.sqf_part().intervals(eps=small) if ends[1] > 0]
+    width = sp.Rational(1, 10**40)
+    found = [ends for ends, _ in polynomial.sqf_part().intervals(eps=width) if ends[1] > 0]
     return [(fraction(low), fraction(high)) for low, high in found]

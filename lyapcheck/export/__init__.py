@@ -128,7 +128,8 @@ class Controller:
     def texts(self) -> dict[str, str]:
         n, loop = self.model.n, self.loop
         assert loop.period is not None
-        title = _plain(f"{self.gains.name} on {self.model.name}")
+        # in a comment of any compiler: no end of it, no trigraph, no line
+        title = re.sub(r"[^A-Za-z0-9 ._-]", "_", f"{self.gains.name} on {self.model.name}")[:80]
         member = "" if self.gains.m is None else f", m = {self.gains.m}"
         words = {
             "TITLE": title,
@@ -216,8 +217,3 @@ def below(value: Fraction) -> float:
 
 def _list(values: Sequence[Fraction | float]) -> str:
     return ", ".join(map(constant, values))
-
-
-def _plain(text: str) -> str:
-    """A text that can stand in a comment of any compiler: no end of it, no trigraph, no line."""
-    return re.sub(r"[^A-Za-z0-9 ._-]", "_", text)[:80]

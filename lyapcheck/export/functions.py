@@ -71,17 +71,13 @@ class Reduction:
         k, left = self.reach(largest)
         rest, wrong = self.c, arb(0)
         for part in self.parts:
-            if not _exact(part, k):
+            digits = Fraction(part).numerator
+            # below 2^53 all whole numbers up to k times this double are doubles
+            if not arb(digits // (digits & -digits)) * k < arb(2) ** 53:
                 wrong = wrong + U * k * part + TINY
             rest = rest - arb(part)
             wrong = upper(wrong + U * (left + k * abs(rest) + wrong) + TINY)
         return upper(wrong + k * abs(rest))
-
-
-def _exact(part: float, k: arb) -> bool:
-    """Whether all whole numbers up to k times a positive double are doubles."""
-    digits = Fraction(part).numerator
-    return bool(arb(digits // (digits & -digits)) * k < arb(2) ** 53)
 
 
 @lru_cache(maxsize=2)

@@ -65,26 +65,22 @@ class _Walk:
             if token == "\n":
                 self.at += 1
             elif token == "[":
-                table = self._header()
+                offset, array = self.offsets[self.at], self.tokens[self.at + 1] == "["
+                self.at += 2 if array else 1
+                keys = self._keys("]")
+                self.at += 2 if array else 1
+                table = ()
+                for depth, key in enumerate(keys, 1):
+                    table = (*table, key)
+                    if array and depth == len(keys):
+                        self.entries[table] = self.entries.get(table, -1) + 1
+                        self.found.setdefault(table, offset)
+                    if table in self.entries:
+                        table = (*table, self.entries[table])
+                self.found.setdefault(table, offset)
             else:
                 self._pair(table)
         return self.found
-
-    def _header(self) -> KeyPath:
-        offset, array = self.offsets[self.at], self.tokens[self.at + 1] == "["
-        self.at += 2 if array else 1
-        keys = self._keys("]")
-        self.at += 2 if array else 1
-        path: KeyPath = ()
-        for depth, key in enumerate(keys, 1):
-            path = (*path, key)
-            if array and depth == len(keys):
-                self.entries[path] = self.entries.get(path, -1) + 1
-                self.found.setdefault(path, offset)
-            if path in self.entries:
-                path = (*path, self.entries[path])
-        self.found.setdefault(path, offset)
-        return path
 
     def _keys(self, end: str) -> list[str]:
         keys: list[str] = []
@@ -107,35 +103,27 @@ class _Walk:
 
     def _value(self, path: KeyPath) -> None:
         first = self.tokens[self.at]
+        self.at += 1
         if first == "[":
-            self._list(path)
-        elif first == "{":
-            self._inline(path)
-        else:
+            index = 0
+            while (token := self.tokens[self.at]) != "]":
+                if token in ("\n", ","):
+                    self.at += 1
+                    continue
+                self.found[(*path, index)] = self.offsets[self.at]
+                self._value((*path, index))
+                index += 1
             self.at += 1
+        elif first == "{":
+            while (token := self.tokens[self.at]) != "}":
+                if token in (",", "\n"):
+                    self.at += 1
+                else:
+                    self._pair(path)
+            self.at += 1
+        else:
             while self.tokens[self.at] and self.kinds[self.at] == BARE:
                 self.at += 1  # a date and its time are two bare words
-
-    def _list(self, path: KeyPath) -> None:
-        self.at += 1
-        index = 0
-        while (token := self.tokens[self.at]) != "]":
-            if token in ("\n", ","):
-                self.at += 1
-                continue
-            self.found[(*path, index)] = self.offsets[self.at]
-            self._value((*path, index))
-            index += 1
-        self.at += 1
-
-    def _inline(self, path: KeyPath) -> None:
-        self.at += 1
-        while (token := self.tokens[self.at]) != "}":
-            if token in (",", "\n"):
-                self.at += 1
-            else:
-                self._pair(path)
-        self.at += 1
 
 
 @dataclass(frozen=True)

@@ -110,14 +110,12 @@ def _candidates(
     yield "fast", fast
     yield "level", fast_states(controlled, begin, level=True)
     yield "finite", finite_states(controlled, chosen)
-    yield "finite", finite_states(controlled, _leaving(controlled, fast, starts))
-    yield from _slow_candidates(controlled, starts, samples, seed)
-
-
-def _slow_candidates(
-    controlled: ControlledArm, starts: int, samples: int, seed: int
-) -> Iterator[tuple[str, States]]:
-    """States near the origin, and those of weak gains: there the linear terms in w decide."""
+    # from fast states at moderate rates, both ways
+    speed, _ = fastest_directions(controlled, fast.q, fast.e)
+    best = fast.take(spread(fast, speed, max(1, starts // 6)))
+    leaving = best.scaled([sign * t for t in (3.0, 30.0, 300.0) for sign in (1, -1)])
+    yield "finite", finite_states(controlled, leaving)
+    # near the origin, and for weak gains, the linear terms in w decide
     states = slow_sample(controlled, samples, seed)
     chosen = promising(controlled, states, starts)
     yield "slow", chosen
@@ -132,14 +130,6 @@ def _slow_candidates(
 def promising(controlled: ControlledArm, states: States, count: int) -> States:
     """So many of the states, from different corners, those first that refute the smallest ε₀."""
     return states.take(spread(states, quadratic(controlled, states).reciprocal(), count))
-
-
-def _leaving(controlled: ControlledArm, fast: States, starts: int) -> States:
-    """Fast states at moderate rates, both ways, from which the finite program starts."""
-    speed, _ = fastest_directions(controlled, fast.q, fast.e)
-    best = fast.take(spread(fast, speed, max(1, starts // 6)))
-    scales = [sign * t for t in (3.0, 30.0, 300.0) for sign in (1, -1)]
-    return best.scaled(scales)
 
 
 def _best(controlled: ControlledArm, kind: str, states: States) -> list[tuple[float, str, State]]:

@@ -50,17 +50,10 @@ def scalar_epsilon(form: ScalarForm | None) -> ScalarResult:
         return ScalarResult(None, None, "h is unbounded, and the scalar form needs its bound γ")
     if form.friction <= 0:
         return ScalarResult(None, form, "a joint has no viscous friction, so θ'22 is never positive")
-    eps0 = significant_down(_bisection(form), DIGITS)
-    if certifies(form, eps0):
-        return ScalarResult(eps0, form)
-    return ScalarResult(None, form, "no ε₀ > 0 was found for which Θ' is positive definite")
-
-
-def _bisection(form: ScalarForm) -> Fraction:
-    """The root of the margin from below, by exact signs, to a digit more than is handed back."""
     k, beta, c, d = (
         fmpq(x.numerator, x.denominator) for x in (form.stiffness, form.friction, form.drift, form.cross)
     )
+    # the root of the margin from below, by exact signs, to a digit more than is handed back
     low, high = fmpq(0), beta / c if c else fmpq(10**9)
     for _ in range(_TURNS):
         middle = (low + high) / 2
@@ -68,7 +61,10 @@ def _bisection(form: ScalarForm) -> Fraction:
         low, high = (middle, high) if positive else (low, middle)
         if (high - low) * 10 ** (DIGITS + 1) < low:
             break
-    return fraction(low)
+    eps0 = significant_down(fraction(low), DIGITS)
+    if certifies(form, eps0):
+        return ScalarResult(eps0, form)
+    return ScalarResult(None, form, "no ε₀ > 0 was found for which Θ' is positive definite")
 
 
 # --- An ε₀ from norms of M and C alone: the checker's own bounds propose it, a tree of one leaf proves it.

@@ -147,7 +147,15 @@ class _Boxes:
         sides, ranges = iter(self.uncertain), (*self.loop.parameters, *self.loop.friction)
         uncertain = [next(sides) if low < high else float(low) for low, high in ranges]
         ranging = len(self.loop.parameters)
-        return form(*self._arm(uncertain[:ranging]), self._errors(), uncertain[ranging:], RING)
+        loop, r = self.loop, norm(self.e)
+        scaled = zip(map(self.problem.of_error, self.e), map(float, loop.Lambda), strict=True)
+        h, dh = zip(*([x * scale for x in own] for own, scale in scaled), strict=True)
+        shrink = (r + 1.0).reciprocal()
+        eps = shrink * float(loop.eps0)
+        weight = [eps * float(1 / (4 * k)) for k in loop.stiffness]
+        unit = [x * shrink for x in unit_vector(self.e)]
+        errors = Errors(None, eps, weight, list(h), list(dh), unit)
+        return form(*self._arm(uncertain[:ranging]), errors, uncertain[ranging:], RING)
 
     def _arm(
         self, parameters: Sequence[Interval | float]
@@ -168,12 +176,3 @@ class _Boxes:
         joints = range(self.loop.n)
         M = [[values.get((max(i, j), min(i, j)), 0.0) for j in joints] for i in joints]
         return M, {place: values[place] for place in self.loop.symbols}
-
-    def _errors(self) -> Errors:
-        loop, r = self.loop, norm(self.e)
-        ranges = zip(map(self.problem.of_error, self.e), map(float, loop.Lambda), strict=True)
-        h, dh = zip(*([x * scale for x in own] for own, scale in ranges), strict=True)
-        shrink = (r + 1.0).reciprocal()
-        eps = shrink * float(loop.eps0)
-        weight = [eps * float(1 / (4 * k)) for k in loop.stiffness]
-        return Errors(None, eps, weight, list(h), list(dh), [unit * shrink for unit in unit_vector(self.e)])

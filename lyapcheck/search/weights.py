@@ -193,7 +193,10 @@ class _Proposal:
         worst, directions = self.sampled.take(chosen), vectors[chosen, :, 0] / self.root
         starts = np.hstack([worst.q, worst.e, directions / np.linalg.norm(directions, axis=1)[:, None]])
         ends = self.resisting.climb(starts, weights)
-        return self._seen(States(*np.split(np.vstack([starts, ends]), 3, axis=1)))
+        states = States(*np.split(np.vstack([starts, ends]), 3, axis=1))
+        parts = [self._at(states, unit) for unit in np.eye(self.n)]
+        s = parts[0][1]
+        return Seen(states, np.stack([sS for sS, _ in parts], axis=1) / s[:, None, None, None], s)
 
     def _program(self, seen: Seen, near: Array) -> Array:
         """The weights that the convex program gives for some states, starting from ``near``."""
@@ -231,8 +234,3 @@ class _Proposal:
         """s S at each state, (M Λh) êᵀ s² + s C(q, Λh) − s M Λh', and s."""
         at = self.controlled.lyapunov.at_columns(states.q, states.e, states.w)
         return -np.swapaxes(fast(at, scales), 1, 2), np.asarray(at.near)
-
-    def _seen(self, states: States) -> Seen:
-        parts = [self._at(states, unit) for unit in np.eye(self.n)]
-        s = parts[0][1]
-        return Seen(states, np.stack([sS for sS, _ in parts], axis=1) / s[:, None, None, None], s)

@@ -288,23 +288,19 @@ def find_agrees(statement: Agrees) -> SearchResult:
     whole = over_all(statement, PRINTED_BITS)
     if whole.upper < target.lower or whole.lower > target.upper:
         method = f"{PRINTED}: no inputs within their rounding give it"
-        return broken(OutsideRounding(PRINTED_BITS), method, _sides_printed(statement, exact, target))
+        sides = failing(dict(statement.inputs), exact, "=", target) | {"printed": statement.printed}
+        return broken(OutsideRounding(PRINTED_BITS), method, sides | _needed(statement, target))
     # A corner of the roundings with a result below the printed one, and one above
     all_ends = list(product((0, 1), repeat=len(statement.inputs)))
     values = [(ends, at_corner(statement, ends, PRINTED_BITS)) for ends in all_ends]
     below = next((ends for ends, value in values if value.upper <= target.upper), None)
     above = next((ends for ends, value in values if value.lower >= target.lower), None)
-    corners = None if below is None or above is None else Corners(below, above, PRINTED_BITS)
-    if corners is not None:
+    if below is not None and above is not None:
+        corners = Corners(below, above, PRINTED_BITS)
         return shown(corners, f"{PRINTED}: within the rounding of the inputs", **computed)
     return still_open(
         "the rounding of the inputs leaves it open; use more digits of the inputs", PRINTED, **computed
     )
-
-
-def _sides_printed(statement: Agrees, exact: Enclosure, target: Enclosure) -> dict[str, object]:
-    sides = failing(dict(statement.inputs), exact, "=", target)
-    return sides | {"printed": statement.printed} | _needed(statement, target)
 
 
 def _needed(statement: Agrees, target: Enclosure) -> dict[str, object]:

@@ -10,6 +10,7 @@ References: ``stengle1974nullstellensatz`` (the certificates are its simplest me
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -80,7 +81,15 @@ class Cancellation:
     def identity(self, goal: fmpq_mpoly, strict: bool, depth: int) -> SignIdentity | None:
         """An identity that shows goal >= 0 (> 0 if strict), or None."""
         steps = self._steps(goal, strict, depth)
-        return None if steps is None else _composed(steps)
+        if steps is None:
+            return None
+        multiples: list[Multiple] = []
+        lift: Exponents = ()
+        for step in reversed(steps):  # later lifts multiply the hypothesis of a step
+            weight = fraction(step.weight)
+            multiples.insert(0, Multiple(step.hypothesis, weight, _sparse(_times(step.over, lift))))
+            lift = _times(step.lift, lift)
+        return SignIdentity(_sparse(lift), tuple(multiples))
 
     def _steps(self, goal: fmpq_mpoly, strict: bool, depth: int) -> list[CancelledTerm] | None:
         """The cancellations that lead to the end; a strict hypothesis, once used, leaves >= 0 to show."""
@@ -139,17 +148,6 @@ class Cancellation:
                     yield CancelledTerm(k, most, over, (0,) * len(over))
 
 
-def _composed(steps: list[CancelledTerm]) -> SignIdentity:
-    """One identity from a chain of cancellations: later lifts multiply the hypothesis of a step."""
-    multiples: list[Multiple] = []
-    lift: Exponents = ()
-    for step in reversed(steps):
-        weight = fraction(step.weight)
-        multiples.insert(0, Multiple(step.hypothesis, weight, _sparse(_times(step.over, lift))))
-        lift = _times(step.lift, lift)
-    return SignIdentity(_sparse(lift), tuple(multiples))
-
-
 def _times(a: Exponents, b: Exponents) -> Exponents:
     return tuple(x + y for x, y in zip(a, b, strict=True)) if b else a
 
@@ -176,11 +174,15 @@ def find_implies(statement: Implies) -> SearchResult:
             "bound them by claims of one variable and name the bounds",
             METHOD,
         )
-    signs = _signs(statement)
+    signs: Signs | None = None
+    with suppress(Unsupported):
+        signs = signs_of(statement)
     for depth, nodes in EFFORT:
-        identity = _identity(signs, statement, depth, nodes)
-        if identity is not None:
-            return shown(identity, f"{METHOD}: identity with terms of known sign")
+        if signs is not None:
+            search = Cancellation(signs, nodes)
+            identity = search.identity(signs.conclusion, statement.conclusion.strict, depth)
+            if identity is not None:
+                return shown(identity, f"{METHOD}: identity with terms of known sign")
         if depth == SEARCH_AFTER:
             result = _refuted(statement) or _by_equations(statement, signs)
             if result is not None:
@@ -264,19 +266,6 @@ def bound_of(variable: Variable) -> Comparison:
     return ("num", str(variable.low)), "<" if variable.strict else "<=", ("var", variable.name)
 
 
-def _signs(statement: Implies) -> Signs | None:
-    try:
-        return signs_of(statement)
-    except Unsupported:
-        return None
-
-
-def _identity(signs: Signs | None, statement: Implies, depth: int, nodes: int) -> SignIdentity | None:
-    if signs is None:
-        return None
-    return Cancellation(signs, nodes).identity(signs.conclusion, statement.conclusion.strict, depth)
-
-
 # --- Relations for every small enough ε: a leading term of known sign, or a point at which they fail.
 #
 # See ``check.kinds.for_small`` for why these decide.
@@ -291,7 +280,17 @@ def find_for_small(statement: ForSmall) -> SearchResult:
     proved = _leading(statement)
     if proved.is_proof:
         return proved
-    return _against(statement) or proved
+    method = f"{SMALL}: a point at which it fails for all small {statement.small}"
+    unit = [Variable(name, Fraction(0)) for name in statement.bounded]
+    for drawn in round_points([*statement.variables, *unit]):
+        # variables that run over (0, 1] are 1 at most
+        point = drawn | {name: min(drawn[name], Fraction(1)) for name in statement.bounded}
+        if _breaks(statement, point):
+            for below in BELOW:
+                proof = SmallWitness(point_of(point), below)
+                if refutes(statement, proof):
+                    return broken(proof, method, _data(statement, point, below))
+    return proved
 
 
 def _leading(statement: ForSmall) -> SearchResult:
@@ -313,25 +312,6 @@ def _leading(statement: ForSmall) -> SearchResult:
     return still_open(
         "the leading term is not shown to be positive; add the hypothesis that makes it so", SMALL
     )
-
-
-def _against(statement: ForSmall) -> SearchResult | None:
-    """A point of small rationals at which the relation fails for all small ε."""
-    method = f"{SMALL}: a point at which it fails for all small {statement.small}"
-    for point in _points(statement):
-        if _breaks(statement, point):
-            for below in BELOW:
-                proof = SmallWitness(point_of(point), below)
-                if refutes(statement, proof):
-                    return broken(proof, method, _data(statement, point, below))
-    return None
-
-
-def _points(statement: ForSmall) -> Iterator[Point]:
-    """Round points; variables that run over (0, 1] are 1 at most."""
-    unit = [Variable(name, Fraction(0)) for name in statement.bounded]
-    for point in round_points([*statement.variables, *unit]):
-        yield point | {name: min(point[name], Fraction(1)) for name in statement.bounded}
 
 
 def _breaks(statement: ForSmall, point: Point) -> bool:

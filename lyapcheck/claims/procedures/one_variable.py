@@ -117,7 +117,6 @@ def _prove(statement: ForAll, domain: Stretch) -> Piece:
         )
     if at_zero and not positive_at(tree, statement.variable, low):
         raise _Open("equality at 0 is not excluded; say open_low, or use <= instead of <")
-    tree, low, high = domain
     name, start, end = statement.variable, low, high
     if low == 0:
         start = _start_of_boxes(tree, name, high)
@@ -191,8 +190,7 @@ def find_norm_bound(statement: NormBound) -> SearchResult:
     claim, points = rules.vector_relation(statement).comparison, vector_points(statement)
     result, proof = first_refutation(claim, doubtful(claim, points)), None
     if result is None:
-        proof = _by_supremum(statement)
-        proof = proof or _by_one_variable(statement)
+        proof = _by_supremum(statement) or _by_one_variable(statement)
         result = None if proof.is_proof else first_refutation(claim, points)
     if result is not None:
         return broken(witness_of(result), f"{NORMS}: a vector where it fails", witness_data(result))

@@ -203,7 +203,16 @@ def candidates(
         order = np.argsort(score, kind="stable")[:KEPT]
         if score[order[0]] < -1e-6:
             break
-        points, score = _climb(points, order, step, variables, hypotheses, conclusion, generator)
+        # many small random moves from each of the best points; the points themselves stay in
+        copies, width = 100, 0.5 ** (step // 10)
+        moved = {}
+        for v in variables:
+            base = np.repeat(points[v.name][order], copies)
+            low = float(v.low) if v.low is not None else 0.0
+            touched = generator.random(base.size) < 0.5
+            factor = np.exp(width * generator.normal(size=base.size) * touched)
+            moved[v.name] = np.concatenate([points[v.name][order], low + (base - low) * factor])
+        points, score = moved, _score(moved, hypotheses, conclusion)
     for index in np.argsort(score, kind="stable")[:KEPT]:
         place = {v.name: float(points[v.name][index]) for v in variables}
         if score[index] < 0 or (conclusion.strict and score[index] == 0):
@@ -258,27 +267,6 @@ def _relative_gap(relation: Relation, points: dict[str, Floats]) -> Any:
     left, right = values_of(relation.left, points), values_of(relation.right, points)
     with np.errstate(all="ignore"):
         return (right - left) / (np.abs(left) + np.abs(right) + 1e-300)
-
-
-def _climb(
-    points: dict[str, Floats],
-    order: NDArray[np.intp],
-    step: int,
-    variables: tuple[Variable, ...],
-    hypotheses: tuple[Relation, ...],
-    conclusion: Relation,
-    generator: np.random.Generator,
-) -> tuple[dict[str, Floats], Floats]:
-    """Many small random moves from each of the best points; the points themselves stay in."""
-    copies, width = 100, 0.5 ** (step // 10)
-    moved = {}
-    for v in variables:
-        base = np.repeat(points[v.name][order], copies)
-        low = float(v.low) if v.low is not None else 0.0
-        touched = generator.random(base.size) < 0.5
-        factor = np.exp(width * generator.normal(size=base.size) * touched)
-        moved[v.name] = np.concatenate([points[v.name][order], low + (base - low) * factor])
-    return moved, _score(moved, hypotheses, conclusion)
 
 
 def _exact(value: float, variable: Variable) -> Fraction:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from flint import ctx
 
@@ -48,7 +48,6 @@ from lyapcheck.search.controlled_arm import mass_proof
 from lyapcheck.verdicts import Verdict
 
 if TYPE_CHECKING:
-    from lyapcheck.check.loop.states import State
     from lyapcheck.search.controlled_arm import ControlledArm
 
 
@@ -126,7 +125,7 @@ def _small_enough(statement: Decreasing) -> Fraction | None:
 
 def _against(statement: Decreasing) -> SearchResult | None:
     """The states that refute the smallest ε₀ are tried at this one."""
-    from lyapcheck.check.loop.states import confirms_positive
+    from lyapcheck.check.loop.states import confirms_positive, rate
     from lyapcheck.search.falsify import falsify
 
     controlled = controlled_arm_of(statement)
@@ -137,26 +136,19 @@ def _against(statement: Decreasing) -> SearchResult | None:
         return None
     state, middle = worst.state, _middles(statement)
     proof = StateWitness(middle[0], middle[1], state.q, state.e, state.w)
-    witness = _witness(controlled, statement.eps0, state)
+    slope = rate(controlled.arm, controlled.controller, statement.eps0, state, 256)
+    place = entries(q=state.q, e=state.e, w=state.w)
+    witness = failing(place, Enclosure.from_arb(slope), "<", 0)
     return broken(proof, f"{METHOD}: a state with dV/dt > 0", witness)
-
-
-def _witness(controlled: ControlledArm, eps0: Fraction, state: State) -> dict[str, Any]:
-    from lyapcheck.check.loop.states import rate
-
-    result = Enclosure.from_arb(rate(controlled.arm, controlled.controller, eps0, state, 256))
-    return failing(entries(q=state.q, e=state.e, w=state.w), result, "<", 0)
 
 
 def _by_boxes(statement: Decreasing) -> SearchResult:
     from lyapcheck.search.certified import certify
     from lyapcheck.search.schur import SchurProblem
 
-    n = len(statement.kp)
-    if n > FEW_JOINTS:
+    if len(statement.kp) > FEW_JOINTS:
         return still_open(f"norms do not suffice, and boxes are tried up to {FEW_JOINTS} joints", METHOD)
-    loop = statement.closed_loop
-    outcome = certify(SchurProblem(loop), MAX_BOXES)
+    outcome = certify(SchurProblem(statement.closed_loop), MAX_BOXES)
     if not outcome.proved:
         return still_open(f"branch and bound: {outcome.reason}; take a smaller ε₀", METHOD)
     tree = _with_mass(statement, BoxTree(outcome.tree))
@@ -193,7 +185,8 @@ DIGITS = 4
 def find_sampled(statement: SampledStable) -> SearchResult:
     """By (S) or an unstable goal; else up to which period (S) holds, and with how much friction it would."""
     proof = sampled_proof(statement)
-    reach = _milliseconds(min(largest_periods(statement)))
+    period = min(largest_periods(statement))
+    reach = "" if period <= 0 else f"{decimal_text(significant_down(1000 * period, DIGITS))} ms"
     if proves(statement, proof):
         return shown(proof, SAMPLED, largest_period=reach)
     if statement.conclusion == GOAL and not statement.k_g and installed("numpy") and installed("scipy"):
@@ -224,11 +217,6 @@ def find_from_rest(statement: SampledFromRest) -> SearchResult:
     return still_open(
         "no falling sampled energy is found; take a shorter period or starts nearer to the goal", method
     )
-
-
-def _milliseconds(period: Fraction) -> str:
-    """A period that (S) shows, in four digits; empty if there is none."""
-    return "" if period <= 0 else f"{decimal_text(significant_down(1000 * period, DIGITS))} ms"
 
 
 # --- Where an arm may come to rest: decided by h at the bounds, or by a state of rest beyond one of them.

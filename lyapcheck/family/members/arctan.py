@@ -32,14 +32,19 @@ class Arctan(base.Family):
         a = of.fabs(x)
         angle, far, bounded = of.arctan(x), a > _HUGE, of.smaller(a, _HUGE)
         inverse, z = 1 / of.larger(a, 1.0), bounded * bounded
-        log = of.where(far, of.log(of.smaller(of.larger(a, 1.0), 1e308)), 0.5 * _log1p(of, z))
+        w = 1 + z
+        # ln(1 + z) by the logarithm alone: the rounding of 1 + z is put back to first order
+        log1p = of.log(w) + (z - (w - 1)) / w
+        log = of.where(far, of.log(of.smaller(of.larger(a, 1.0), 1e308)), 0.5 * log1p)
         near = of.smaller(a, 2 * _SERIES_END)
+        square, series = near * near, 0.0
+        # Σ (-x²)^k / ((2k+1)(2k+2)), which is U/x² for |x| <= 1/4
+        for k in reversed(range(_SERIES_TERMS)):
+            series = 1 / ((2 * k + 1) * (2 * k + 2)) - square * series
         return base.NumericForms(
             h=angle,
-            dh=of.where(far, inverse * inverse, 1 / (1 + z)),
-            potential=of.where(
-                a <= _SERIES_END, near * near * _series(near * near), a * of.fabs(angle) - log
-            ),
+            dh=of.where(far, inverse * inverse, 1 / w),
+            potential=of.where(a <= _SERIES_END, square * series, a * of.fabs(angle) - log),
             secant=of.where(a > 0, of.fabs(angle) / of.where(a > 0, a, 1.0), 1.0),
         )
 
@@ -61,17 +66,3 @@ def create(m: int | None) -> Arctan:
     """The one member."""
     base.require_none("arctan", m)
     return Arctan("arctan")
-
-
-def _log1p(of: base.Arithmetic, z: Any) -> Any:
-    """ln(1 + z) for z >= 0 by the logarithm alone: the rounding of 1 + z is put back to first order."""
-    w = 1 + z
-    return of.log(w) + (z - (w - 1)) / w
-
-
-def _series(z: Any) -> Any:
-    """Σ (-z)^k / ((2k+1)(2k+2)), which is U/x² for |x| <= 1/4."""
-    total = 0.0
-    for k in reversed(range(_SERIES_TERMS)):
-        total = 1 / ((2 * k + 1) * (2 * k + 2)) - z * total
-    return total

@@ -100,12 +100,7 @@ def from_rpy(rpy: Triple, place: str, roundings: Roundings) -> Rotation:
 
 
 def about(axis: Sequence[Fraction], angle: Fraction, place: str, roundings: Roundings) -> Rotation:
-    """The rotation about a unit vector, rad."""
-    return _rotation(rotation(OF, axis, UNIT, *_circle(angle, place, roundings)))
-
-
-def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction, Fraction]:
-    """Rational (sin, cos) close to those of the angle."""
+    """The rotation about a unit vector, rad, with a rational sine and cosine close to those of the angle."""
     with precision(_BITS):
         exact = to_arb(angle)
         quarters = round(float(exact / (arb.pi() / 2)))
@@ -121,7 +116,7 @@ def _circle(angle: Fraction, place: str, roundings: Roundings) -> tuple[Fraction
         sine, cosine = 2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)
     for _ in range(quarters % 4):
         sine, cosine = cosine, -sine
-    return sine, cosine
+    return _rotation(rotation(OF, axis, UNIT, sine, cosine))
 
 
 def unit(vector: Triple, place: str, roundings: Roundings) -> Triple:
