@@ -175,13 +175,15 @@ def test_missing_arm_and_missing_member_are_refused(tmp_path):
 )
 def test_the_arm_of_the_file_is_spoken_of_only_where_it_is_in_the_ranges(tmp_path, vary, outside):
     path = tmp_path / "gains.toml"
-    path.write_text('robot = "pendulum1"\n[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [2]\n')
+    text = 'robot = "pendulum1"\n[[gains]]\nname = "a"\nm = 1\nkp = [5]\nkv = [2]\n[bounds]\nviscous_min=9\n'
+    path.write_text(text)
     words = ("epsilon", str(path), "--starts", "1", "--max-boxes", "1", "--no-store", "--vary", vary)
     text = invoke(*words).stdout
     (data,) = json.loads(invoke(*words, "--format", "json").stdout)["results"]
     assert data["outside"] == outside
     assert (data["unvaried"] is None) == bool(outside)
     assert ("nominal" in text) == (not outside)
+    assert "viscous_min of the gain file does not count here" in text
     assert ("own value lies outside the range of pivot_viscous" in text) == bool(outside)
     assert "pendulum1, for all values in its ranges" in text.splitlines()[0]
 

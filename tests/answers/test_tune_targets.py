@@ -195,6 +195,7 @@ def test_targets_that_mean_nothing_are_refused(wishes: dict[str, float], option:
         (["--settle", "1", "--spread", "5"], "--spread = 5: has a meaning with --runs only"),
         (["--settle", "1", "--quantile", "2"], "--quantile = 2: must be above 0, up to 1"),
         (["--best"], "--best: has a meaning with targets only"),
+        (["--within", "5"], "--within: means nothing without a period"),
         (["--quantile", "0.5"], "--quantile = 0.5: has a meaning with targets only"),
         (["--settle", "1", "--goal", "0,0,0"], "--goal = 0,0,0: is where the motion starts"),
         (["--settle", "1", "--start", "45,45,90"], "is where the motion starts"),

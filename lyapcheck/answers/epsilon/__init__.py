@@ -58,6 +58,7 @@ BUYS = (
     "damping: gains that overshoot and gains that do not may have the same ε₀."
 )
 RANGED = "published, over ranges: (18) with the worst end of each of its constants, about all arms in them."
+OWN_FRICTION = "[bounds] viscous_min of the gain file does not count here: ε₀ is of the arm's own friction."
 STAR = "Marked *: a number in floating point without a certificate. The checker proves less from norms."
 MOST_REMARKS = 3
 RATE_DIGITS = 20
@@ -92,6 +93,7 @@ class _Said(Answer):
         if single and first.ratio is not None and first.promise is not None:
             share = first.promise.says(f"certified / falsified = {at_least(first.ratio)}.")
             lead = [f"ε₀ = {cell(FALSIFIED, first)} is too large: {share}", CONTINUOUS]
+        lead += [OWN_FRICTION] if self.file is not None and self.file.bounds.viscous_min is not None else []
         return Document(
             self._title(),
             (_one_by_one(first) if single else every, *([Bullets(short)] if short else [])),

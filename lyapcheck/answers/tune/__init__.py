@@ -28,6 +28,7 @@ from lyapcheck.answers.tune.targets import Targets, arms_over, impossible, limit
 from lyapcheck.control.conditions import ACCEPTED
 from lyapcheck.control.gains import Bounds, GainFile
 from lyapcheck.control.limits import Limits
+from lyapcheck.control.sampling import record_of
 from lyapcheck.files.decimals import round_down
 from lyapcheck.files.loop import NOTHING, LoopEntry
 from lyapcheck.robots import ArmLike, RobotModel
@@ -76,6 +77,7 @@ def tune(
         ...
     """
     model, ranged = arms_over(robot, varies)
+    record_of(loop, NOTHING, model.loop)  # or say what is wrong with it
     wanted = (targets or Targets()).for_joints(model.n)
     limits, repeated = _limits(ranged, wanted, bounds or Bounds())
     sets = [_tuned(m, model, limits, wanted) for m in dict.fromkeys(members)]
