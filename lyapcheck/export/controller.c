@@ -4,6 +4,7 @@
  * compiler fuses a product with a sum. Of the library only fabs is called; nothing is allocated.
  */
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 
 #include "NAME.h"
@@ -131,7 +132,7 @@ static int usable(const NAME_state *state, const double q[NAME_JOINTS], const do
 static int held(NAME_state *state, double tau[NAME_JOINTS])
 {
     int i;
-    if (state->missed < 1000) {
+    if (state->missed < INT_MAX - 1) {
         state->missed++;
     }
     if (state->flag == NAME_OK) {

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import lyapcheck
@@ -221,6 +221,7 @@ READING = st.tuples(st.floats(-0.4, 0.4), st.booleans())
 
 
 @given(st.lists(READING, min_size=1, max_size=25), st.booleans())
+@example([(-1.5, True), *[(5e-4, False)] * 1100, (0.0, True)], False)
 def test_steps_by_a_list_of_all_readings(
     compiled: Callable[..., Compiled], moves: list[tuple[float, bool]], wrapped: bool
 ) -> None:
@@ -353,9 +354,7 @@ def test_a_loop_that_the_gate_shows_from_rest_is_not_open(tmp_path: Path) -> Non
         '[[gains]]\nname = "one"\nm = 1\nkp = [5]\nkv = [0.5]\n[loop]\nrate = 1000\nwithin = 30\n'
     )
     file = read_gain_file(path)
-    assert file.robot is not None
-    model = load(file.robot)
-    runs = record_of(gain_file=file.loop)
+    model, runs = load(str(file.robot)), record_of(gain_file=file.loop)
     assert runs is not None
     answer = export(file, model, runs)
     assert answer.document().title.endswith("run at 1 ms: stable at exactly 1 ms, from rest within 30°")
