@@ -214,17 +214,26 @@ def writer(
         with temporary_folder() as place:
             result = judged(outcome, Path(place), seconds, progress)
             if folder is not None:
-                try:
-                    shutil.copytree(place, folder, dirs_exist_ok=True)
-                except OSError:
-                    rule = "has something else under a name of Coq's files"
-                    raise argument_error("--kernel-files", folder, rule, "name an empty directory") from None
+                _copied(place, folder)
         both = graded(outcome, result)
         if name == "json":
             return kernel_json(as_json(both, trusted), result)
         return Recheck(both, trusted, tuple(result)).written(name, view)
 
     return written
+
+
+def _copied(place: str, folder: Path) -> None:
+    """Copy the files for Coq.
+
+    Raises:
+        InputError: something else has one of their names.
+    """
+    try:
+        shutil.copytree(place, folder, dirs_exist_ok=True)
+    except OSError:
+        rule = "has something else under a name of Coq's files"
+        raise argument_error("--kernel-files", folder, rule, "name an empty directory") from None
 
 
 def kernel_json(written: str, result: list[Kernel]) -> str:

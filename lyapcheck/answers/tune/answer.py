@@ -184,7 +184,8 @@ class Tuning(Answer):
         details = (Paragraph(f"{self.targets.text()}."), *blocks)
         model, arm = self.limits.model, arm_words(self.robot)
         assumed = "; ".join(self.limits.assumptions) if model is None else assumed_line(model, self.robot)
-        then = command("tune", *arm, "--m", self.sets[0].m, "--overshoot", "5", "--settle", "2")
+        member = self.sets[0].m if self.sets else 1
+        then = command("tune", *arm, "--m", member, "--overshoot", "5", "--settle", "2")
         if not any(item.joints or item.rejected for item in self.sets):  # no targets help
             then = command("robot", *arm, "-v")
         lead = (self._hardly,) if self._hardly else ()

@@ -179,11 +179,24 @@ def gamma_less_than(m: int, bound_squared: Fraction) -> bool:
             gap = ball_of(bound_squared) - gamma_value(m, peak_of_h(m)) ** 2
             if gap > 0 or gap < 0:
                 return bool(gap > 0)
-        if bits == 256:
-            peak = fmpq_poly([1 - 2 * m, -2 * m, *[0] * (m - 2), 1]) if m > 2 else fmpq_poly([-3, -4, 1])
-            scaled = 4 * m * m * fmpq(bound_squared.numerator, bound_squared.denominator)
-            common = peak.gcd(fmpq_poly([2 * m - 1, 2 * m]) ** 2 - scaled * fmpq_poly([0, 1, 1]))
-            # of degree 2 or less, not 0 at 0, with at most one positive root, a simple one: its ends tell
-            if common.degree() >= 1 and common[0] * common[common.degree()] < 0:
-                return False
+        if bits == 256 and _gamma_squared_is(m, bound_squared):
+            return False
         bits *= 2
+
+
+def _gamma_squared_is(m: int, s: Fraction) -> bool:
+    """Whether γ_m² equals s, by the greatest common divisor of both polynomials."""
+    peak = fmpq_poly([1 - 2 * m, -2 * m, *[0] * (m - 2), 1]) if m > 2 else fmpq_poly([-3, -4, 1])
+    scaled = 4 * m * m * fmpq(s.numerator, s.denominator)
+    touching = fmpq_poly([2 * m - 1, 2 * m]) ** 2 - scaled * fmpq_poly([0, 1, 1])
+    common = peak.gcd(touching)
+    return _has_positive_root(common)
+
+
+def _has_positive_root(poly: fmpq_poly) -> bool:
+    """Whether a polynomial of degree 2 or less, dividing one with a single positive root, has that root.
+
+    It then has at most one positive root, a simple one, and does not vanish at 0: it has one exactly when its
+    first and last coefficients have opposite signs.
+    """
+    return bool(poly.degree() >= 1 and poly[0] * poly[poly.degree()] < 0)
