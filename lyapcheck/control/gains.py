@@ -98,6 +98,10 @@ class Bounds:
     torque: tuple[Fraction, ...] | None = None
     gravity: tuple[Fraction, ...] | None = None
 
+    @property
+    def said(self) -> str:
+        return "" if self == Bounds() else " under [bounds]"
+
 
 @dataclass(frozen=True)
 class GainFile:

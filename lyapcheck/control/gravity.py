@@ -177,8 +177,7 @@ def torque_of(model: RobotModel, i: int) -> Uncertain:
 def _statement(model: RobotModel, i: int, bound: Fraction) -> GravityBelow:
     from lyapcheck.check.kinds.gravity import GravityBelow
 
-    ranges = model.ranges
-    return GravityBelow(model.n, (tuple(to_terms(model.gravity[i])),), ranges, bound)
+    return GravityBelow(model.n, (tuple(to_terms(model.gravity[i])),), model.ranges, bound)
 
 
 def exceeded(model: RobotModel, i: int, bound: Fraction) -> tuple[JudgedStatement, Fraction] | None:

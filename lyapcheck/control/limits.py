@@ -116,8 +116,7 @@ def _cost(arm: Limits, bounds: Bounds) -> list[str]:
         for what, unit, first, then in pairs
         if first != then and first is not None and then is not None
     ]
-    under = " under [bounds]" if bounds.torque or bounds.gravity or bounds.viscous_min else ""
-    costs = "; ".join(cost) or f"no limit changes{under}"
+    costs = "; ".join(cost) or f"no limit changes{bounds.said}"
     return [f"--vary {', '.join(one.text for one in arm.model.varies)}: {costs}"]
 
 

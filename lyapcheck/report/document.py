@@ -8,6 +8,7 @@ from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
+from lyapcheck.answers.epsilon import OWN_FRICTION
 from lyapcheck.files.fields import file_stem
 from lyapcheck.kernel import GRADE
 from lyapcheck.output.answer import Answer
@@ -218,6 +219,8 @@ def four_epsilons(report: Report) -> Iterator[Block]:
         what = {"weighted": "larger ε₀Λ"}
         said = (f"{name}, no {what.get(kind, f'{kind} ε₀')}: {text}" for name, kind, text in missing)
         yield Bullets(tuple(said))
+    if any(result.file.bounds.viscous_min is not None for result in report.gate):
+        yield Bullets((OWN_FRICTION,))
     yield from figure(report, "epsilon", "The four ε₀ of each gain set")
 
 

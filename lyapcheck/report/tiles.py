@@ -94,13 +94,12 @@ def _motors(result: GateResult, ask: str) -> Tile:
         text = "A torque limit is missing, or h has no bound."
         return Tile(subject, "not known", text, "open", ("Give each joint a torque limit.", ""))
     share, least = min(known, key=lambda pair: pair[0])
-    name = joints[least.joint or 0]
+    name, under = joints[least.joint or 0], result.file.bounds.said
     at, end = decimal_text(least.value or 0), "" if least.limit is None else at_least(least.limit.lower)
-    text = f"No motor can saturate (proved). {name} is closest: k_p + k_v = {at} of {end} N·m."
+    text = f"No motor can saturate (proved{under}). {name} is closest: k_p + k_v = {at} of {end} N·m."
     for _, check in known:
         text = check.own_promise.says(text)
-    tone = "good" if share >= NARROW else "warn"
-    return Tile(subject, f"{share} % in reserve", text, tone)
+    return Tile(subject, f"{share} % in reserve", text, "good" if share >= NARROW else "warn")
 
 
 def _largest(check: Check) -> str:
@@ -109,16 +108,16 @@ def _largest(check: Check) -> str:
 
 def _stability(result: GateResult, ask: str) -> Tile:
     """Stability of (11), for a controller of infinite rate that knows gravity and motors without limits."""
-    subject, proof = "Stability", result.stable
+    subject, proof, under = "Stability", result.stable, result.file.bounds.said
     known = result.record is None or result.record.knows_gravity
     where = ""
     end = f"for a controller of infinite rate{'' if known else ' that knows all gravity'}."
     if proof is not None:
         how = "by LaSalle's theorem" if proof.id == "lasalle" else f"ε₀ = {at_least(proof.value or 0)}"
         where = " at nominal numbers" if result.limits.nominal else ""
-        said, promises = f"Proved at every state{where}, {how}, {end}", [proof.own_promise]
+        said, promises = f"Proved at every state{where}{under}, {how}, {end}", [proof.own_promise]
     elif result.verdict_of(("19",)) == ACCEPTED:
-        said = f"Proved by (19), {end}"
+        said = f"Proved by (19){under}, {end}"
         promises = [check.own_promise for check in result.checks if check.id == "19"]
     else:
         reason = next(iter(advices(result)), "No proof was found")

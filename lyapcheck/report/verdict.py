@@ -186,7 +186,7 @@ def _gains(report: Report) -> tuple[str, ...]:
     failed = any(verb == "break" for verb, _ in met)
     parts = [
         f"{and_list([f'{row.name} (m = {row.m})' for row in rows])} {verb}{'s' if len(rows) == 1 else ''} "
-        + and_list([f"({name})" for name in ids])
+        + f"{and_list([f'({name})' for name in ids])}{rows[0].file.bounds.said}"
         for (verb, ids), rows in met.items()
     ]
     if not parts:

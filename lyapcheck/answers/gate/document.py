@@ -16,7 +16,7 @@ from lyapcheck.answers.running import INFINITE, open_as_run, unstable_alone
 from lyapcheck.answers.running.holds import HOLDS, NO_LINKS, farthest_unknown
 from lyapcheck.answers.running.sampled import SampledCheck
 from lyapcheck.control.conditions import ACCEPTED, REJECTED, UNDECIDED, Check
-from lyapcheck.control.gains import CERTIFICATES, Bounds
+from lyapcheck.control.gains import CERTIFICATES
 from lyapcheck.control.sampling import exact_only, loop_words
 from lyapcheck.output.document import Block, Bullets, Document, Section, Table, command
 from lyapcheck.output.fields import table
@@ -111,8 +111,7 @@ def _meaning(result: GateResult, before: str = "") -> str:
     words = ", ".join(_holds(result, name) for name in result.deciding)
     if set(result.deciding) & set(CERTIFICATES) and ACCEPTED not in torques:
         words += " while no motor saturates"
-    stated = "" if result.file.bounds == Bounds() else " under [bounds]"
-    where = "under [bounds]" if limits.model is None else f"for {limits.model.name}{stated}"
+    where = "under [bounds]" if limits.model is None else f"for {limits.model.name}{result.file.bounds.said}"
     return result.says(f"{before}{words}, proved {where}{' over its ranges' if limits.varied else ''}")
 
 
