@@ -100,6 +100,7 @@ class Bounds:
 
     @property
     def said(self) -> str:
+        """Words for the end of a clause; empty where the arm file gives every number."""
         return "" if self == Bounds() else " under [bounds]"
 
 

@@ -144,8 +144,7 @@ def record_of(
     elif said.longest is not None and said.longest < said.period:
         rule = f"must not be shorter than the period of {time_text(said.period)}"
         raise argument_error("longest", time_text(said.longest), rule, "give both together")
-    given = {name: value for name, value in vars(said).items() if value is not None}
-    result = LoopRecord(**given)
+    result = LoopRecord(**{name: value for name, value in vars(said).items() if value is not None})
     return result if result.longest is not None else replace(result, longest=result.period)
 
 
