@@ -54,7 +54,11 @@ def gather(paths: Iterable[str | Path]) -> list[Document]:
     for path in map(Path, paths):
         try:
             if stat.S_ISDIR(os.stat(path).st_mode):
-                found = sorted(path.glob("*.json")) or sorted(path.glob("*/*.json"))
+                inside = [path / name for name in sorted(os.listdir(path))]
+                found = [one for one in inside if one.name.endswith(".json")]
+                if not found:  # listed one by one, as glob leaves out without a word what it may not read
+                    inner = (one / name for one in inside if one.is_dir() for name in sorted(os.listdir(one)))
+                    found = [one for one in inner if one.name.endswith(".json")]
                 if not found:
                     raise ValueError("the directory has no certificates (*.json), nor has one in it")
                 result += [Document(one.name, one, named=False) for one in found]
